@@ -1,0 +1,191 @@
+#include "core/contact/impulse_law.h"
+
+#include "core/contact/regime.h"
+#include "core/detection/edge_touch.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+namespace
+{
+/// Velocity of inc relative to ref at the point: along t, and along m (approaching > 0).
+struct PointVelocity
+{
+    double t, m;
+};
+
+template <typename A, typename B>
+PointVelocity relative_velocity(const ImpulsePoint& p, double dvx, double dvy, const A& ref, const B& inc)
+{
+    return {p.t_x * dvx + p.t_y * dvy - inc.w * p.inc_m + ref.w * p.ref_m,
+            p.t_x * dvy - p.t_y * dvx + inc.w * p.inc_t - ref.w * p.ref_t};
+}
+
+PointVelocity relative_velocity(const ImpulsePoint& p, const BlockMotion& ref, const BlockMotion& inc)
+{
+    return relative_velocity(p, inc.vx - ref.vx, inc.vy - ref.vy, ref, inc);
+}
+
+/// Impulse (j_t, j_m) on inc and its opposite on ref, Eqs. (17), (18).
+struct Kick
+{
+    double x, y, w_ref, w_inc;
+
+    Kick(const ImpulsePoint& p, double j_t, double j_m)
+        : x(p.t_x * j_t - p.t_y * j_m), y(p.t_y * j_t + p.t_x * j_m), w_ref(p.ref_t * j_m - p.ref_m * j_t), w_inc(p.inc_t * j_m - p.inc_m * j_t)
+    {
+    }
+};
+
+void apply(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
+{
+    const Kick kick(p, j_t, j_m);
+    BlockMotion& ref = blocks.motion[p.ref];
+    BlockMotion& inc = blocks.motion[p.inc];
+    const BlockInertia& i_ref = blocks.inertia[p.ref];
+    const BlockInertia& i_inc = blocks.inertia[p.inc];
+    ref.vx -= i_ref.inverse_mass_x * kick.x;
+    ref.vy -= i_ref.inverse_mass_y * kick.y;
+    ref.w -= i_ref.inverse_inertia * kick.w_ref;
+    inc.vx += i_inc.inverse_mass_x * kick.x;
+    inc.vy += i_inc.inverse_mass_y * kick.y;
+    inc.w += i_inc.inverse_inertia * kick.w_inc;
+}
+
+ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts, const EdgeTouch& touch)
+{
+    const TouchPoint& at = touch.point[end];
+    const CoulombSlip& joint = model.joints.laws[contacts.law[contact]];
+    ImpulsePoint p;
+    p.contact = contact;
+    p.ref = contacts.ref[contact];
+    p.inc = contacts.inc[contact];
+    p.end = end;
+    p.t_x = touch.ex;
+    p.t_y = touch.ey;
+    p.ref_t = at.ref_t;
+    p.ref_m = at.ref_m;
+    p.inc_t = at.inc_t;
+    p.inc_m = at.inc_m;
+    const BlockInertia& ref = blocks.inertia[p.ref];
+    const BlockInertia& inc = blocks.inertia[p.inc];
+    // A pair of which neither can move along an axis gets no impulse along it.
+    const auto mass = [](double inverse) { return inverse > 0.0 ? 1.0 / inverse : 0.0; };
+    p.mass_normal = mass(inverse_collision_mass(ref, at.ref_t, inc, at.inc_t, -touch.ey, touch.ex));
+    p.mass_shear = mass(inverse_collision_mass(ref, at.ref_m, inc, at.inc_m, touch.ex, touch.ey));
+    p.target = -joint.restitution * std::max(at.v_m, 0.0);
+    p.friction = joint.friction_coefficient;
+    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor[contact]) * model.time_step;
+    const double spring = joint.normal_stiffness * point_length(touch.length, contacts.length_floor[contact]);
+    p.excess_overlap = at.overlap - contacts.normal_force[end][contact] / spring - model.contact.allowed_overlap;
+    return p;
+}
+}  // namespace
+
+void collect_impulse_points(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                            std::vector<ImpulsePoint>& points)
+{
+    constexpr auto impulse = static_cast<std::uint8_t>(Regime::impulse);
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        if (contacts.regime[0][i] != impulse && contacts.regime[1][i] != impulse)
+            continue;
+        const BlockMotion& ref = blocks.motion[contacts.ref[i]];
+        const BlockMotion& inc = blocks.motion[contacts.inc[i]];
+        const EdgePair edges = contacts.edges(i);
+        const EdgeTouch touch = touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+        for (int k = 0; k < 2; ++k)
+            if (contacts.regime[k][i] == impulse)
+                points.push_back(make_point(i, k, model, blocks, contacts, touch));
+    }
+}
+
+double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks)
+{
+    double loss = 0.0;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        ImpulsePoint& p = points[i];
+        const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
+        const double last_normal = p.impulse_normal;
+        p.impulse_normal = std::max(0.0, last_normal + p.mass_normal * (v_m - p.target));
+        apply(p, 0.0, -(p.impulse_normal - last_normal), blocks);
+
+        const PointVelocity between = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
+        const double v_t = between.t;
+        loss += (p.impulse_normal - last_normal) * 0.5 * (v_m + between.m);
+        const double strength = p.impulse_normal * p.friction + p.cohesive_impulse;
+        const double last_shear = p.impulse_shear;
+        p.impulse_shear = slip_limited(last_shear - p.mass_shear * v_t, strength);
+        apply(p, p.impulse_shear - last_shear, 0.0, blocks);
+        const double after = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).t;
+        loss -= (p.impulse_shear - last_shear) * 0.5 * (v_t + after);
+    }
+    return loss;
+}
+
+void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points,
+                      std::vector<Triple>& pseudo)
+{
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        ImpulsePoint& p = points[i];
+        if (p.excess_overlap <= 0.0)
+            continue;
+        Triple& ref = pseudo[p.ref];
+        Triple& inc = pseudo[p.inc];
+        const double v_m = relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc).m;
+        const double last = p.correction;
+        p.correction = std::max(0.0, last + p.mass_normal * (v_m + model.contact.correction_fraction * p.excess_overlap / model.time_step));
+        const Kick kick(p, 0.0, -(p.correction - last));
+        const BlockInertia& i_ref = blocks.inertia[p.ref];
+        const BlockInertia& i_inc = blocks.inertia[p.inc];
+        ref.x -= i_ref.inverse_mass_x * kick.x;
+        ref.y -= i_ref.inverse_mass_y * kick.y;
+        ref.w -= i_ref.inverse_inertia * kick.w_ref;
+        inc.x += i_inc.inverse_mass_x * kick.x;
+        inc.y += i_inc.inverse_mass_y * kick.y;
+        inc.w += i_inc.inverse_inertia * kick.w_inc;
+    }
+}
+
+void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
+{
+    const double half_step = 0.5 * model.time_step;
+    const auto book = [&](Index block, double x, double y, double w) {
+        const BlockInertia& inertia = blocks.inertia[block];
+        const BlockForce& force = blocks.force[block];
+        const Vec2 weight = model.mass[block] * model.gravity;
+        const double dvx = inertia.inverse_mass_x * x;
+        const double dvy = inertia.inverse_mass_y * y;
+        ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
+        ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
+    };
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        const ImpulsePoint& p = points[i];
+        const Kick kick(p, p.impulse_shear, -p.impulse_normal);
+        book(p.ref, -kick.x, -kick.y, -kick.w_ref);
+        book(p.inc, kick.x, kick.y, kick.w_inc);
+    }
+}
+
+void store_impulses(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,
+                    std::vector<BlockForce>& force)
+{
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        const ImpulsePoint& p = points[i];
+        contacts.normal_force[p.end][p.contact] = p.impulse_normal / model.time_step;
+        contacts.shear_force[p.end][p.contact] = p.impulse_shear / model.time_step;
+        const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
+        force[p.ref].x -= kick.x;
+        force[p.ref].y -= kick.y;
+        force[p.ref].moment -= kick.w_ref;
+        force[p.inc].x += kick.x;
+        force[p.inc].y += kick.y;
+        force[p.inc].moment += kick.w_inc;
+    }
+}
+}  // namespace hdem

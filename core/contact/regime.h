@@ -1,0 +1,49 @@
+#pragma once
+/// Force or impulse: which law a contact point obeys in this cycle.
+
+#include "core/state/blocks.h"
+
+#include <cmath>
+
+namespace hdem
+{
+/// Inverse collision mass of a contact point along one axis, [Lee2025] Eq. (16), (A.15), (A.20) [1/kg]:
+///
+///   1/m_c = 1/m_A + |u_A x n|^2 / I_A + 1/m_B + |u_B x n|^2 / I_B
+///
+///   n     unit vector (n_x, n_y) [-]      lever_*  u x n of each block [m]
+///
+/// A block whose motion is prescribed counts as infinitely heavy in that component.
+[[nodiscard]] inline double inverse_collision_mass(const BlockInertia& a, double lever_a, const BlockInertia& b, double lever_b,
+                                                   double n_x, double n_y)
+{
+    return (a.inverse_mass_x + b.inverse_mass_x) * n_x * n_x + (a.inverse_mass_y + b.inverse_mass_y) * n_y * n_y +
+           a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b;
+}
+
+/// Elastic part of the threshold velocity that one contact point contributes, squared [m2/s2]:
+///
+///   K_N u_N^2 / m_cN + K_S u_S^2 / m_cS                              [Lee2025] Eq. (27), (A.22)
+///
+///   u_N = F_N / (K_N L), u_S = F_S / (K_S L)   deflections *stored in the springs* in the last cycle [m]
+///   normal_stiffness, shear_stiffness          K_N L, K_S L of the point [N/m]
+///
+/// A contact stores the energy of its two points; their contributions add up.
+///
+/// Differs from the paper's wording: u_N is not the geometric overlap. A first touch has stored nothing, and with the
+/// overlap v dt in its place u_elastic grows with the impact speed itself, so that no impact would ever be one.
+/// In terms of forces K u^2 = F^2 / K.
+[[nodiscard]] inline double elastic_velocity_squared(double last_normal, double normal_stiffness, double inverse_mass_normal,
+                                                     double last_shear, double shear_stiffness, double inverse_mass_shear)
+{
+    return last_normal * last_normal / normal_stiffness * inverse_mass_normal + last_shear * last_shear / shear_stiffness * inverse_mass_shear;
+}
+
+/// Threshold velocity of a contact: above it the impulse law holds [m/s].
+///
+///   u_th = C_scale (dt |g| + u_elastic)                              [Lee2025] Eqs. (25), (26)
+[[nodiscard]] inline double threshold_velocity(double scale, double gravity_velocity, double elastic_squared)
+{
+    return scale * (gravity_velocity + std::sqrt(elastic_squared));
+}
+}  // namespace hdem

@@ -1,0 +1,130 @@
+#include "core/detection/contact_tracking.h"
+
+#include "core/detection/manifold.h"
+#include "core/energy_ledger.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+namespace
+{
+double energy_of(const Model& model, const Blocks& blocks, const Contact& contact)
+{
+    const bool loaded = contact.point[0].normal_force > 0.0 || contact.point[1].normal_force > 0.0 || contact.point[0].shear_force != 0.0 ||
+                        contact.point[1].shear_force != 0.0;
+    return loaded ? spring_energy(model, blocks, contact).total() : 0.0;
+}
+
+/// find_features, with the energy it takes from or gives to the springs booked.
+double search(const Model& model, const Blocks& blocks, Contact& contact, EnergyLedger& ledger)
+{
+    const double before = energy_of(model, blocks, contact);
+    const double distance = find_features(model, blocks.motion, contact);
+    ledger.contact_changes += before - energy_of(model, blocks, contact);
+    return distance;
+}
+}  // namespace
+
+double skin_width(const Model& model)
+{
+    return model.contact.skin * model.mean_size;
+}
+
+void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes)
+{
+    const Shapes& shapes = model.shapes;
+    const double half_skin = 0.5 * skin_width(model);
+    for (Index part = parts.begin; part < parts.end; ++part)
+    {
+        const Index block = shapes.part_block[part];
+        boxes[part] = empty_box;
+        if (blocks.present[block] == 0)
+            continue;
+        const BlockMotion& m = blocks.motion[block];
+        Vec2 lower(m.x, m.y), upper(m.x, m.y);
+        for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
+        {
+            const Vec2& p = shapes.vertex[v];
+            const Vec2 world(m.x + m.c * p.x() - m.s * p.y(), m.y + m.s * p.x() + m.c * p.y());
+            lower = v == shapes.vertex_begin[part] ? world : Vec2(lower.cwiseMin(world));
+            upper = v == shapes.vertex_begin[part] ? world : Vec2(upper.cwiseMax(world));
+        }
+        boxes[part] = {lower - Vec2(half_skin, half_skin), upper + Vec2(half_skin, half_skin)};
+    }
+}
+
+bool has_outrun_skin(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at)
+{
+    // Two blocks may each use up half of the skin; boxes and contacts are widened by the whole of it between them.
+    const double allowed = 0.5 * skin_width(model);
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        const BlockMotion& now = blocks.motion[i];
+        const BlockMotion& then = rebuilt_at[i];
+        const double turned = std::abs(now.angle - then.angle) * model.radius[i];
+        const double moved = std::hypot(now.x - then.x, now.y - then.y);
+        if (!(moved + turned <= allowed) && blocks.present[i] != 0)
+            return true;
+    }
+    return false;
+}
+
+void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
+                    const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger)
+{
+    const Shapes& shapes = model.shapes;
+    const double skin = skin_width(model);
+    const auto key_of = [&](Index i) { return pair_key(old.part_a[i], old.part_b[i]); };
+    Index at = 0;  // in old; found by bisection once, then walked
+    if (pairs_range.size() > 0)
+    {
+        Index low = 0, high = old.size();
+        while (low < high)
+        {
+            const Index middle = low + (high - low) / 2;
+            if (key_of(middle) < pairs[pairs_range.begin])
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        at = low;
+    }
+    for (Index p = pairs_range.begin; p < pairs_range.end; ++p)
+    {
+        const std::uint64_t key = pairs[p];
+        const Index part_a = first_of(key);
+        const Index part_b = second_of(key);
+        const Index block_a = shapes.part_block[part_a];
+        const Index block_b = shapes.part_block[part_b];
+        if (block_a == block_b || !(blocks.is_free(block_a) || blocks.is_free(block_b)))
+            continue;
+        while (at < old.size() && key_of(at) < key)
+            ++at;
+        Contact contact;
+        if (at < old.size() && key_of(at) == key)
+            contact = old.get(at);
+        contact.part_a = part_a;
+        contact.part_b = part_b;
+        if (search(model, blocks, contact, ledger) <= skin)
+            out.push_back(contact);
+        else
+            ledger.contact_changes += energy_of(model, blocks, contact);
+    }
+}
+
+Index refresh_features(IndexRange range, const Model& model, const Blocks& blocks, Contacts& contacts, EnergyLedger& ledger)
+{
+    Index searched = 0;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        if (contacts.stale[i] == 0)
+            continue;
+        Contact contact = contacts.get(i);
+        search(model, blocks, contact, ledger);
+        contacts.put(i, contact);
+        ++searched;
+    }
+    return searched;
+}
+}  // namespace hdem

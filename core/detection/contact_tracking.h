@@ -1,0 +1,27 @@
+#pragma once
+/// Which contacts exist: from candidate pairs to the list of contacts, history carried over.
+
+#include "core/detection/cell_list.h"
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+namespace hdem
+{
+/// Distance two parts may be apart and still be tracked as a contact [m].
+[[nodiscard]] double skin_width(const Model& model);
+
+/// Boxes of the parts in `range` at the blocks' poses, widened by half the skin; empty for excavated blocks.
+void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes);
+
+/// True when some block of `range` has moved (turning counts with its radius) more than half of the skin since the rebuild.
+[[nodiscard]] bool has_outrun_skin(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at);
+
+/// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than the skin are left out,
+/// contacts that `old` already has (same parts, ascending) keep their features and history. Appends to `out` in key order.
+void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
+                    const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger);
+
+/// Search the features of the stale contacts of `range`; what that does to the energy of their springs goes to `ledger`.
+/// @return how many were searched
+Index refresh_features(IndexRange range, const Model& model, const Blocks& blocks, Contacts& contacts, EnergyLedger& ledger);
+}  // namespace hdem

@@ -1,0 +1,222 @@
+#include "core/detection/manifold.h"
+
+#include "core/detection/edge_touch.h"
+#include "core/geometry/convex_part.h"
+
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Pose of block b as seen from block a's frame. Differences of positions come first, so that far from the origin
+/// nothing is lost.
+struct RelativePose
+{
+    double c, s, x, y;
+
+    RelativePose(const BlockMotion& a, const BlockMotion& b)
+    {
+        c = a.c * b.c + a.s * b.s;
+        s = a.c * b.s - a.s * b.c;
+        const double dx = b.x - a.x;
+        const double dy = b.y - a.y;
+        x = a.c * dx + a.s * dy;
+        y = a.c * dy - a.s * dx;
+    }
+    [[nodiscard]] Vec2 turned(const Vec2& v) const { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
+    [[nodiscard]] Vec2 moved(const Vec2& v) const { return turned(v) + Vec2(x, y); }
+};
+
+/// Result of scanning one part's edges against the other's vertices.
+struct Scan
+{
+    double distance = -infinity;       ///< greatest over all edges
+    double external_distance = -infinity;
+    Index edge = no_index;             ///< external edge that reaches it
+    double kept_distance = -infinity;  ///< of the edge asked for
+};
+
+bool is_external(const Shapes& shapes, Index edge)
+{
+    return shapes.edge_source[edge] != edge_internal;
+}
+
+/// `other` in the frame of `part`: pose of the block of the other part.
+Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept)
+{
+    Scan scan;
+    for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
+    {
+        const Vec2 normal = -turned_left(shapes.edge_tangent[e]);
+        // Least of n.(R v + d - p): turn the normal once rather than each vertex.
+        const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
+        double least = infinity;
+        for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+            least = std::min(least, seen.dot(shapes.vertex[v]));
+        const double distance = least + normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[e]);
+        scan.distance = std::max(scan.distance, distance);
+        if (!is_external(shapes, e))
+            continue;
+        if (e == kept)
+            scan.kept_distance = distance;
+        const bool longer = scan.edge != no_index && shapes.edge_length[e] > shapes.edge_length[scan.edge];
+        if (distance > scan.external_distance || (distance == scan.external_distance && longer))
+        {
+            scan.external_distance = distance;
+            scan.edge = e;
+        }
+    }
+    return scan;
+}
+
+/// External edge of `other` whose outward normal is most opposed to that of `edge`.
+Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+{
+    const Vec2 t = shapes.edge_tangent[edge];
+    Index best = no_index;
+    double most = infinity;
+    for (Index e = shapes.vertex_begin[other]; e < shapes.vertex_begin[other + 1]; ++e)
+    {
+        if (!is_external(shapes, e))
+            continue;
+        const double along = t.dot(pose.turned(shapes.edge_tangent[e]));
+        if (along < most)
+        {
+            most = along;
+            best = e;
+        }
+    }
+    return best;
+}
+
+EdgePair make_edges(const Shapes& shapes, Index ref_edge, Index inc_part, Index inc_edge)
+{
+    const Vec2 t = shapes.edge_tangent[ref_edge];
+    const Vec2 start = shapes.vertex[ref_edge];
+    const Vec2 p0 = shapes.vertex[inc_edge];
+    const Vec2 p1 = shapes.vertex[shapes.next_vertex(inc_part, inc_edge)];
+    return {.tx = t.x(),
+            .ty = t.y(),
+            .start_t = t.dot(start),
+            .start_m = cross(t, start),
+            .length = shapes.edge_length[ref_edge],
+            .p0x = p0.x(),
+            .p0y = p0.y(),
+            .p1x = p1.x(),
+            .p1y = p1.y()};
+}
+
+/// World position of a contact's points relative to the centroid of `from`.
+std::array<Vec2, 2> point_positions(const EdgePair& edges, const BlockMotion& ref, const BlockMotion& inc, const BlockMotion& from,
+                                    Vec2& direction)
+{
+    const EdgeView view = view_edges(edges, ref, inc);
+    const EdgeTouch touch = touch_edges(edges, view, ref, inc);
+    direction = {touch.ex, touch.ey};
+    std::array<Vec2, 2> positions;
+    for (int k = 0; k < 2; ++k)
+    {
+        const TouchPoint& p = touch.point[k];
+        positions[k] = p.ref_t * direction + p.ref_m * turned_left(direction) + Vec2(ref.x - from.x, ref.y - from.y);
+    }
+    return positions;
+}
+
+/// Forces of the old points go to the nearest new point. A shear force keeps the component along the new edge if that runs
+/// within about 25 degrees of the old one; across a corner it is dropped, since it belonged to another face.
+void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, Contact& contact)
+{
+    const BlockMotion& from = motion[contact.ref];
+    Vec2 old_direction, direction;
+    const auto before = point_positions(old.edges, motion[old.ref], motion[old.inc], from, old_direction);
+    const auto after = point_positions(contact.edges, motion[contact.ref], motion[contact.inc], from, direction);
+    // Reference and incident block swapped: t flips, and so does the block the force is given on, so its value stays.
+    const double sense = old.ref == contact.ref ? 1.0 : -1.0;
+    const double along = sense * old_direction.dot(direction);
+    contact.point = {};
+    for (int k = 0; k < 2; ++k)
+    {
+        if (old.point[k].regime == Regime::open)
+            continue;
+        const int nearest = (before[k] - after[0]).squaredNorm() <= (before[k] - after[1]).squaredNorm() ? 0 : 1;
+        PointHistory& point = contact.point[nearest];
+        point.normal_force += old.point[k].normal_force;
+        point.shear_force += along > 0.9 ? along * old.point[k].shear_force : 0.0;
+        point.rest_overlap = std::max(point.rest_overlap, old.point[k].rest_overlap);
+        point.regime = std::max(point.regime, old.point[k].regime);
+    }
+}
+
+/// What new features would have seen in the last cycle: overlaps one step back, bearing length as it is.
+void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& contact)
+{
+    const BlockMotion& ref = motion[contact.ref];
+    const BlockMotion& inc = motion[contact.inc];
+    const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+    contact.last_length = point_length(touch.length, contact.length_floor);
+    for (int k = 0; k < 2; ++k)
+        contact.point[k].overlap = touch.point[k].overlap - touch.point[k].v_m * dt;
+}
+
+void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
+{
+    const EdgeView v = view_edges(contact.edges, motion[contact.ref], motion[contact.inc]);
+    contact.seen = {static_cast<float>(v.t0), static_cast<float>(v.m0), static_cast<float>(v.t1), static_cast<float>(v.m1)};
+}
+}  // namespace
+
+double find_features(const Model& model, const std::vector<BlockMotion>& motion, Contact& contact)
+{
+    const Shapes& shapes = model.shapes;
+    const Index a = contact.part_a;
+    const Index b = contact.part_b;
+    const Index block_a = shapes.part_block[a];
+    const Index block_b = shapes.part_block[b];
+    const RelativePose b_from_a(motion[block_a], motion[block_b]);
+    const RelativePose a_from_b(motion[block_b], motion[block_a]);
+    const Scan on_a = scan_edges(shapes, a, b, b_from_a, contact.ref_edge);
+    const Scan on_b = scan_edges(shapes, b, a, a_from_b, contact.ref_edge);
+    const double distance = std::max(on_a.distance, on_b.distance);
+    if (on_a.edge == no_index || on_b.edge == no_index)
+        return infinity;
+
+    const double size = std::min(model.size(block_a), model.size(block_b));
+    const double floor = model.contact.length_floor * size;
+    const double margin = 0.1 * floor;
+    // Near ties go to the longer edge.
+    const double lead = shapes.edge_length[on_a.edge] >= shapes.edge_length[on_b.edge] ? margin : -margin;
+    bool ref_is_a = on_a.external_distance + lead >= on_b.external_distance;
+    Index ref_edge = ref_is_a ? on_a.edge : on_b.edge;
+    const double best = std::max(on_a.external_distance, on_b.external_distance);
+    const double kept = std::max(on_a.kept_distance, on_b.kept_distance);
+    if (contact.ref_edge != no_index && kept >= best - margin)
+    {
+        ref_edge = contact.ref_edge;
+        ref_is_a = on_a.kept_distance > -infinity;
+    }
+    const Index inc_part = ref_is_a ? b : a;
+    const Index inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? b_from_a : a_from_b);
+
+    if (ref_edge != contact.ref_edge || inc_edge != contact.inc_edge)
+    {
+        const Contact old = contact;
+        contact.ref = ref_is_a ? block_a : block_b;
+        contact.inc = ref_is_a ? block_b : block_a;
+        contact.ref_edge = ref_edge;
+        contact.inc_edge = inc_edge;
+        contact.edges = make_edges(shapes, ref_edge, inc_part, inc_edge);
+        contact.length_floor = floor;
+        contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
+        contact.law = model.joints.find(shapes.edge_source[ref_edge], shapes.edge_source[inc_edge], model.material[contact.ref],
+                                        model.material[contact.inc]);
+        if (old.ref_edge != no_index)
+            carry_history(motion, old, contact);
+        start_points(motion, model.time_step, contact);
+    }
+    remember_view(motion, contact);
+    return distance;
+}
+}  // namespace hdem

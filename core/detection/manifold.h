@@ -1,0 +1,21 @@
+#pragma once
+/// Which two edges of a pair of parts face each other: a separating-axis search, and how history follows its result.
+
+#include "core/model/model.h"
+#include "core/state/blocks.h"
+#include "core/state/contacts.h"
+
+namespace hdem
+{
+/// Search the features of the pair (contact.part_a, contact.part_b) at the blocks' present poses and store them.
+///
+/// Axes are the outward normals of all edges of both parts. A pair apart along any of them (also an internal edge's) is
+/// apart. Otherwise the reference edge is the external edge of least overlap, and the incident edge is the other part's
+/// external edge that faces it most squarely. The previous reference edge is kept unless another one's overlap is less by a
+/// margin (a tenth of the length floor), since shear history lives on the contact and must not jump between edges.
+/// On a change of features each point's forces go to the nearest new point, if the new edge runs in nearly the same direction.
+///
+/// @return distance of the two parts along the best axis, negative when they overlap [m]; with no external edge: infinite
+/// @see verification/unit/core/detection/manifold_test.cpp
+double find_features(const Model& model, const std::vector<BlockMotion>& motion, Contact& contact);
+}  // namespace hdem

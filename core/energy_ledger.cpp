@@ -1,0 +1,61 @@
+#include "core/energy_ledger.h"
+
+#include "core/detection/edge_touch.h"
+#include "core/motion/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+StoredEnergy stored_energy(const Model& model, const State& state)
+{
+    StoredEnergy stored;
+    for (Index i = 0; i < state.blocks.size(); ++i)
+        if (state.blocks.present[i] != 0)
+            stored.kinetic += kinetic_energy(model, state.blocks.motion[i], i);
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
+            continue;
+        const SpringEnergy springs = spring_energy(model, state.blocks, state.contacts.get(i));
+        stored.elastic_normal += springs.normal;
+        stored.elastic_shear += springs.shear;
+    }
+    return stored;
+}
+
+SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact)
+{
+    const BlockMotion& ref = blocks.motion[contact.ref];
+    const BlockMotion& inc = blocks.motion[contact.inc];
+    const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+    const CoulombSlip& joint = model.joints.laws[contact.law];
+    const double shear_stiffness = joint.shear_stiffness * contact.last_length;
+    SpringEnergy energy;
+    for (int k = 0; k < 2; ++k)
+    {
+        const PointHistory& point = contact.point[k];
+        if (point.regime != Regime::stick && point.regime != Regime::slip)
+            continue;
+        const double stretch = point.shear_force / shear_stiffness - touch.point[k].v_t * model.time_step;
+        energy.normal += 0.5 * point.normal_force * (touch.point[k].overlap - point.rest_overlap);
+        energy.shear += 0.5 * point.shear_force * stretch;
+    }
+    return energy;
+}
+
+double residual(const EnergyLedger& ledger, const StoredEnergy& stored)
+{
+    const double in = ledger.initial + ledger.gravity_work + ledger.load_work + ledger.position_correction;
+    const double spent = ledger.friction + ledger.local_damping + ledger.global_damping + ledger.impulse_loss + ledger.contact_changes + ledger.removed;
+    return in - spent - stored.total();
+}
+
+double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored)
+{
+    const double most = std::max({std::abs(ledger.initial), std::abs(ledger.gravity_work), std::abs(ledger.load_work), std::abs(ledger.friction),
+                                  std::abs(ledger.local_damping), std::abs(ledger.global_damping), std::abs(ledger.impulse_loss), stored.total()});
+    return most > 0.0 ? residual(ledger, stored) / most : 0.0;
+}
+}  // namespace hdem

@@ -1,0 +1,49 @@
+#pragma once
+/// Where the energy of a run came from and went.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+namespace hdem
+{
+/// Energy now in the system, at the half step at which velocities are known [J].
+struct StoredEnergy
+{
+    double kinetic = 0.0;
+    double elastic_normal = 0.0;
+    double elastic_shear = 0.0;
+    [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
+};
+
+/// Sum over all blocks and closed force points, in their order.
+///
+/// Velocities live half a step after the poses, so the energy of a spring is taken there too: 1/2 F(t) u(t + dt). With it
+/// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2.
+[[nodiscard]] StoredEnergy stored_energy(const Model& model, const State& state);
+
+/// Energy in the springs of one contact, at the same half step [J].
+struct SpringEnergy
+{
+    double normal = 0.0;
+    double shear = 0.0;
+    [[nodiscard]] double total() const { return normal + shear; }
+};
+[[nodiscard]] SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact);
+
+/// Work of a spring force over one step is F (u(t + dt) - u(t - dt)) / 2, since a force changes the velocity by half before
+/// and half after its time. Summed over steps this is the change of 1/2 F(t) u(t + dt) plus
+///
+///   1/2 (F(t - dt) u(t) - F(t) u(t - dt))
+///
+/// which vanishes for a closed linear spring. It is what closing or opening between two cycles, a change of contact length and a
+/// hand-over between regimes take (or give): the ledger's contact_changes. What a change of features does to the springs is there too.
+[[nodiscard]] inline double change_energy(double last_force, double overlap, double force, double last_overlap)
+{
+    return 0.5 * (last_force * overlap - force * last_overlap);
+}
+
+/// Energy that came in less what is stored or spent; what the ledger cannot explain [J].
+[[nodiscard]] double residual(const EnergyLedger& ledger, const StoredEnergy& stored);
+/// The same as a share of the energy that went through: the largest of the ledger's terms [-].
+[[nodiscard]] double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored);
+}  // namespace hdem

@@ -1,0 +1,180 @@
+#include "core/history_sampler.h"
+
+#include "core/check.h"
+#include "core/contact/contact_report.h"
+#include "core/motion/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+struct KnownOfBlock
+{
+    const char* quantity;    ///< stands for all columns that name it
+    Column column;
+    double (*value)(const Model&, const State&, Index);
+};
+
+struct KnownOfPair
+{
+    const char* quantity;
+    Column column;
+    double (*value)(const Model&, const PairSample&);
+};
+
+const std::vector<KnownOfBlock>& known_of_block()
+{
+    static const std::vector<KnownOfBlock> all = {
+        {"displacement", {"displacement_x", "m"}, [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).x(); }},
+        {"displacement", {"displacement_y", "m"}, [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).y(); }},
+        {"position", {"position_x", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.x() + s.blocks.motion[i].x; }},
+        {"position", {"position_y", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.y() + s.blocks.motion[i].y; }},
+        {"velocity", {"velocity_x", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].vx; }},
+        {"velocity", {"velocity_y", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].vy; }},
+        {"speed", {"speed", "m/s"}, [](const Model&, const State& s, Index i) { return std::hypot(s.blocks.motion[i].vx, s.blocks.motion[i].vy); }},
+        {"rotation", {"rotation", "rad"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].angle - s.blocks.reference_angle[i]; }},
+        {"angular_velocity", {"angular_velocity", "rad/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].w; }},
+        {"force", {"force_x", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].x; }},
+        {"force", {"force_y", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].y; }},
+        {"kinetic_energy", {"kinetic_energy", "J"}, [](const Model& m, const State& s, Index i) { return kinetic_energy(m, s.blocks.motion[i], i); }},
+    };
+    return all;
+}
+
+const std::vector<KnownOfPair>& known_of_pair()
+{
+    static const std::vector<KnownOfPair> all = {
+        {"normal_force", {"normal_force", "N"}, [](const Model&, const PairSample& p) { return p.normal_force; }},
+        {"shear_force", {"shear_force", "N"}, [](const Model&, const PairSample& p) { return p.shear_force; }},
+        {"overlap", {"overlap", "m"}, [](const Model&, const PairSample& p) { return p.overlap; }},
+        {"shear_displacement", {"shear_displacement", "m"}, [](const Model&, const PairSample& p) { return p.shear_displacement; }},
+        {"contact_length", {"contact_length", "m"}, [](const Model&, const PairSample& p) { return p.length; }},
+        {"normal_impulse", {"normal_impulse", "N s"}, [](const Model& m, const PairSample& p) { return p.normal_force * m.time_step; }},
+        {"shear_impulse", {"shear_impulse", "N s"}, [](const Model& m, const PairSample& p) { return p.shear_force * m.time_step; }},
+        {"impulse_points", {"impulse_points", "1"}, [](const Model&, const PairSample& p) { return static_cast<double>(p.impulse_points); }},
+    };
+    return all;
+}
+
+/// All names that select something, each once.
+template <class Known>
+std::vector<std::string> names_of(const std::vector<Known>& all)
+{
+    std::vector<std::string> names;
+    for (const Known& known : all)
+        for (const std::string& name : {std::string(known.quantity), known.column.name})
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+/// Append the columns that a quantity stands for, but none twice. False when the name is not known.
+template <class Known, class Value>
+bool select(const std::vector<Known>& all, const std::string& quantity, std::vector<Column>& columns, std::vector<Value>& values)
+{
+    bool found = false;
+    for (const Known& known : all)
+    {
+        if (known.quantity != quantity && known.column.name != quantity)
+            continue;
+        found = true;
+        const auto same = [&](const Column& column) { return column.name == known.column.name; };
+        if (std::any_of(columns.begin(), columns.end(), same))
+            continue;
+        columns.push_back(known.column);
+        values.push_back(known.value);
+    }
+    return found;
+}
+}  // namespace
+
+const std::vector<std::string>& block_history_quantities()
+{
+    static const std::vector<std::string> all = names_of(known_of_block());
+    return all;
+}
+
+const std::vector<std::string>& contact_history_quantities()
+{
+    static const std::vector<std::string> all = names_of(known_of_pair());
+    return all;
+}
+
+HistorySampler::HistorySampler(const Model& model, const HistoryDef& def) : name_(def.name), every_(std::max<std::int64_t>(def.every, 1))
+{
+    const std::string object = "history \"" + def.name + "\": ";
+    const auto find = [&](const std::string& block) {
+        const Index at = model.find_block(block);
+        if (at == no_index)
+            throw InputError(Problem{.key = "history", .text = object + "block \"" + block + "\" (no such block). Give the name of a block."});
+        return at;
+    };
+    const bool pair = def.between.size() == 2;
+    first_ = find(pair ? def.between[0] : def.block);
+    second_ = pair ? find(def.between[1]) : no_index;
+    for (const std::string& quantity : def.quantities)
+    {
+        const bool known = pair ? select(known_of_pair(), quantity, columns_, of_pair_) : select(known_of_block(), quantity, columns_, of_block_);
+        if (!known)
+            throw InputError(Problem{.key = "history", .text = object + "quantity \"" + quantity + "\" (not known for " +
+                                     (pair ? "contacts" : "a block") + "). See [[history]] in io/case_format.md."});
+    }
+}
+
+void HistorySampler::find_contacts(const Model& model, const State& state)
+{
+    if (broad_phase_runs_ == state.broad_phase_runs)
+        return;
+    contacts_.clear();
+    const std::vector<Index>& block_of = model.shapes.part_block;
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        const Index a = block_of[state.contacts.part_a[i]];
+        const Index b = block_of[state.contacts.part_b[i]];
+        if ((a == first_ && b == second_) || (a == second_ && b == first_))
+            contacts_.push_back(i);
+    }
+    broad_phase_runs_ = state.broad_phase_runs;
+}
+
+PairSample HistorySampler::sample_pair(const State& state)
+{
+    PairSample sums;
+    double longest = -1.0;
+    for (const Index i : contacts_)
+    {
+        if (!is_closed_contact(state, i))
+            continue;
+        const ContactReport contact = report_contact(state, i);
+        sums.normal_force += contact.normal_force;
+        sums.shear_force += contact.shear_force;
+        sums.overlap = std::max(sums.overlap, contact.overlap);
+        sums.length += contact.length;
+        sums.impulse_points += contact.impulse_points;
+        if (contact.length > longest)
+            normal_ = contact.first == first_ ? contact.normal : Vec2(-contact.normal);
+        longest = std::max(longest, contact.length);
+    }
+    const BlockMotion& a = state.blocks.motion[first_];
+    const BlockMotion& b = state.blocks.motion[second_];
+    const Vec2 normal = normal_.isZero() ? Vec2(b.x - a.x, b.y - a.y).normalized() : normal_;
+    sums.shear_displacement = -(state.blocks.displacement(second_) - state.blocks.displacement(first_)).dot(turned_left(normal));
+    return sums;
+}
+
+void HistorySampler::sample(const Model& model, const State& state, std::span<double> values)
+{
+    HDEM_EXPECT(values.size() == columns_.size());
+    for (std::size_t i = 0; i < of_block_.size(); ++i)
+        values[i] = of_block_[i](model, state, first_);
+    if (of_pair_.empty())
+        return;
+    find_contacts(model, state);
+    const PairSample pair = sample_pair(state);
+    for (std::size_t i = 0; i < of_pair_.size(); ++i)
+        values[i] = of_pair_[i](model, pair);
+}
+}  // namespace hdem

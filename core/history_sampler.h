@@ -1,0 +1,77 @@
+#pragma once
+/// [[history]]: quantities of one block, or of the contacts between two, as numbers.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// What [[history]] quantities may name. Vectors become two columns, NAME_x and NAME_y, which may also be asked for alone.
+const std::vector<std::string>& block_history_quantities();
+const std::vector<std::string>& contact_history_quantities();
+
+/// One sampled number.
+struct Column
+{
+    std::string name;
+    std::string unit;    ///< "m", "N", ...; "1" without one
+};
+
+/// Sums over the closed contact points of two blocks.
+struct PairSample
+{
+    double normal_force = 0.0;           ///< [N]
+    double shear_force = 0.0;            ///< [N]
+    double overlap = 0.0;                ///< greatest [m]
+    double length = 0.0;                 ///< [m]
+    double shear_displacement = 0.0;     ///< [m]
+    int impulse_points = 0;
+};
+
+/// Reads a state after a cycle. Forces are those of that cycle, found at the poses at its start; everything else belongs to
+/// the present poses. The names and meanings of the columns stand in io/hdf5_format.md.
+///
+/// Between two blocks, normals point from the first to the second and the shear axis is the normal turned left; sums run over
+/// all closed contact points of the two, each along its own contact. shear_force acts on the second block along that axis.
+/// shear_displacement is how far the second block's centroid moved against that axis relative to the first's since the stage
+/// began, so that it grows with the shear force it causes; the axis is that of the longest contact, the last known one while the blocks are
+/// apart, and before their first contact that of the line of centroids.
+/// @see verification/unit/core/history_sampler_test.cpp
+class HistorySampler
+{
+  public:
+    /// Throws InputError for an unknown block or quantity.
+    HistorySampler(const Model& model, const HistoryDef& def);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+    [[nodiscard]] bool is_due(std::int64_t cycle) const { return cycle % every_ == 0; }
+    /// First cycle after the given one at which a sample is due.
+    [[nodiscard]] std::int64_t next_after(std::int64_t cycle) const { return (cycle / every_ + 1) * every_; }
+
+    /// One value per column. Costs a look at the pair's contacts; the whole list is searched only after a broad phase.
+    void sample(const Model& model, const State& state, std::span<double> values);
+
+  private:
+    using BlockQuantity = double (*)(const Model&, const State&, Index);
+    using PairQuantity = double (*)(const Model&, const PairSample&);
+
+    void find_contacts(const Model& model, const State& state);
+    PairSample sample_pair(const State& state);
+
+    std::string name_;
+    std::int64_t every_ = 1;
+    std::vector<Column> columns_;
+    Index first_ = no_index;             ///< or the only block
+    Index second_ = no_index;
+    std::vector<BlockQuantity> of_block_;
+    std::vector<PairQuantity> of_pair_;
+    std::vector<Index> contacts_;        ///< of the pair
+    std::int64_t broad_phase_runs_ = -1; ///< when contacts_ was found
+    Vec2 normal_ = {0.0, 0.0};           ///< last known, zero before
+};
+}  // namespace hdem

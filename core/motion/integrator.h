@@ -1,0 +1,35 @@
+#pragma once
+/// Equations of motion: velocities from forces, poses from velocities.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// Start the cycle's sum of forces of the blocks in `range` with their weights.
+void apply_weights(IndexRange range, const Model& model, Blocks& blocks);
+
+/// Add the loads of the case that act in this cycle, and set the velocities they prescribe (zero again once they end).
+/// `before` receives the velocities of the loaded blocks, load by load, for add_load_work.
+void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::vector<Triple>& before, EnergyLedger& ledger);
+
+/// Work of these loads, once the velocities are updated.
+void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before, EnergyLedger& ledger);
+
+/// Step 4 of a cycle: velocities at t + dt/2 from the forces at t, with the damping of each block's state.
+///
+///   v <- v + (F - F_d) dt / m,   w <- w + (M - M_d) dt / I           [Lee2025] Eqs. (11), (12)
+///   v <- v (1 - alpha_d dt)                                          [Lee2025] Eqs. (20), (21), first
+///
+/// Reads force and inertia, writes velocities of the blocks in `range`; adds the work of gravity, of prescribed motions and of
+/// damping to `ledger`, each force times the mean of the velocities before and after.
+void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger);
+
+/// Step 6: poses from the new velocities (semi-implicit Euler) and from the pseudo velocities of the position correction, which are
+/// used up. A turn by w dt is made with the Cayley form, whose result is a unit vector to rounding; its angle is off by (w dt)^3 / 12.
+void update_positions(IndexRange range, double dt, Blocks& blocks, std::vector<Triple>& pseudo);
+
+/// Work that the position correction of this cycle takes, against gravity and into springs. Before impulses are added to the forces.
+void add_correction_work(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo, EnergyLedger& ledger);
+}  // namespace hdem

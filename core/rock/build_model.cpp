@@ -1,0 +1,260 @@
+#include "core/rock/build_model.h"
+
+#include "core/geometry/polygon.h"
+#include "core/geometry/space_curve.h"
+#include "core/motion/time_step.h"
+#include "core/rock/resolve_names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hdem
+{
+namespace
+{
+struct BlockMoments
+{
+    AreaMoments of;
+    double radius;
+};
+
+BlockMoments block_moments(const RockBlock& block)
+{
+    std::vector<AreaMoments> parts;
+    for (const ConvexPart& part : block.parts)
+        parts.push_back(area_moments(part.vertices));
+    BlockMoments moments{combined(parts), 0.0};
+    for (const ConvexPart& part : block.parts)
+        for (const Vec2& v : part.vertices)
+            moments.radius = std::max(moments.radius, (v - moments.of.centroid).norm());
+    return moments;
+}
+
+Box bounding_box_of(const std::vector<RockBlock>& blocks)
+{
+    Box box = bounding_box(blocks.front().parts.front().vertices);
+    for (const RockBlock& block : blocks)
+        for (const ConvexPart& part : block.parts)
+        {
+            const Box b = bounding_box(part.vertices);
+            box = {box.low.cwiseMin(b.low), box.high.cwiseMax(b.high)};
+        }
+    return box;
+}
+
+/// Users' numbers of the blocks in their order along the curve.
+std::vector<Index> curve_order(const std::vector<BlockMoments>& moments, const Box& box)
+{
+    const double side = std::max((box.high - box.low).maxCoeff(), 1e-300);
+    std::vector<std::uint64_t> number(moments.size());
+    for (std::size_t i = 0; i < moments.size(); ++i)
+    {
+        const Vec2 at = (moments[i].of.centroid - box.low) / side * 2147483647.0;
+        number[i] = hilbert_number(static_cast<std::uint32_t>(std::clamp(at.x(), 0.0, 2147483647.0)),
+                                   static_cast<std::uint32_t>(std::clamp(at.y(), 0.0, 2147483647.0)));
+    }
+    std::vector<Index> order(moments.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return number[a] != number[b] ? number[a] < number[b] : a < b; });
+    return order;
+}
+
+void add_part(Shapes& shapes, const ConvexPart& part, const Vec2& centroid, Index block)
+{
+    const std::size_t n = part.vertices.size();
+    Vec2 low = part.vertices[0] - centroid, high = low;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        const Vec2 v = part.vertices[i] - centroid;
+        const Vec2 edge = part.vertices[next(i, n)] - part.vertices[i];
+        shapes.vertex.push_back(v);
+        shapes.edge_length.push_back(edge.norm());
+        shapes.edge_tangent.push_back(edge / edge.norm());
+        shapes.edge_source.push_back(part.source[i]);
+        low = low.cwiseMin(v);
+        high = high.cwiseMax(v);
+    }
+    shapes.part_block.push_back(block);
+    shapes.vertex_begin.push_back(static_cast<Index>(shapes.vertex.size()));
+    shapes.part_centre.push_back(0.5 * (low + high));
+    shapes.part_radius.push_back(0.5 * (high - low).norm());
+}
+
+void add_block(Model& model, const RockBlock& block, const BlockMoments& moments, double density, Index material)
+{
+    const Index number = model.blocks();
+    model.name.push_back(block.name);
+    model.material.push_back(material);
+    model.excavation.push_back(block.excavation);
+    model.area.push_back(moments.of.area);
+    model.mass.push_back(density * moments.of.area);
+    model.inertia.push_back(density * moments.of.polar);
+    model.full_inertia.push_back({1.0 / model.mass.back(), 1.0 / model.mass.back(), 1.0 / model.inertia.back(), 0.0});
+    model.radius.push_back(moments.radius);
+    for (const ConvexPart& part : block.parts)
+        add_part(model.shapes, part, moments.of.centroid, number);
+    model.shapes.part_begin.push_back(model.shapes.parts());
+}
+
+void add_joints(const CaseDef& def, Model& model)
+{
+    JointTable& table = model.joints;
+    const auto n = static_cast<Index>(def.materials.size());
+    table.materials = n;
+    Index fallback = 0;
+    for (std::size_t j = 0; j < def.joints.size(); ++j)
+    {
+        const JointDef& joint = def.joints[j];
+        table.names.push_back(joint.name);
+        table.laws.push_back({.normal_stiffness = joint.normal_stiffness,
+                              .shear_stiffness = joint.shear_stiffness,
+                              .friction_coefficient = std::tan(radians(joint.friction_angle_deg)),
+                              .cohesion = joint.cohesion,
+                              .restitution = joint.restitution.value_or(def.contact.restitution)});
+        if (joint.name == "default")
+            fallback = static_cast<Index>(j);
+    }
+    table.of_materials.assign(static_cast<std::size_t>(n * n), fallback);
+    const auto joint_named = [&](const std::string& name) {
+        const auto at = std::find(table.names.begin(), table.names.end(), name);
+        return at == table.names.end() ? no_index : static_cast<Index>(at - table.names.begin());
+    };
+    for (std::size_t j = 0; j < def.joints.size(); ++j)
+    {
+        if (def.joints[j].materials.size() != 2)
+            continue;
+        const Index a = material_number(def, def.joints[j].materials[0]);
+        const Index b = material_number(def, def.joints[j].materials[1]);
+        table.of_materials[a * n + b] = table.of_materials[b * n + a] = static_cast<Index>(j);
+    }
+    for (const JointSetDef& set : def.joint_sets)
+        table.of_joint_set.push_back(set.joint.empty() ? no_index : joint_named(set.joint));
+}
+
+double smallest_free_mass(const Model& model, const Blocks& blocks)
+{
+    double mass = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < model.blocks(); ++i)
+        if (blocks.is_free(i))
+            mass = std::min(mass, model.mass[i]);
+    return mass;
+}
+
+double greatest_stiffness(const JointTable& joints)
+{
+    double stiffness = 0.0;
+    for (const CoulombSlip& joint : joints.laws)
+        stiffness = std::max({stiffness, joint.normal_stiffness, joint.shear_stiffness});
+    return stiffness;
+}
+
+void add_initial_state(const RockMass& rock, const std::vector<Index>& order, const std::vector<BlockMoments>& moments, const Model& model,
+                       State& state)
+{
+    Blocks& blocks = state.blocks;
+    const auto n = static_cast<std::size_t>(model.blocks());
+    blocks.motion.resize(n);
+    blocks.force.resize(n);
+    blocks.inertia.resize(n);
+    blocks.present.assign(n, 1);
+    for (Index i = 0; i < model.blocks(); ++i)
+    {
+        const RockBlock& from = rock.blocks[order[i]];
+        const Vec2 at = moments[order[i]].of.centroid - model.origin;
+        blocks.motion[i] = {.x = at.x(), .y = at.y(), .vx = from.velocity.x(), .vy = from.velocity.y(), .w = from.angular_velocity};
+        blocks.inertia[i] = model.full_inertia[i];
+        if (from.fix_x)
+            blocks.inertia[i].inverse_mass_x = 0.0;
+        if (from.fix_y)
+            blocks.inertia[i].inverse_mass_y = 0.0;
+        if (from.fix_rotation)
+            blocks.inertia[i].inverse_inertia = 0.0;
+        blocks.reference_position.push_back(at);
+        blocks.reference_angle.push_back(0.0);
+    }
+}
+}  // namespace
+
+void set_mobility(const Model& model, Index block, bool is_free, Blocks& blocks)
+{
+    blocks.inertia[block] = is_free ? model.full_inertia[block] : BlockInertia{};
+    if (!is_free)
+    {
+        BlockMotion& motion = blocks.motion[block];
+        motion.vx = motion.vy = motion.w = 0.0;
+    }
+}
+
+Setup build_model(const CaseDef& def)
+{
+    Setup setup;
+    RockMass rock = generate_rock_mass(def);
+    if (rock.blocks.empty())
+        throw InputError(Problem{.key = "domain", .text = "rock mass: blocks = 0 (nothing to compute). Give a [domain] or at least one [[block]]."});
+    Model& model = setup.model;
+    const Box box = bounding_box_of(rock.blocks);
+    model.title = def.title;
+    // A whole number of metres, so that subtracting it is exact for coordinates of up to 1e9 m given to a micrometre.
+    model.origin = (0.5 * (box.low + box.high)).array().round();
+
+    std::vector<BlockMoments> moments;
+    moments.reserve(rock.blocks.size());
+    for (const RockBlock& block : rock.blocks)
+        moments.push_back(block_moments(block));
+    const std::vector<Index> order = curve_order(moments, box);
+    model.shapes.part_begin.push_back(0);
+    model.shapes.vertex_begin.push_back(0);
+    double total_area = 0.0;
+    for (const Index user : order)
+    {
+        const Index material = material_number(def, rock.blocks[user].material);
+        add_block(model, rock.blocks[user], moments[user], def.materials[material].density, material);
+        total_area += moments[user].of.area;
+    }
+    model.user_number = order;
+    model.slot_of_user.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        model.slot_of_user[order[i]] = static_cast<Index>(i);
+    for (const MaterialDef& material : def.materials)
+        model.material_names.push_back(material.name);
+    for (const ExcavationDef& excavation : def.excavations)
+        model.excavation_names.push_back(excavation.name);
+    add_joints(def, model);
+
+    model.gravity = def.gravity;
+    model.contact = def.contact;
+    model.damping = def.damping;
+    model.convergence = def.convergence;
+    model.output = def.output;
+    model.stages = def.stages;
+    model.histories = def.histories;
+    model.mean_size = std::sqrt(total_area / static_cast<double>(order.size()));
+
+    add_initial_state(rock, order, moments, model, setup.state);
+    setup.state.method = def.contact.method;
+    setup.state.damping = def.damping.preset;
+    const double smallest = smallest_free_mass(model, setup.state.blocks);
+    model.paper_time_step = paper_time_step(smallest, greatest_stiffness(model.joints), def.time.fraction);
+    model.time_step = def.time.step.value_or(model.paper_time_step);
+    const Vec2 extent = box.high - box.low;
+    // Eq. (28): model area over the area of a block, here the mean one.
+    model.threshold_scale = def.contact.threshold_scale.value_or(extent.x() * extent.y() / (model.mean_size * model.mean_size));
+
+    std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);
+    if (!std::isfinite(smallest))
+        problems.push_back({.key = "domain.fixed", .text = "rock mass: free blocks = 0 (every block is fixed: nothing can move). Free at least one block."});
+    for (Problem& problem : rock.warnings)
+        problems.push_back(std::move(problem));
+    std::erase_if(problems, [&](const Problem& problem) {
+        if (problem.severity == Problem::Severity::warning)
+            setup.warnings.push_back(problem);
+        return problem.severity == Problem::Severity::warning;
+    });
+    if (!problems.empty())
+        throw InputError(std::move(problems));
+    rock.blocks.clear();
+    setup.rock = std::move(rock);
+    return setup;
+}
+}  // namespace hdem

@@ -1,0 +1,148 @@
+#include "core/rock/resolve_names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_map>
+
+namespace hdem
+{
+namespace
+{
+constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();
+
+class Resolver
+{
+  public:
+    Resolver(const CaseDef& def, Model& model, const Blocks& blocks) : def_(def), model_(model), blocks_(blocks)
+    {
+        for (Index i = 0; i < model.blocks(); ++i)
+            slots_.emplace(model.name[i], i);
+    }
+
+    std::vector<Problem> run()
+    {
+        for (std::size_t i = 0; i < def_.loads.size(); ++i)
+            add_load(def_.loads[i], "load[" + std::to_string(i) + "]");
+        for (std::size_t i = 0; i < def_.stages.size(); ++i)
+            check_stage(def_.stages[i], "stage[" + std::to_string(i) + "]");
+        for (std::size_t i = 0; i < def_.histories.size(); ++i)
+            check_history(def_.histories[i], "history[" + std::to_string(i) + "]");
+        for (std::size_t i = 0; i < def_.excavations.size(); ++i)
+            if (excavated_.count(def_.excavations[i].name) == 0)
+                warn("excavation[" + std::to_string(i) + "]", "excavation \"" + def_.excavations[i].name +
+                         "\": no stage removes it (its blocks stay as rock). Add excavate = [\"" + def_.excavations[i].name + "\"] to a stage.");
+        return std::move(problems_);
+    }
+
+  private:
+    void fail(const std::string& key, const std::string& text) { problems_.push_back({.key = key, .text = text}); }
+    void warn(const std::string& key, const std::string& text)
+    {
+        problems_.push_back({.severity = Problem::Severity::warning, .key = key, .text = text});
+    }
+
+    Index find(const std::string& name, const std::string& key)
+    {
+        const auto at = slots_.find(name);
+        if (at != slots_.end())
+            return at->second;
+        fail(key, "block \"" + name + "\": unknown name (the model has " + std::to_string(model_.blocks()) +
+                      " blocks, generated ones are called b1, b2, ...). Run `hdem check --blocks` for the list.");
+        return no_index;
+    }
+
+    void add_load(const LoadDef& from, const std::string& key)
+    {
+        Load load{.blocks = {},
+                  .acceleration = from.acceleration,
+                  .force = from.force,
+                  .moment = from.moment,
+                  .velocity_x = from.velocity_x,
+                  .velocity_y = from.velocity_y,
+                  .angular_velocity = from.angular_velocity};
+        for (const std::string& name : from.blocks)
+        {
+            if (name == "*")
+            {
+                for (Index i = 0; i < model_.blocks(); ++i)
+                    if (blocks_.is_free(i))
+                        load.blocks.push_back(i);
+            }
+            else if (const Index i = find(name, key + ".blocks"); i != no_index)
+                load.blocks.push_back(i);
+        }
+        for (const Index i : load.blocks)
+        {
+            const BlockInertia& inertia = blocks_.inertia[i];
+            const auto need_fixed = [&](bool given, double inverse, const char* component, const char* fix) {
+                if (given && inverse > 0.0)
+                    fail(key, "load on block \"" + model_.name[i] + "\": " + component + " is prescribed (but the block is free to move in it). Add fixed = [\"" +
+                                  fix + "\"] to the block.");
+            };
+            need_fixed(load.velocity_x.has_value(), inertia.inverse_mass_x, "velocity_x", "x");
+            need_fixed(load.velocity_y.has_value(), inertia.inverse_mass_y, "velocity_y", "y");
+            need_fixed(load.angular_velocity.has_value(), inertia.inverse_inertia, "angular_velocity", "rotation");
+        }
+        const auto cycle_of = [&](double time) {
+            const double cycle = std::ceil(time / model_.time_step * (1.0 - 1e-12));
+            return cycle < 9.0e18 ? static_cast<std::int64_t>(cycle) : for_ever;
+        };
+        const Interval& when = from.interval;
+        load.from = when.from_cycle ? *when.from_cycle : (when.from_time ? cycle_of(*when.from_time) : 0);
+        load.until = when.until_cycle ? *when.until_cycle : (when.until_time ? cycle_of(*when.until_time) : for_ever);
+        if (load.until <= load.from)
+            warn(key, "load: acts from cycle " + std::to_string(load.from) + " until cycle " + std::to_string(load.until) + " (never). Check its times.");
+        model_.loads.push_back(std::move(load));
+    }
+
+    void check_stage(const StageDef& stage, const std::string& key)
+    {
+        for (const std::string& name : stage.excavate)
+        {
+            const bool is_excavation = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name) != model_.excavation_names.end();
+            if (is_excavation)
+            {
+                if (!excavated_.insert(name).second)
+                    fail(key + ".excavate", "excavation \"" + name + "\": removed twice. Name it in one stage only.");
+            }
+            else
+                find(name, key + ".excavate");
+        }
+        for (const std::string& name : stage.fix)
+            find(name, key + ".fix");
+        for (const std::string& name : stage.free)
+            find(name, key + ".free");
+    }
+
+    void check_history(const HistoryDef& history, const std::string& key)
+    {
+        if (!history.block.empty())
+            find(history.block, key + ".block");
+        for (const std::string& name : history.between)
+            find(name, key + ".between");
+    }
+
+    const CaseDef& def_;
+    Model& model_;
+    const Blocks& blocks_;
+    std::unordered_map<std::string, Index> slots_;
+    std::set<std::string> excavated_;
+    std::vector<Problem> problems_;
+};
+}  // namespace
+
+Index material_number(const CaseDef& def, const std::string& name)
+{
+    for (std::size_t i = 0; i < def.materials.size(); ++i)
+        if (def.materials[i].name == name)
+            return static_cast<Index>(i);
+    throw InputError(Problem{.key = "material", .text = "material \"" + name + "\": not defined. Add [material." + name + "] with its density."});
+}
+
+std::vector<Problem> resolve_names(const CaseDef& def, Model& model, const Blocks& blocks)
+{
+    return Resolver(def, model, blocks).run();
+}
+}  // namespace hdem

@@ -1,0 +1,251 @@
+#include "core/rock/rock_mass.h"
+
+#include "core/rock/block_cutter.h"
+#include "core/rock/excavation.h"
+#include "core/rock/explicit_blocks.h"
+#include "core/rock/joint_sets.h"
+#include "core/rock/problem_text.h"
+#include "core/rock/rock_checks.h"
+#include "core/rock/slivers.h"
+#include "core/rock/weld.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+/// The domain, anticlockwise, and which of its edges hold blocks fast.
+struct Domain
+{
+    Polygon polygon;
+    std::set<Index> fixed_edges;
+};
+
+bool is_on_side(const Vec2& a, const Vec2& b, const Box& box, const std::string& side)
+{
+    const double slack = 1e-9 * (box.high - box.low).maxCoeff();
+    const auto on = [slack](double a_value, double b_value, double limit)
+    { return std::abs(a_value - limit) <= slack && std::abs(b_value - limit) <= slack; };
+    return (side == "left" && on(a.x(), b.x(), box.low.x())) || (side == "right" && on(a.x(), b.x(), box.high.x())) ||
+           (side == "bottom" && on(a.y(), b.y(), box.low.y())) || (side == "top" && on(a.y(), b.y(), box.high.y()));
+}
+
+Domain make_domain(const DomainDef& def)
+{
+    Domain domain{domain_polygon(def), {}};
+    const bool reversed = make_anticlockwise(domain.polygon);
+    const std::size_t n = domain.polygon.size();
+    const Box box = bounding_box(domain.polygon);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        const std::size_t as_given = reversed ? (2 * n - 2 - i) % n : i;
+        bool is_fixed = std::find(def.fixed_edges.begin(), def.fixed_edges.end(), static_cast<int>(as_given)) !=
+                        def.fixed_edges.end();
+        for (const std::string& side : def.fixed)
+        {
+            is_fixed = is_fixed || is_on_side(domain.polygon[i], domain.polygon[next(i, n)], box, side);
+        }
+        if (is_fixed)
+        {
+            domain.fixed_edges.insert(static_cast<Index>(i));
+        }
+    }
+    return domain;
+}
+
+/// Distance below which a line goes through a vertex: far below the least size of a block, far above the round-off of coordinates.
+double snapping_distance(const CaseDef& def, const Box& box)
+{
+    double size = (box.high - box.low).norm();
+    const double largest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+    for (const JointSetDef& set : def.joint_sets)
+    {
+        size = std::min(size, set.spacing);
+    }
+    return std::max(1e-9 * size, 64.0 * std::numeric_limits<double>::epsilon() * largest);
+}
+
+void cut_joint_sets(const CaseDef& def, const Polygon& domain, CutMass& mass, RockMass& rock)
+{
+    for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
+    {
+        const JointTraces joints = draw_joints(def.joint_sets[i], static_cast<std::int32_t>(i), def.generator,
+                                               bounding_box(domain));
+        const auto crosses = [&](const CutLine& line) { return side_of(domain, line, mass.tolerance) == Side::crossed; };
+        const auto crossing = std::count_if(joints.lines.begin(), joints.lines.end(), crosses);
+        rock.joints += crossing;
+        if (crossing == 0)
+        {
+            rock.warnings.push_back(
+                {Problem::Severity::warning, "joint_set[" + std::to_string(i) + "]",
+                 "joint set \"" + def.joint_sets[i].name + "\": no joint crosses the domain. Check its spacing and origin."});
+        }
+        cut_blocks(mass, joints, def.joint_sets[i], def.generator, rock);
+    }
+}
+
+void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
+{
+    std::vector<Problem> problems;
+    std::vector<Polygon> outlines;
+    for (std::size_t i = 0; i < def.excavations.size(); ++i)
+    {
+        const ExcavationDef& excavation = def.excavations[i];
+        outlines.push_back(outline_polygon(excavation));
+        const std::size_t areas = cut_outline(mass, outlines, i, excavation.inside);
+        const std::string key = "excavation[" + std::to_string(i) + "]";
+        const std::string object = "excavation \"" + excavation.name + "\": ";
+        if (areas == 0)
+        {
+            problems.push_back(
+                {Problem::Severity::error, key,
+                 object + "nothing is left inside the outline (it lies in earlier excavations). Move it, or drop it."});
+        }
+        else if (areas > 1 && excavation.inside == InsideOutline::one_block)
+        {
+            problems.push_back(
+                {Problem::Severity::error, key + ".inside",
+                 object + "the domain and earlier excavations leave " + std::to_string(areas) +
+                     " separate areas inside the outline (one block must hang together). Give inside = \"jointed\"."});
+        }
+    }
+    if (!problems.empty())
+    {
+        throw InputError(std::move(problems));
+    }
+    merge_slivers(mass, def.generator.smallest_block_area, rock);
+    weld_vertices(mass, outlines);
+}
+
+RockBlock finished(CutBlock& from, const CaseDef& def, const Domain& domain)
+{
+    RockBlock block;
+    block.material = def.domain.material;
+    block.excavation = from.excavation;
+    bool is_fixed = false;
+    for (CutPolygon& part : from.parts)
+    {
+        ConvexPart out{std::move(part.vertices), {}};
+        for (const EdgeTag& edge : part.edges)
+        {
+            out.source.push_back(edge.source);
+            is_fixed = is_fixed || (edge.source == edge_plain && domain.fixed_edges.count(edge.chord) > 0);
+        }
+        block.parts.push_back(std::move(out));
+    }
+    block.fix_x = block.fix_y = block.fix_rotation = is_fixed && from.excavation == no_index;
+    return block;
+}
+
+/// Blocks in order of their excavation (none first), then from the bottom up by their centroids, then from the left; names count them.
+void add_generated(const CaseDef& def, const Domain& domain, CutMass& mass, RockMass& rock)
+{
+    rock.blocks.reserve(mass.blocks.size() + def.blocks.size());
+    std::vector<std::pair<Vec2, RockBlock>> blocks;
+    blocks.reserve(mass.blocks.size());
+    for (CutBlock& from : mass.blocks)
+    {
+        if (from.parts.size() > 1)
+        {
+            merge_convex_parts(from.parts);
+        }
+        RockBlock block = finished(from, def, domain);
+        const Vec2 centroid = moments(block).centroid;
+        blocks.emplace_back(centroid, std::move(block));
+    }
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [](const auto& a, const auto& b)
+                     {
+                         if (a.second.excavation != b.second.excavation)
+                         {
+                             return a.second.excavation < b.second.excavation;
+                         }
+                         return a.first.y() != b.first.y() ? a.first.y() < b.first.y() : a.first.x() < b.first.x();
+                     });
+    std::vector<std::size_t> inside(def.excavations.size(), 0);
+    for (auto& [centroid, block] : blocks)
+    {
+        if (block.excavation == no_index)
+        {
+            block.name = "b" + std::to_string(rock.blocks.size() + 1);
+        }
+        else
+        {
+            const auto number = static_cast<std::size_t>(block.excavation);
+            const ExcavationDef& excavation = def.excavations[number];
+            block.name = excavation.inside == InsideOutline::one_block ? excavation.name
+                                                                       : excavation.name + "." + std::to_string(++inside[number]);
+        }
+        rock.blocks.push_back(std::move(block));
+    }
+}
+
+/// The smallest block sets the time step: one far below the rest is worth a word.
+void warn_of_small_blocks(const CaseDef& def, RockMass& rock)
+{
+    const RockBlock* smallest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const RockBlock& block : rock.blocks)
+    {
+        const double a = area(block);
+        smallest = a < least ? &block : smallest;
+        least = std::min(least, a);
+    }
+    const double mean = rock.domain_area / static_cast<double>(rock.blocks.size());
+    if (def.generator.smallest_block_area <= 0.0 && least < 1e-3 * mean)
+    {
+        rock.warnings.push_back({Problem::Severity::warning, "generator.smallest_block_area",
+                                 "block \"" + smallest->name + "\": area = " + text(least) + " m2 (the mean is " + text(mean) +
+                                     " m2, and the smallest block decides the time step). Set generator.smallest_block_area."});
+    }
+}
+}  // namespace
+
+AreaMoments moments(const RockBlock& block)
+{
+    std::vector<AreaMoments> parts;
+    parts.reserve(block.parts.size());
+    for (const ConvexPart& part : block.parts)
+    {
+        parts.push_back(area_moments(part.vertices));
+    }
+    return combined(parts);
+}
+
+double area(const RockBlock& block)
+{
+    double sum = 0.0;
+    for (const ConvexPart& part : block.parts)
+    {
+        sum += signed_area(part.vertices);
+    }
+    return sum;
+}
+
+RockMass generate_rock_mass(const CaseDef& def)
+{
+    std::vector<Problem> problems = find_rock_problems(def);
+    if (!problems.empty())
+    {
+        throw InputError(std::move(problems));
+    }
+    RockMass rock;
+    if (def.domain.given)
+    {
+        const Domain domain = make_domain(def.domain);
+        rock.domain_area = signed_area(domain.polygon);
+        CutMass mass = uncut_mass(domain.polygon, snapping_distance(def, bounding_box(domain.polygon)));
+        cut_joint_sets(def, domain.polygon, mass, rock);
+        cut_excavations(def, mass, rock);
+        add_generated(def, domain, mass, rock);
+        warn_of_small_blocks(def, rock);
+    }
+    add_explicit_blocks(def, rock);
+    return rock;
+}
+}  // namespace hdem

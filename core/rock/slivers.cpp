@@ -1,0 +1,189 @@
+#include "core/rock/slivers.h"
+
+#include "core/rock/problem_text.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+using Slot = std::size_t;  // position in mass.blocks
+
+class SliverMerger
+{
+  public:
+    SliverMerger(CutMass& mass, double smallest_area, RockMass& counts)
+        : mass_(mass),
+          smallest_area_(smallest_area),
+          counts_(counts),
+          owner_(mass.blocks.size())
+    {
+        std::iota(owner_.begin(), owner_.end(), Slot{0});
+        for (Slot b = 0; b < mass_.blocks.size(); ++b)
+        {
+            const double area = mass_.blocks[b].outline == no_index ? smallest_area_ : total_area(mass_.blocks[b].parts);
+            if (area < smallest_area_)
+            {
+                queue_.insert({area, b});
+            }
+        }
+    }
+
+    void run()
+    {
+        index_chords();
+        while (!queue_.empty())
+        {
+            const auto [area, sliver] = *queue_.begin();
+            queue_.erase(queue_.begin());
+            merge(sliver, area);
+        }
+        std::erase_if(mass_.blocks, [](const CutBlock& block) { return block.parts.empty(); });
+    }
+
+  private:
+    /// Who has an edge on a chord of a sliver: only those can become its neighbours.
+    void index_chords()
+    {
+        for (const auto& [area, sliver] : queue_)
+        {
+            for_each_chord(mass_.blocks[sliver], [this](Index chord) { users_[chord]; });
+        }
+        for (Slot b = 0; b < mass_.blocks.size(); ++b)
+        {
+            for_each_chord(mass_.blocks[b],
+                           [this, b](Index chord)
+                           {
+                               const auto users = users_.find(chord);
+                               if (users != users_.end())
+                               {
+                                   users->second.push_back(b);
+                               }
+                           });
+        }
+    }
+
+    template <class Visit>
+    static void for_each_chord(const CutBlock& block, const Visit& visit)
+    {
+        for (const CutPolygon& part : block.parts)
+        {
+            for (const EdgeTag& edge : part.edges)
+            {
+                if (edge.source != edge_internal)
+                {
+                    visit(edge.chord);
+                }
+            }
+        }
+    }
+
+    Slot owner_of(Slot b) const
+    {
+        while (owner_[b] != b)
+        {
+            b = owner_[b];
+        }
+        return b;
+    }
+
+    double length_between(const CutBlock& a, const CutBlock& b) const
+    {
+        double sum = 0.0;
+        for (const CutPolygon& of_a : a.parts)
+        {
+            for (const CutPolygon& of_b : b.parts)
+            {
+                sum += shared_length(of_a, of_b, mass_.chords, mass_.tolerance);
+            }
+        }
+        return sum;
+    }
+
+    /// The block on the same side with the greatest shared length, or the sliver itself.
+    Slot best_neighbour(Slot sliver) const
+    {
+        std::set<Slot> candidates;
+        for_each_chord(mass_.blocks[sliver],
+                       [&](Index chord)
+                       {
+                           for (const Slot b : users_.at(chord))
+                           {
+                               candidates.insert(owner_of(b));
+                           }
+                       });
+        Slot best = sliver;
+        double most = 0.0;
+        for (const Slot b : candidates)
+        {
+            if (b == sliver || mass_.blocks[b].excavation != mass_.blocks[sliver].excavation)
+            {
+                continue;
+            }
+            const double length = length_between(mass_.blocks[sliver], mass_.blocks[b]);
+            if (length > most)
+            {
+                best = b;
+                most = length;
+            }
+        }
+        return best;
+    }
+
+    void merge(Slot sliver, double area)
+    {
+        const Slot target = best_neighbour(sliver);
+        if (target == sliver)
+        {
+            warn(mass_.blocks[sliver], area);
+            return;
+        }
+        CutBlock& from = mass_.blocks[sliver];
+        CutBlock& to = mass_.blocks[target];
+        const double target_area = total_area(to.parts);
+        for (CutPolygon& a : from.parts)
+        {
+            for (CutPolygon& b : to.parts)
+            {
+                set_shared_source(a, b, edge_internal, mass_.chords, mass_.tolerance);
+            }
+        }
+        std::move(from.parts.begin(), from.parts.end(), std::back_inserter(to.parts));
+        from.parts.clear();
+        owner_[sliver] = target;
+        ++counts_.merged_slivers;
+        if (queue_.erase({target_area, target}) > 0 && target_area + area < smallest_area_)
+        {
+            queue_.insert({total_area(to.parts), target});
+        }
+    }
+
+    void warn(const CutBlock& block, double area)
+    {
+        const std::string outline = std::to_string(block.outline);
+        const Vec2 at = area_moments(block.parts.front().vertices).centroid;
+        counts_.warnings.push_back({Problem::Severity::warning, "excavation[" + outline + "]",
+                                    "excavation: a piece at " + text(at) + " has area = " + text(area) +
+                                        " m2 (below generator.smallest_block_area, and no neighbour on its side of the outline to "
+                                        "join). Move the outline, or expect a small time step."});
+    }
+
+    CutMass& mass_;
+    double smallest_area_;
+    RockMass& counts_;
+    std::set<std::pair<double, Slot>> queue_;  // area and block: smallest first
+    std::vector<Slot> owner_;                  // the block a merged sliver now belongs to
+    std::unordered_map<Index, std::vector<Slot>> users_;
+};
+}  // namespace
+
+void merge_slivers(CutMass& mass, double smallest_area, RockMass& counts)
+{
+    SliverMerger(mass, smallest_area, counts).run();
+}
+}  // namespace hdem

@@ -1,0 +1,85 @@
+#include "core/rock/weld.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+std::vector<Box> widened_boxes(const std::vector<Polygon>& outlines, double by)
+{
+    std::vector<Box> boxes;
+    for (const Polygon& outline : outlines)
+    {
+        const Box box = bounding_box(outline);
+        boxes.push_back({box.low.array() - by, box.high.array() + by});
+    }
+    return boxes;
+}
+
+std::vector<Vec2*> vertices_in(CutMass& mass, const std::vector<Box>& boxes)
+{
+    std::vector<Vec2*> vertices;
+    for (CutBlock& block : mass.blocks)
+    {
+        for (CutPolygon& part : block.parts)
+        {
+            for (Vec2& p : part.vertices)
+            {
+                if (std::any_of(boxes.begin(), boxes.end(), [&p](const Box& box) { return box.meets({p, p}); }))
+                {
+                    vertices.push_back(&p);
+                }
+            }
+        }
+    }
+    return vertices;
+}
+
+void drop_repeated_vertices(CutPolygon& part)
+{
+    for (std::size_t i = part.vertices.size(); i-- > 0 && part.vertices.size() > 3;)
+    {
+        if (part.vertices[i] == part.vertices[next(i, part.vertices.size())])
+        {
+            part.vertices.erase(part.vertices.begin() + static_cast<std::ptrdiff_t>(i));
+            part.edges.erase(part.edges.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
+}
+}  // namespace
+
+void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines)
+{
+    std::vector<Vec2*> vertices = vertices_in(mass, widened_boxes(outlines, mass.tolerance));
+    std::sort(vertices.begin(), vertices.end(),
+              [](const Vec2* a, const Vec2* b) { return a->x() != b->x() ? a->x() < b->x() : a->y() < b->y(); });
+    bool moved = false;
+    std::vector<bool> done(vertices.size(), false);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+        if (done[i])
+        {
+            continue;
+        }
+        const Vec2 at = *vertices[i];
+        for (std::size_t j = i + 1; j < vertices.size() && vertices[j]->x() - at.x() < mass.tolerance; ++j)
+        {
+            if (!done[j] && std::abs(vertices[j]->y() - at.y()) < mass.tolerance)
+            {
+                moved = moved || *vertices[j] != at;
+                *vertices[j] = at;
+                done[j] = true;
+            }
+        }
+    }
+    if (moved)
+    {
+        for (CutBlock& block : mass.blocks)
+        {
+            std::for_each(block.parts.begin(), block.parts.end(), drop_repeated_vertices);
+        }
+    }
+}
+}  // namespace hdem

@@ -1,0 +1,15 @@
+#pragma once
+/// Vertices that are one point up to round-off become one point.
+
+#include "core/rock/block_cutter.h"
+
+#include <vector>
+
+namespace hdem
+{
+/// Vertices within an outline's box and nearer to each other than mass.tolerance take the same coordinates.
+///
+/// Chords make neighbours agree wherever one cut parted them. A point where two outlines or an outline's vertex and a joint happen
+/// to meet is computed more than once, in ways that may differ in the last bit.
+void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines);
+}  // namespace hdem

@@ -1,0 +1,32 @@
+#pragma once
+/// Everything that changes during a run. A checkpoint holds exactly this.
+
+#include "core/model/case_def.h"
+#include "core/state/blocks.h"
+#include "core/state/contacts.h"
+#include "core/state/energy_terms.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hdem
+{
+struct State
+{
+    Blocks blocks;
+    Contacts contacts;
+    std::vector<BlockMotion> rebuilt_at;        ///< poses at the last broad-phase rebuild
+    std::vector<Index> next_to_excavation;      ///< blocks that touched what was excavated, ascending
+    EnergyLedger ledger;
+    std::int64_t cycle = 0;
+    double time = 0.0;                          ///< [s]
+    std::int64_t stage_begin_cycle = 0;
+    Index stage = 0;                            ///< running, or next to begin
+    Method method = Method::hybrid;             ///< in force now
+    DampingPreset damping = DampingPreset::automatic;
+    std::int64_t excavation_cycle = -1;         ///< of the last excavation, -1: none yet
+    std::int64_t broad_phase_runs = 0;
+    std::int64_t feature_searches = 0;
+    bool contacts_outdated = true;              ///< broad phase must run before the next cycle
+};
+}  // namespace hdem

@@ -1,0 +1,64 @@
+#include "core/state/state_hash.h"
+
+#include <algorithm>
+#include <array>
+#include <xxhash.h>
+
+namespace hdem
+{
+namespace
+{
+/// Number of each part when blocks are counted in the user's order.
+std::vector<Index> user_part_numbers(const Model& model)
+{
+    const Shapes& shapes = model.shapes;
+    std::vector<Index> number(shapes.part_block.size());
+    Index count = 0;
+    for (const Index block : model.slot_of_user)
+        for (Index part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part)
+            number[part] = count++;
+    return number;
+}
+
+struct HashedContact
+{
+    std::int64_t low, high, sense;           ///< parts by user number; sense: the reference edge is on `low`
+    std::array<double, 4> force;
+    std::array<std::int64_t, 2> regime;
+};
+}  // namespace
+
+std::uint64_t state_hash(const Model& model, const State& state)
+{
+    XXH3_state_t* const hash = XXH3_createState();
+    XXH3_64bits_reset(hash);
+    for (const Index i : model.slot_of_user)
+    {
+        const BlockMotion& m = state.blocks.motion[i];
+        const std::array<double, 8> values{m.x + 0.0, m.y + 0.0, m.c + 0.0, m.s + 0.0, m.vx + 0.0, m.vy + 0.0, m.w + 0.0, m.angle + 0.0};
+        XXH3_64bits_update(hash, values.data(), sizeof values);
+    }
+    const std::vector<Index> number = user_part_numbers(model);
+    const Contacts& contacts = state.contacts;
+    std::vector<HashedContact> hashed;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        if (contacts.regime[0][i] == 0 && contacts.regime[1][i] == 0)
+            continue;
+        const Index a = number[contacts.part_a[i]];
+        const Index b = number[contacts.part_b[i]];
+        const bool ref_is_a = model.shapes.part_block[contacts.part_a[i]] == contacts.ref[i];
+        hashed.push_back({std::min(a, b), std::max(a, b), (ref_is_a ? a : b) == std::min(a, b),
+                          {contacts.normal_force[0][i] + 0.0, contacts.normal_force[1][i] + 0.0, contacts.shear_force[0][i] + 0.0,
+                           contacts.shear_force[1][i] + 0.0},
+                          {contacts.regime[0][i], contacts.regime[1][i]}});
+    }
+    std::sort(hashed.begin(), hashed.end(), [](const HashedContact& p, const HashedContact& q) {
+        return p.low != q.low ? p.low < q.low : p.high < q.high;
+    });
+    XXH3_64bits_update(hash, hashed.data(), hashed.size() * sizeof(HashedContact));
+    const std::uint64_t digest = XXH3_64bits_digest(hash);
+    XXH3_freeState(hash);
+    return digest;
+}
+}  // namespace hdem

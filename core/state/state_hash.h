@@ -1,0 +1,14 @@
+#pragma once
+/// Fingerprint of a state.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+#include <cstdint>
+
+namespace hdem
+{
+/// XXH3 of pose, velocity and contact history, taken in the user's order of blocks and parts, so that it does not see how
+/// blocks and contacts are sorted in memory. Open contacts carry no history and do not count; -0 counts as 0.
+[[nodiscard]] std::uint64_t state_hash(const Model& model, const State& state);
+}  // namespace hdem

@@ -1,0 +1,115 @@
+#include "io/atomic_file.h"
+
+#include "core/check.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace hdem
+{
+namespace
+{
+const char* advice(int error)
+{
+    switch (error)
+    {
+    case ENOSPC:
+    case EDQUOT: return "The disk or the quota is full: free some space, or write to another folder with -o.";
+    case EFBIG: return "A limit on file sizes was met: see ulimit -f.";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "Give a folder that may be written with -o.";
+    default: return "Check the disk, or write to another folder with -o.";
+    }
+}
+
+/// A file descriptor that is closed, and a temporary file that is removed, however the function is left.
+class Temporary
+{
+  public:
+    Temporary(const std::filesystem::path& target, const std::filesystem::path& name)
+        : target_(target), name_(name), descriptor_(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    {
+        if (descriptor_ < 0)
+            fail();
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary()
+    {
+        if (descriptor_ >= 0)
+            ::close(descriptor_);
+        if (!renamed_)
+            ::unlink(name_.c_str());
+    }
+
+    void write(std::span<const std::byte> bytes) const
+    {
+        while (!bytes.empty())
+        {
+            const ssize_t n = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1U << 30U));
+            if (n < 0 && errno != EINTR)
+                fail();
+            bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+        }
+    }
+
+    void rename()
+    {
+        if (::fsync(descriptor_) != 0)
+            fail();
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0 || ::rename(name_.c_str(), target_.c_str()) != 0)  // NFS reports a full disk at close
+            fail();
+        renamed_ = true;
+    }
+
+  private:
+    [[noreturn]] void fail() const
+    {
+        const int error = errno;
+        throw RunError(fmt::format("{}: cannot be written ({}). {}", target_.string(), std::strerror(error), advice(error)));
+    }
+
+    std::filesystem::path target_;
+    std::filesystem::path name_;
+    int descriptor_ = -1;
+    bool renamed_ = false;
+};
+
+void sync_folder(const std::filesystem::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    ::fsync(descriptor);  // some file systems cannot sync a folder; the file itself is safe by then
+    ::close(descriptor);
+}
+}  // namespace
+
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes)
+{
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw RunError(fmt::format("{}: folder cannot be made ({}). {}", folder.string(), error.message(), advice(error.value())));
+    std::filesystem::path name = file;
+    name += ".tmp";
+    Temporary temporary(file, name);
+    temporary.write(bytes);
+    temporary.rename();
+    sync_folder(folder);
+}
+
+void write_atomically(const std::filesystem::path& file, std::string_view text)
+{
+    write_atomically(file, std::as_bytes(std::span(text)));
+}
+}  // namespace hdem

@@ -1,0 +1,15 @@
+#pragma once
+/// Files that stand under their name complete or not at all, whenever a run is killed.
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace hdem
+{
+/// Write `bytes` to FILE.tmp, fsync, rename to FILE, fsync the folder: whoever opens FILE sees the old content or the new,
+/// never a part. Makes the folder when it is missing.
+/// Throws RunError with the file, the system's reason (disk full, no permission) and what may help; FILE is then as it was.
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
+void write_atomically(const std::filesystem::path& file, std::string_view text);
+}  // namespace hdem

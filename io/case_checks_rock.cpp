@@ -1,0 +1,167 @@
+#include "io/case_check.h"
+#include "io/case_checks.h"
+
+#include <algorithm>
+#include <map>
+
+namespace hdem
+{
+namespace
+{
+class RockCheck : public CaseCheck
+{
+  public:
+    using CaseCheck::CaseCheck;
+
+    void check()
+    {
+        check_rock();
+        check_domain();
+        check_names();
+        for (std::size_t i = 0; i < def_.excavations.size(); ++i)
+            check_excavation(def_.excavations[i], fmt::format("excavation[{}]", i));
+        check_joints();
+    }
+
+  private:
+    void check_rock()
+    {
+        const bool meant = problems_.has("domain") || problems_.has("block") || problems_.has("blocks_file");
+        if (!def_.domain.given && def_.blocks.empty() && def_.blocks_file.empty() && !meant)
+            problems_.add("domain", "case", "[domain], [[block]] and blocks_file", "none is given: there is no rock",
+                          "Give a [domain], or at least one [[block]].");
+        for (const char* list : {"joint_set", "excavation"})
+            if (given(list) && !def_.domain.given && !problems_.has("domain"))
+                problems_.add(list, "case", fmt::format("[[{}]]", list), "cuts the domain only, and there is no [domain]",
+                              "Give a [domain], or cut the blocks yourself.");
+    }
+
+    void check_domain()
+    {
+        const DomainDef& domain = def_.domain;
+        if (!domain.given)
+            return;
+        if (given("domain.polygon"))
+            for (const char* key : {"width", "height", "origin", "fixed"})
+                exclude("domain", "[domain]", "polygon", key);
+        else
+        {
+            for (const char* key : {"width", "height"})
+                if (!given(std::string("domain.") + key))
+                    problems_.add(std::string("domain.") + key, "[domain]", key, "is missing",
+                                  "Give width and height in m, or a polygon.");
+            if (given("domain.fixed_edges"))
+                problems_.add("domain.fixed_edges", "[domain]", "fixed_edges",
+                              "numbers edges of a polygon, and the domain is a rectangle",
+                              "Use fixed = [\"left\", \"bottom\", ...].");
+        }
+    }
+
+    /// Rules for names, and no name twice among those that the same key may refer to.
+    void check_names()
+    {
+        std::map<std::string, std::string> rock;
+        check_name_list("excavation", "excavation", def_.excavations, rock);
+        check_name_list("block", "block", def_.blocks, rock);
+        std::map<std::string, std::string> sets, stages, histories;
+        check_name_list("joint_set", "joint set", def_.joint_sets, sets);
+        check_name_list("stage", "stage", def_.stages, stages);
+        check_name_list("history", "history", def_.histories, histories);
+    }
+
+    template <class Entries>
+    void check_name_list(const std::string& section, const std::string& label, const Entries& entries,
+                         std::map<std::string, std::string>& taken)
+    {
+        for (std::size_t i = 0; i < entries.size(); ++i)
+        {
+            const std::string& name = entries[i].name;
+            const std::string key = fmt::format("{}[{}].name", section, i);
+            const std::string object = fmt::format("{} {}", label, i + 1);
+            const std::string said = fmt::format("name = \"{}\"", printable(name));
+            const bool plain = std::none_of(name.begin(), name.end(),
+                                            [](unsigned char c) { return c < 0x20 || c == 0x7f || c == ';' || c == '/'; });
+            if (name.empty() || name == "*" || name == "." || name == ".." || name.size() > 200 || name.front() == ' ' ||
+                name.back() == ' ' || !plain)
+                problems_.add(key, object, said, "cannot be a name",
+                              "Choose 1 to 200 characters without ; and /, that do not start or end with a blank.");
+            else if (const auto [other, added] = taken.emplace(name, object); !added)
+                problems_.add(key, object, said, fmt::format("{} has this name already", other->second), "Choose another.");
+        }
+    }
+
+    void check_excavation(const ExcavationDef& excavation, const std::string& path)
+    {
+        const std::string object = fmt::format("excavation \"{}\"", printable(excavation.name));
+        if (!given(path + ".shape") || problems_.has(path + ".shape"))
+            return;
+        static const std::map<OutlineShape, std::pair<std::string, Names>> needs = {
+            {OutlineShape::horseshoe, {"horseshoe", {"position", "width", "height"}}},
+            {OutlineShape::rectangle, {"rectangle", {"position", "width", "height"}}},
+            {OutlineShape::circle, {"circle", {"position", "diameter"}}},
+            {OutlineShape::polygon, {"polygon", {"polygon"}}}};
+        const auto& [shape, keys] = needs.at(excavation.shape);
+        for (const std::string key : {"position", "width", "height", "diameter", "polygon"})
+            if (keys.contains(key) && !given(path + "." + key))
+                problems_.add(path + "." + key, object, key, fmt::format("is missing: a {} needs it", shape), "Add it.");
+            else if (!keys.contains(key) && given(path + "." + key))
+                problems_.add(path + "." + key, object, key, fmt::format("a {} has none", shape),
+                              "Remove it, or choose another shape.");
+        const bool arc = excavation.shape == OutlineShape::horseshoe || excavation.shape == OutlineShape::circle;
+        if (!arc && given(path + ".arc_segments"))
+            problems_.add(path + ".arc_segments", object, "arc_segments", fmt::format("a {} has no arc", shape), "Remove it.");
+    }
+
+    void check_joints()
+    {
+        if (!joints_.contains("default") && !problems_.has("joint"))
+            problems_.add("joint.default", "joint \"default\"", "[joint.default]",
+                          "is missing: contacts that no other joint claims take it",
+                          "Add it with normal_stiffness, shear_stiffness and friction_angle_deg.");
+        if (!problems_.has("material"))
+        {
+            if (def_.domain.given)
+                check_reference("domain.material", "[domain]", def_.domain.material, "material", materials_);
+            for (std::size_t i = 0; i < def_.blocks.size(); ++i)
+                check_reference(fmt::format("block[{}].material", i), fmt::format("block \"{}\"", printable(def_.blocks[i].name)),
+                                def_.blocks[i].material, "material", materials_);
+        }
+        for (std::size_t i = 0; i < def_.joint_sets.size(); ++i)
+            if (!def_.joint_sets[i].joint.empty())
+                check_reference(fmt::format("joint_set[{}].joint", i),
+                                fmt::format("joint set \"{}\"", printable(def_.joint_sets[i].name)), def_.joint_sets[i].joint,
+                                "joint", joints_);
+
+        std::map<std::pair<std::string, std::string>, std::string> pairs;
+        for (const JointDef& joint : def_.joints)
+        {
+            const std::string key = "joint." + joint.name + ".materials";
+            const std::string object = fmt::format("joint \"{}\"", joint.name);
+            if (!given(key) || problems_.has(key))
+                continue;
+            if (joint.name == "default")
+                problems_.add(key, object, "materials", "the default is for all that remains",
+                              "Remove it, or use another name for this joint.");
+            else if (joint.materials.size() != 2)
+                problems_.add(key, object, "materials",
+                              fmt::format("names {} materials, a contact has two", joint.materials.size()),
+                              "Write e.g. [\"rock\", \"rock\"].");
+            else
+            {
+                for (const std::string& material : joint.materials)
+                    check_reference(key, object, material, "material", materials_);
+                const auto [low, high] = std::minmax(joint.materials[0], joint.materials[1]);
+                if (const auto [other, added] = pairs.emplace(std::pair(low, high), joint.name); !added)
+                    problems_.add(key, object, "materials", fmt::format("joint \"{}\" has the same two", other->second),
+                                  "Keep one of them.");
+            }
+        }
+    }
+};
+}  // namespace
+
+void check_rock_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
+{
+    RockCheck(def, source, problems).check();
+}
+}  // namespace hdem

@@ -1,0 +1,177 @@
+#include "io/case_check.h"
+#include "io/case_checks.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace hdem
+{
+namespace
+{
+class RunCheck : public CaseCheck
+{
+  public:
+    using CaseCheck::CaseCheck;
+
+    void check()
+    {
+        for (std::size_t i = 0; i < def_.loads.size(); ++i)
+            check_load(def_.loads[i], fmt::format("load[{}]", i), fmt::format("load {}", i + 1));
+        check_settings();
+        check_stages();
+        for (std::size_t i = 0; i < def_.histories.size(); ++i)
+            check_history(def_.histories[i], fmt::format("history[{}]", i));
+    }
+
+  private:
+    [[nodiscard]] bool fixed_by_a_stage(const std::string& name) const
+    {
+        return std::any_of(def_.stages.begin(), def_.stages.end(),
+                           [&](const StageDef& stage)
+                           { return std::find(stage.fix.begin(), stage.fix.end(), name) != stage.fix.end(); });
+    }
+
+    void check_load(const LoadDef& load, const std::string& path, const std::string& object)
+    {
+        const bool any = std::any_of(std::begin(effects), std::end(effects),
+                                     [&](const char* key) { return given(path + "." + key); });
+        if (!any)
+            problems_.add(path, object, "load", "does nothing", "Give acceleration, force, moment, or a prescribed velocity.");
+        exclude(path, object, "from_cycle", "from_time");
+        exclude(path, object, "until_cycle", "until_time");
+        const Interval& when = load.interval;
+        if (when.from_cycle && when.until_cycle && *when.until_cycle <= *when.from_cycle)
+            problems_.add(path + ".until_cycle", object, fmt::format("until_cycle = {}", *when.until_cycle),
+                          "the load ends before it begins", "Give more than from_cycle.");
+        if (when.from_time && when.until_time && *when.until_time <= *when.from_time)
+            problems_.add(path + ".until_time", object, fmt::format("until_time = {} s", *when.until_time),
+                          "the load ends before it begins", "Give more than from_time.");
+        if (given(path + ".blocks") && load.blocks.empty())
+            problems_.add(path + ".blocks", object, "blocks = []", "names no block",
+                          "Name at least one, or \"*\" for all free blocks.");
+
+        const std::pair<const char*, bool BlockDef::*> prescribed[] = {
+            {"velocity_x", &BlockDef::fix_x}, {"velocity_y", &BlockDef::fix_y}, {"angular_velocity", &BlockDef::fix_rotation}};
+        for (const std::string& name : load.blocks)
+        {
+            if (name != "*")
+                check_block_reference(path + ".blocks", object, name);
+            for (const auto& [key, component] : prescribed)
+            {
+                if (!given(path + "." + key))
+                    continue;
+                const auto block = std::find_if(def_.blocks.begin(), def_.blocks.end(),
+                                                [&](const BlockDef& b) { return b.name == name; });
+                const bool free = name == "*" || (block != def_.blocks.end() && !((*block).*component) && !fixed_by_a_stage(name));
+                if (free)
+                    problems_.add(path + "." + key, object, key,
+                                  fmt::format("is prescribed, but this component of {} is free",
+                                              name == "*" ? "\"*\"" : "block \"" + printable(name) + "\""),
+                                  "Fix it with the block's key fixed, or use a force.");
+            }
+        }
+    }
+
+    void check_settings()
+    {
+        exclude("contact", "[contact]", "threshold_scale", "threshold_velocity");
+        if (given("convergence.criteria") && def_.convergence.criteria.empty())
+            problems_.add("convergence.criteria", "[convergence]", "criteria = []", "nothing would ever converge",
+                          "Name at least one.");
+        const bool ratio = def_.damping.global_damping_ratio > 0.0;
+        if (ratio != (def_.damping.average_frequency > 0.0))
+            problems_.add(ratio ? "damping.global_damping_ratio" : "damping.average_frequency", "[damping]",
+                          ratio ? "global_damping_ratio" : "average_frequency", "has no effect: Eq. (22) is the product of both",
+                          ratio ? "Give average_frequency as well." : "Give global_damping_ratio as well.");
+        if (given("time.step") && given("time.fraction"))
+            problems_.warn("time.fraction", "[time]", "fraction", "has no effect: step is given", "Remove one of the two.");
+        if (given("damping.local") && def_.damping.preset == DampingPreset::dynamic)
+            problems_.warn("damping.local", "[damping]", "local", "has no effect: the preset \"dynamic\" has no local damping",
+                           "Remove it, or choose another preset.");
+    }
+
+    void check_stages()
+    {
+        if (def_.stages.empty() && !problems_.has("stage"))
+            problems_.add("stage", "case", "[[stage]]", "is missing: nothing would be run", "Add one, e.g. with cycles = 5000.");
+        Names removed;
+        for (std::size_t i = 0; i < def_.stages.size(); ++i)
+        {
+            const StageDef& stage = def_.stages[i];
+            const std::string path = fmt::format("stage[{}]", i);
+            const std::string object = fmt::format("stage \"{}\"", printable(stage.name));
+            exclude(path, object, "cycles", "duration");
+            exclude(path, object, "cycles", "until");
+            exclude(path, object, "duration", "until");
+            const bool ends = given(path + ".cycles") || given(path + ".duration") || given(path + ".until") ||
+                              problems_.has(path + ".cycles") || problems_.has(path + ".duration") ||
+                              problems_.has(path + ".until");
+            if (!ends)
+                problems_.add(path, object, "cycles, duration, until", "none is given: the stage has no end",
+                              "Give exactly one of them.");
+            if (given(path + ".max_cycles") && ends && !given(path + ".until"))
+                problems_.add(path + ".max_cycles", object, "max_cycles", "limits a stage with until",
+                              "Use cycles, or add until = \"converged\".");
+            for (const std::string& name : stage.excavate)
+            {
+                check_block_reference(path + ".excavate", object, name, "excavation or block", excavations_);
+                if (!removed.insert(name).second)
+                    problems_.add(path + ".excavate", object, fmt::format("excavate = \"{}\"", printable(name)),
+                                  "is removed already", "Remove it once.");
+            }
+            for (const std::string& name : stage.fix)
+                check_block_reference(path + ".fix", object, name);
+            for (const std::string& name : stage.free)
+            {
+                check_block_reference(path + ".free", object, name);
+                if (std::find(stage.fix.begin(), stage.fix.end(), name) != stage.fix.end())
+                    problems_.add(path + ".free", object, fmt::format("free = \"{}\"", printable(name)), "the same stage fixes it",
+                                  "Choose one.");
+            }
+        }
+        for (std::size_t i = 0; i < def_.excavations.size(); ++i)
+            if (const auto& name = def_.excavations[i].name; !removed.contains(name))
+                problems_.warn(fmt::format("excavation[{}]", i), fmt::format("excavation \"{}\"", printable(name)), "excavate",
+                               "no stage removes it", fmt::format("Add excavate = [\"{}\"] to a stage.", printable(name)));
+    }
+
+    void check_history(const HistoryDef& history, const std::string& path)
+    {
+        const std::string object = fmt::format("history \"{}\"", printable(history.name));
+        const bool block = given(path + ".block");
+        const bool between = given(path + ".between");
+        exclude(path, object, "block", "between");
+        if (!block && !between && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
+            problems_.add(path, object, "block, between", "none is given",
+                          "Give block = \"NAME\", or between = [\"NAME\", \"NAME\"].");
+        if (block && !problems_.has(path + ".block"))
+            check_block_reference(path + ".block", object, history.block);
+        if (between && !problems_.has(path + ".between") &&
+            (history.between.size() != 2 || history.between[0] == history.between[1]))
+            problems_.add(path + ".between", object, "between", "must name two different blocks", "Write [\"NAME\", \"NAME\"].");
+        for (const std::string& name : history.between)
+            check_block_reference(path + ".between", object, name);
+
+        if (given(path + ".quantities") && history.quantities.empty())
+            problems_.add(path + ".quantities", object, "quantities = []", "names nothing to sample", "Name at least one.");
+        const auto& fitting = block ? block_quantities() : contact_quantities();
+        Names seen;
+        for (const std::string& quantity : history.quantities)
+            if (block != between && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
+                problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity),
+                              fmt::format("belongs to {}", block ? "between, the contacts of two blocks" : "block"),
+                              "Choose from " + quoted_list(fitting) + ".");
+            else if (!seen.insert(quantity).second)
+                problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity), "is listed twice",
+                              "List it once.");
+    }
+
+    static constexpr const char* effects[] = {"acceleration", "force", "moment", "velocity_x", "velocity_y", "angular_velocity"};
+};
+}  // namespace
+
+void check_run_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
+{
+    RunCheck(def, source, problems).check();
+}
+}  // namespace hdem

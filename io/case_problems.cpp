@@ -1,0 +1,248 @@
+#include "io/case_problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hdem
+{
+namespace
+{
+/// More lines than this help nobody; the last one says how many there are.
+constexpr std::size_t most_errors = 200;
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+    std::iota(above.begin(), above.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        std::swap(before, above);
+        std::swap(above, row);
+    }
+    return above[b.size()];
+}
+
+std::string kind_of(const TomlNode& node)
+{
+    if (node.boolean() != nullptr)
+        return "true or false";
+    if (node.is_number())
+        return "a number";
+    if (node.text() != nullptr)
+        return "text";
+    if (node.items() != nullptr)
+        return "a list";
+    return node.members() != nullptr ? "a table" : "a date";
+}
+
+std::string give(const KeySpec& key)
+{
+    std::string text = "Give " + describe_type(key);
+    if (const auto range = key.range.describe(); !range.empty() && key.type != ValueType::number_or_text)
+        text += ", " + range;
+    return text + (key.example.empty() ? "." : fmt::format(", e.g. {} = {}.", key.name, key.example));
+}
+
+using Complaints = std::vector<Complaint>;
+
+/// @param expected of an item of a list, when it is not the type of the key
+Complaints wrong_type(const KeySpec& key, const TomlNode& node, const std::string& item = "", std::string expected = "")
+{
+    if (item.empty())
+        expected = describe_type(key);
+    if (key.unit.empty() || node.text() == nullptr || key.type == ValueType::text)
+        return {{item, &node, fmt::format("expected {}, got {}", expected, kind_of(node)), give(key)}};
+    return {{item, &node, fmt::format("expected {}, got text", expected),
+             "Values carry no unit and no quotes." +
+                 (key.example.empty() ? "" : fmt::format(" Write {} = {}.", key.name, key.example))}};
+}
+
+Complaints check_number(const KeySpec& key, const TomlNode& node, const std::string& item = "")
+{
+    const bool whole = key.type == ValueType::integer || key.type == ValueType::integer_list;
+    if (!node.is_number())
+        return wrong_type(key, node, item, whole ? "a whole number" : key.unit.empty() ? "a number" : "a number in " + key.unit);
+    const double x = node.number();
+    if (!std::isfinite(x))
+        return {{item, &node, "must be finite", give(key)}};
+    if (whole && node.integer() == nullptr && (x != std::floor(x) || std::abs(x) > 9e15))
+        return {{item, &node, "must be a whole number", give(key)}};
+    if (!key.range.holds(x))
+        return {{item, &node, "must be " + key.range.describe(), give(key)}};
+    return {};
+}
+
+Complaints check_text(const KeySpec& key, const TomlNode& node, const std::string& item = "")
+{
+    if (node.text() == nullptr)
+        return wrong_type(key, node, item, "text in quotes");
+    const std::string& text = *node.text();
+    if (key.choices.empty() || std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end())
+        return {};
+    const std::string near = did_you_mean(text, key.choices);
+    return {{item, &node, near.empty() ? "unknown choice" : fmt::format("unknown choice; did you mean '{}'?", near),
+             "Choose from " + quoted_list(key.choices) + "."}};
+}
+
+Complaints check_vector(const KeySpec& key, const TomlNode& node, const std::string& item = "")
+{
+    if (node.items() == nullptr)
+        return wrong_type(key, node, item, "[x, y]");
+    if (node.items()->size() != 2)
+        return {{item, &node, fmt::format("has {} numbers, a point or vector has two", node.items()->size()), "Write [x, y]."}};
+    for (std::size_t i = 0; i < 2; ++i)
+        if (auto found = check_number(key, (*node.items())[i], fmt::format("{}[{}]", item, i)); !found.empty())
+            return found;
+    return {};
+}
+
+template <class CheckItem>
+Complaints check_items(const KeySpec& key, const TomlNode& node, CheckItem check_item)
+{
+    if (node.items() == nullptr)
+        return wrong_type(key, node);
+    for (std::size_t i = 0; i < node.items()->size(); ++i)
+        if (auto found = check_item(key, (*node.items())[i], fmt::format("[{}]", i)); !found.empty())
+            return found;
+    return {};
+}
+
+Complaints check_polygon(const KeySpec& key, const TomlNode& node)
+{
+    auto found = check_items(key, node, check_vector);
+    if (found.empty() && node.items()->size() < 3)
+        found.push_back({"", &node, fmt::format("has {} vertices, a polygon has at least 3", node.items()->size()),
+                         "Write [[x, y], [x, y], [x, y], ...]."});
+    return found;
+}
+}  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names)
+{
+    std::string best;
+    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& name : names)
+    {
+        const std::size_t difference = name.size() > word.size() ? name.size() - word.size() : word.size() - name.size();
+        if (name.empty() || word.size() > 200 || difference >= least)
+            continue;
+        if (const std::size_t distance = edit_distance(word, name); distance < least)
+        {
+            least = distance;
+            best = name;
+        }
+    }
+    return best;
+}
+
+void CaseProblems::add(const std::string& key, const std::string& object, const std::string& said, const std::string& why,
+                       const std::string& remedy)
+{
+    if (!keys_.insert(key).second || ++errors_ > most_errors)
+        return;
+    problems_.push_back({Problem::Severity::error, key, fmt::format("{}: {} ({}). {}", object, said, why, remedy)});
+}
+
+void CaseProblems::warn(const std::string& key, const std::string& object, const std::string& said, const std::string& why,
+                        const std::string& remedy)
+{
+    if (!has(key))
+        problems_.push_back({Problem::Severity::warning, key, fmt::format("{}: {} ({}). {}", object, said, why, remedy)});
+}
+
+std::vector<Problem> CaseProblems::errors() const
+{
+    std::vector<Problem> result;
+    for (const Problem& problem : problems_)
+        if (problem.severity == Problem::Severity::error)
+            result.push_back(problem);
+    if (errors_ > most_errors)
+        result.push_back(
+            {Problem::Severity::error, "",
+             fmt::format("case: {} more errors (not shown). Correct the first ones and try again.", errors_ - most_errors)});
+    return result;
+}
+
+std::vector<Problem> CaseProblems::warnings() const
+{
+    std::vector<Problem> result;
+    for (const Problem& problem : problems_)
+        if (problem.severity == Problem::Severity::warning)
+            result.push_back(problem);
+    return result;
+}
+
+std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
+{
+    const auto check_item_text = [](const KeySpec& k, const TomlNode& n, const std::string& i) { return check_text(k, n, i); };
+    switch (key.type)
+    {
+    case ValueType::boolean:
+        return value.boolean() != nullptr ? Complaints{} : wrong_type(key, value);
+    case ValueType::integer:
+    case ValueType::number:
+        return check_number(key, value);
+    case ValueType::text:
+        return check_text(key, value);
+    case ValueType::text_list:
+        return check_items(key, value, check_item_text);
+    case ValueType::integer_list:
+        return check_items(key, value, check_number);
+    case ValueType::vector:
+        return check_vector(key, value);
+    case ValueType::polygon:
+        return check_polygon(key, value);
+    case ValueType::boolean_or_texts:
+        return value.boolean() != nullptr ? Complaints{} : check_items(key, value, check_item_text);
+    case ValueType::number_or_text:
+        return value.text() != nullptr ? check_text(key, value) : check_number(key, value);
+    }
+    return {};
+}
+
+std::string quoted_list(const std::vector<std::string>& names)
+{
+    return fmt::format("\"{}\"", fmt::join(names, "\", \""));
+}
+
+std::string describe_type(const KeySpec& key)
+{
+    const std::string in = key.unit.empty() ? "" : " in " + key.unit;
+    const std::string choices = key.choices.empty() ? "" : quoted_list(key.choices);
+    switch (key.type)
+    {
+    case ValueType::boolean:
+        return "true or false";
+    case ValueType::integer:
+        return "a whole number";
+    case ValueType::number:
+        return "a number" + in;
+    case ValueType::text:
+        return choices.empty() ? "text in quotes" : key.choices.size() == 1 ? choices : "one of " + choices;
+    case ValueType::text_list:
+        return choices.empty() ? "a list of texts" : "a list from " + choices;
+    case ValueType::integer_list:
+        return "a list of whole numbers";
+    case ValueType::vector:
+        return "[x, y]" + in;
+    case ValueType::polygon:
+        return "a list of points [x, y]" + in;
+    case ValueType::boolean_or_texts:
+        return "true, false or a list from " + choices;
+    case ValueType::number_or_text:
+        return "a number" + in + " or " + choices;
+    }
+    return "";
+}
+}  // namespace hdem

@@ -1,0 +1,132 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+SectionSpec convergence_section()
+{
+    return {"convergence",
+            SectionKind::table,
+            "convergence",
+            "When a stage with `until = \"converged\"` ends.",
+            {field<&ConvergenceDef::criteria>({.name = "criteria",
+                                               .effect = "All that are listed must hold.",
+                                               .choices = {"kinetic_energy", "unbalanced_force_ratio"}}),
+             field<&ConvergenceDef::mean_speed>(
+                 {.name = "mean_speed",
+                  .unit = "m/s",
+                  .effect = "`kinetic_energy` holds when all free blocks together have less than they would have at this speed.",
+                  .range = {.low = 0, .high = 1e6, .low_included = false}}),
+             field<&ConvergenceDef::unbalanced_force_ratio>({.name = "unbalanced_force_ratio",
+                                                             .effect = "`unbalanced_force_ratio` holds below this.",
+                                                             .range = {.low = 0, .high = 1, .low_included = false}}),
+             field<&ConvergenceDef::least_cycles>(
+                 {.name = "least_cycles", .effect = "Not tested earlier in a stage.", .range = count_or_none}),
+             field<&ConvergenceDef::check_every>(
+                 {.name = "check_every", .effect = "Tested at multiples of this many cycles.", .range = count}),
+             field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
+                                                        .unit = "m",
+                                                        .effect = "A block that moved farther counts as detached in summary.json.",
+                                                        .range = length})},
+            part<&CaseDef::convergence>};
+}
+
+SectionSpec stage_section()
+{
+    KeySpec until = spec({.name = "until",
+                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles.",
+                          .example = "\"converged\"",
+                          .choices = {"converged"},
+                          .default_note = "cycles or duration is given instead"},
+                         ValueType::text);
+    return {"stage",
+            SectionKind::array,
+            "stage",
+            "What happens, one stage after another in the order of the file. At its start a stage first removes, then fixes, then "
+            "frees blocks. It ends after `cycles`, after `duration`, or when converged: give exactly one.",
+            {field<&StageDef::name>(
+                 {.name = "name", .effect = "For the screen and the histories.", .default_note = "\"stage1\", \"stage2\", ..."}),
+             field<&StageDef::cycles>({.name = "cycles",
+                                       .effect = "Run this many cycles.",
+                                       .example = "5000",
+                                       .range = count,
+                                       .default_note = "duration or until is given instead"}),
+             field<&StageDef::duration>({.name = "duration",
+                                         .unit = "s",
+                                         .effect = "Run this long.",
+                                         .example = "1.5",
+                                         .range = {.low = 0, .high = 1e12, .low_included = false},
+                                         .default_note = "cycles or until is given instead"}),
+             with_assign(std::move(until), [](void* object, const TomlNode&, const KeySpec&)
+                         { static_cast<StageDef*>(object)->until_converged = true; }),
+             field<&StageDef::max_cycles>({.name = "max_cycles",
+                                           .effect = "With until: give up after this many; the program then ends with exit code 4.",
+                                           .range = count}),
+             field<&StageDef::excavate>({.name = "excavate",
+                                         .effect = "Names of excavations or blocks that are removed.",
+                                         .example = "[\"tunnel\"]",
+                                         .default_note = "none"}),
+             field<&StageDef::fix>({.name = "fix",
+                                    .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
+                                    .default_note = "none"}),
+             field<&StageDef::free>(
+                 {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
+             field<&StageDef::method>({.name = "method",
+                                       .effect = "contact.method from here on.",
+                                       .choices = {"force", "impulse", "hybrid"},
+                                       .default_note = "unchanged"}),
+             field<&StageDef::damping>({.name = "damping",
+                                        .effect = "damping.preset from here on.",
+                                        .choices = {"default", "paper", "dynamic"},
+                                        .default_note = "unchanged"})},
+            append<&CaseDef::stages>};
+}
+
+SectionSpec history_section()
+{
+    std::vector<std::string> quantities = block_quantities();
+    quantities.insert(quantities.end(), contact_quantities().begin(), contact_quantities().end());
+    return {"history",
+            SectionKind::array,
+            "history",
+            "Quantities of one block (`block`) or of the contacts between two (`between`), sampled into results.h5.",
+            {field<&HistoryDef::name>(
+                 {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
+             field<&HistoryDef::block>({.name = "block",
+                                        .effect = "Name of the block.",
+                                        .example = "\"block1\"",
+                                        .default_note = "between is given instead"}),
+             field<&HistoryDef::between>({.name = "between",
+                                          .effect = "Names of the two blocks; forces act on the second.",
+                                          .example = "[\"ground\", \"block1\"]",
+                                          .default_note = "block is given instead"}),
+             field<&HistoryDef::quantities>(
+                 {.name = "quantities",
+                  .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`. "
+                            "A vector such as `velocity` becomes two columns.",
+                  .example = "[\"velocity\"]",
+                  .choices = std::move(quantities),
+                  .required = true}),
+             field<&HistoryDef::every>({.name = "every", .effect = "Cycles between samples.", .range = count})},
+            append<&CaseDef::histories>};
+}
+
+SectionSpec output_section()
+{
+    return {"output",
+            SectionKind::table,
+            "output",
+            "",
+            {field<&OutputDef::row_every>(
+                 {.name = "row_every",
+                  .effect = "Cycles between rows on the screen and in run.log, and between samples of the energies.",
+                  .range = count}),
+             field<&OutputDef::frame_every>({.name = "frame_every",
+                                             .effect = "Cycles between frames for ParaView; 0: one at the end of each stage.",
+                                             .range = count_or_none}),
+             field<&OutputDef::contacts>({.name = "contacts", .effect = "Write contact frames as well."})},
+            part<&CaseDef::output>};
+}
+}  // namespace hdem

@@ -1,0 +1,44 @@
+#include "core/contact/contact_report.h"
+#include "io/frame_writer.h"
+#include "io/vtkhdf.h"
+
+#include <cmath>
+
+namespace hdem
+{
+void write_contact_frame(const std::filesystem::path& name, const Model& model, const State& state)
+{
+    std::vector<ContactReport> contacts;
+    VtkCells cells{.type = CellType::line, .points = {}};
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        if (!is_closed_contact(state, i))
+            continue;
+        contacts.push_back(report_contact(state, i));
+        cells.add_point(model.origin + contacts.back().point[0]);
+        cells.add_point(model.origin + contacts.back().point[1]);
+        cells.end_cell();
+    }
+    const std::size_t n = contacts.size();
+    const auto normal_stress = [&](std::size_t i) { return contacts[i].normal_force / contacts[i].bearing_length; };
+    const auto shear_stress = [&](std::size_t i) { return contacts[i].shear_force / contacts[i].bearing_length; };
+
+    Hdf5Writer file(name);
+    write_vtk_grid(file, cells, state);
+    std::vector<std::int32_t> blocks;
+    for (const ContactReport& contact : contacts)
+        blocks.insert(blocks.end(), {model.user_number[contact.first], model.user_number[contact.second]});
+    file.write("/VTKHDF/CellData/blocks", blocks, {n, 2});
+    write_cell_vectors(file, "normal", n, [&](std::size_t i) { return contacts[i].normal; });
+    write_cell_data<float>(file, "length", n, [&](std::size_t i) { return contacts[i].length; });
+    write_cell_data<float>(file, "overlap", n, [&](std::size_t i) { return contacts[i].overlap; });
+    write_cell_data<float>(file, "normal_force", n, [&](std::size_t i) { return contacts[i].normal_force; });
+    write_cell_data<float>(file, "shear_force", n, [&](std::size_t i) { return contacts[i].shear_force; });
+    write_cell_data<float>(file, "normal_stress", n, normal_stress);
+    write_cell_data<float>(file, "shear_stress", n, shear_stress);
+    write_cell_data<float>(file, "traction", n, [&](std::size_t i) { return std::hypot(normal_stress(i), shear_stress(i)); });
+    write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return contacts[i].regime; });
+    write_frame_header(file, "hdem-contacts", model, state);
+    file.commit();
+}
+}  // namespace hdem

@@ -1,0 +1,101 @@
+#include "io/frame_writer.h"
+
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "io/hdf5_reader.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hdem
+{
+namespace
+{
+/// Number of blocks_NNNNNN.hdf or contacts_NNNNNN.hdf, -1 for any other name (and for what a killed run left behind).
+int frame_number(const std::string& file)
+{
+    for (const std::string kind : {"blocks_", "contacts_"})
+    {
+        const std::string digits = file.substr(std::min(kind.size(), file.size()), 6);
+        if (file == kind + digits + ".hdf" && digits.find_first_not_of("0123456789") == std::string::npos)
+            return std::stoi(digits);
+    }
+    return -1;
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+Frame read_frame(const std::filesystem::path& file)
+{
+    const Hdf5Reader in(file);
+    return {.number = frame_number(file.filename().string()),
+            .cycle = in.attribute<std::int64_t>("/hdem", "cycle", {}).front(),
+            .time = in.attribute<double>("/hdem", "time", {}).front(),
+            .stage = in.text("/hdem", "stage")};
+}
+}  // namespace
+
+std::string frame_file(const std::string& kind, int number)
+{
+    return fmt::format("frames/{}_{:06d}.hdf", kind, number);
+}
+
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model) : folder_(std::move(folder)), contacts_(model.output.contacts)
+{
+    for (const std::filesystem::path& file : files_in(folder_ / "frames"))
+        if (frame_number(file.filename().string()) >= 0)
+            std::filesystem::remove(file);
+    std::filesystem::remove(folder_ / "blocks.hdf.series");
+    std::filesystem::remove(folder_ / "contacts.hdf.series");
+}
+
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const State& state)
+    : folder_(std::move(folder)), contacts_(model.output.contacts)
+{
+    for (const std::filesystem::path& file : files_in(folder_ / "frames"))
+    {
+        const std::string name = file.filename().string();
+        if (frame_number(name) < 0)
+            continue;
+        const Frame frame = read_frame(file);
+        if (frame.cycle > state.cycle)
+            std::filesystem::remove(file);
+        else if (name.starts_with("blocks_"))
+            frames_.push_back(frame);
+    }
+}
+
+const Frame& FrameWriter::write(const Model& model, const State& state)
+{
+    const int number = frames_.empty() ? 0 : frames_.back().number + 1;
+    Frame frame{.number = number, .cycle = state.cycle, .time = state.time, .stage = {}};
+    if (state.stage >= 0 && static_cast<std::size_t>(state.stage) < model.stages.size())
+        frame.stage = model.stages[static_cast<std::size_t>(state.stage)].name;
+    if (contacts_)
+        write_contact_frame(folder_ / frame_file("contacts", number), model, state);
+    write_block_frame(folder_ / frame_file("blocks", number), model, state);
+    frames_.push_back(std::move(frame));
+    write_series("blocks");
+    if (contacts_)
+        write_series("contacts");
+    return frames_.back();
+}
+
+void FrameWriter::write_series(const std::string& kind) const
+{
+    nlohmann::ordered_json series = {{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
+    for (const Frame& frame : frames_)
+        series["files"].push_back({{"name", frame_file(kind, frame.number)}, {"time", frame.time}});
+    write_atomically(folder_ / (kind + ".hdf.series"), series.dump(1) + "\n");
+}
+}  // namespace hdem

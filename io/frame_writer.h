@@ -1,0 +1,52 @@
+#pragma once
+/// Pictures of a state for ParaView and for tools/plot.py: one VTKHDF file for the blocks, one for the contacts.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+struct Frame
+{
+    int number = 0;             ///< NNNNNN of its files
+    std::int64_t cycle = 0;
+    double time = 0.0;          ///< [s]
+    std::string stage;          ///< name
+};
+
+/// Files: FOLDER/frames/blocks_NNNNNN.hdf and contacts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and contacts.hdf.series, which
+/// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series is
+/// written last and names complete files only.
+/// @see verification/unit/io/frame_writer_test.cpp
+class FrameWriter
+{
+  public:
+    /// Contact frames are written when model.output.contacts says so. Frames of an earlier run in the folder are removed.
+    FrameWriter(std::filesystem::path folder, const Model& model);
+    /// To go on after a restart at `state`: frames of the folder that are not younger than it stay.
+    FrameWriter(std::filesystem::path folder, const Model& model, const State& state);
+
+    const Frame& write(const Model& model, const State& state);
+
+    [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
+    [[nodiscard]] bool has_contacts() const { return contacts_; }
+
+  private:
+    void write_series(const std::string& kind) const;
+
+    std::filesystem::path folder_;
+    bool contacts_ = true;
+    std::vector<Frame> frames_;
+};
+
+/// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks" or "contacts"
+std::string frame_file(const std::string& kind, int number);
+
+/// One file each. Throw RunError when it cannot be written.
+void write_block_frame(const std::filesystem::path& file, const Model& model, const State& state);
+void write_contact_frame(const std::filesystem::path& file, const Model& model, const State& state);
+}  // namespace hdem

@@ -1,0 +1,54 @@
+#pragma once
+/// Observer that writes a run's folder: frames, and results.h5 with histories and energies.
+
+#include "core/observer.h"
+#include "io/results_writer.h"
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace hdem
+{
+class RunRecorder : public Observer
+{
+  public:
+    /// A new run in FOLDER; frames of an earlier one are removed. Throws InputError for a history that cannot be sampled.
+    RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance);
+    /// Goes on at `restart`: frames and rows of the folder up to its cycle stay.
+    RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart);
+
+    /// One more column of /energy; before the first cycle. Called once a row.
+    using Quantity = std::function<double(const Model&, const State&)>;
+    void add_energy(Column column, Quantity quantity);
+
+    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
+    void observe(const Model& model, const State& state) override;
+    void end_stage(const Model& model, const State& state) override;
+
+    /// A frame of this state, unless the last one shows the same cycle.
+    void write_frame(const Model& model, const State& state);
+    /// Last words: everything that is still in memory. For every way a run ends, also when it is interrupted or fails.
+    void finish(const Model& model, const State& state);
+
+  private:
+    void add_tables(const Model& model);
+    void add_ledger();
+    void sample_all(const Model& model, const State& state);
+    void sample_energies(const Model& model, const State& state);
+    void write_results();
+
+    FrameWriter frames_;
+    ResultsWriter results_;
+    std::int64_t frame_every_ = 0;
+    std::int64_t energy_every_ = 0;
+    std::vector<HistorySampler> samplers_;
+    std::vector<std::size_t> table_of_sampler_;
+    std::vector<Column> energy_columns_;
+    std::vector<Quantity> energies_;
+    std::size_t energy_table_ = 0;
+    bool has_tables_ = false;
+    std::int64_t take_over_ = -1;            ///< rows up to this cycle come from the file
+    std::vector<double> row_;
+};
+}  // namespace hdem

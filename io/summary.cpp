@@ -1,0 +1,80 @@
+#include "io/summary.h"
+
+#include "io/atomic_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace hdem
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json energy_json(const RunSummary& s)
+{
+    return {
+        {"initial", s.energy.initial},
+        {"gravity_work", s.energy.gravity_work},
+        {"load_work", s.energy.load_work},
+        {"position_correction", s.energy.position_correction},
+        {"friction", s.energy.friction},
+        {"local_damping", s.energy.local_damping},
+        {"global_damping", s.energy.global_damping},
+        {"impulse_loss", s.energy.impulse_loss},
+        {"contact_changes", s.energy.contact_changes},
+        {"removed", s.energy.removed},
+        {"kinetic", s.stored.kinetic},
+        {"elastic_normal", s.stored.elastic_normal},
+        {"elastic_shear", s.stored.elastic_shear},
+        {"residual", residual(s.energy, s.stored)},
+        {"relative_residual", relative_residual(s.energy, s.stored)},
+    };
+}
+}  // namespace
+
+std::string summary_text(const RunSummary& s)
+{
+    Json stages = Json::array();
+    for (const StageSummary& stage : s.stages)
+        stages.push_back({{"name", stage.name}, {"cycles", stage.cycles}, {"until_converged", stage.until_converged}, {"converged", stage.converged}});
+    const Json json = {
+        {"case", s.case_name},
+        {"title", s.title},
+        {"method", s.method},
+        {"threads", s.threads},
+        {"version", s.version},
+        {"git_commit", s.git_commit},
+        {"blocks", s.blocks},
+        {"free_blocks", s.free_blocks},
+        {"contact_points", s.contact_points},
+        {"time_step", s.time_step},
+        {"paper_time_step", s.paper_time_step},
+        {"smallest_block_mass", s.smallest_block_mass},
+        {"cycles", s.cycles},
+        {"time", s.time},
+        {"converged", s.converged},
+        {"cycles_after_excavation", s.cycles_after_excavation ? Json(*s.cycles_after_excavation) : Json()},
+        {"stages", stages},
+        {"kinetic_energy", s.kinetic_energy},
+        {"kinetic_energy_limit", s.kinetic_energy_limit},
+        {"unbalanced_force_ratio", s.unbalanced_force_ratio},
+        {"mean_displacement", s.mean_displacement},
+        {"max_displacement", s.max_displacement},
+        {"mean_displacement_all", s.mean_displacement_all},
+        {"max_displacement_all", s.max_displacement_all},
+        {"detached_blocks", s.detached_blocks},
+        {"energy", energy_json(s)},
+        {"wall_seconds", s.wall_seconds},
+        {"contact_point_updates_per_second", s.contact_point_updates_per_second},
+        {"state_hash", fmt::format("{:016x}", s.state_hash)},
+        {"warnings", s.warnings},
+    };
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& file, const RunSummary& summary)
+{
+    write_atomically(file, summary_text(summary));
+}
+}  // namespace hdem

@@ -1,0 +1,60 @@
+#pragma once
+/// summary.json: the outcome of a run in one small file.
+
+#include "core/energy_ledger.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+struct StageSummary
+{
+    std::string name;
+    std::int64_t cycles = 0;
+    bool until_converged = false;                  ///< that was its aim
+    bool converged = false;
+};
+
+/// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
+struct RunSummary
+{
+    std::string case_name;                         ///< key "case": name of the case file
+    std::string title;
+    std::string method;                            ///< force, impulse or hybrid
+    int threads = 1;
+    std::string version;                           ///< of hdem
+    std::string git_commit;
+    std::int64_t blocks = 0;                       ///< at the end, without excavated ones
+    std::int64_t free_blocks = 0;
+    std::int64_t contact_points = 0;               ///< closed ones, at the end
+    double time_step = 0.0;                        ///< [s]
+    double paper_time_step = 0.0;                  ///< Eq. (32) [s]
+    double smallest_block_mass = 0.0;              ///< of the free blocks [kg per m]
+    std::int64_t cycles = 0;
+    double time = 0.0;                             ///< simulated [s]
+    bool converged = false;                        ///< every stage that was to converge did
+    std::optional<std::int64_t> cycles_after_excavation;  ///< null without an excavation
+    std::vector<StageSummary> stages;
+    double kinetic_energy = 0.0;                   ///< [J]
+    double kinetic_energy_limit = 0.0;             ///< below it the criterion kinetic_energy holds [J]
+    double unbalanced_force_ratio = 0.0;
+    double mean_displacement = 0.0;                ///< of blocks next to the excavation, without detached ones [m]
+    double max_displacement = 0.0;                 ///< [m]
+    double mean_displacement_all = 0.0;            ///< of all free blocks, without detached ones [m]
+    double max_displacement_all = 0.0;             ///< [m]
+    std::vector<std::string> detached_blocks;      ///< names
+    EnergyLedger energy;                           ///< sums since the start [J]
+    StoredEnergy stored;                           ///< at the end [J]
+    double wall_seconds = 0.0;
+    double contact_point_updates_per_second = 0.0;
+    std::uint64_t state_hash = 0;                  ///< written as 16 hexadecimal digits
+    std::vector<std::string> warnings;
+};
+
+std::string summary_text(const RunSummary& summary);
+void write_summary(const std::filesystem::path& file, const RunSummary& summary);
+}  // namespace hdem

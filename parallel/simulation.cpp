@@ -1,0 +1,179 @@
+#include "parallel/simulation.h"
+
+#include "core/detection/edge_touch.h"
+#include "core/energy_ledger.h"
+#include "core/motion/time_step.h"
+#include "core/rock/build_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace hdem
+{
+namespace
+{
+std::string with_digits(const char* format, double value)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+}  // namespace
+
+int default_threads()
+{
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
+Simulation::Simulation(Model model, State state, int threads) : model_(std::move(model)), state_(std::move(state)), threads_(threads)
+{
+    if (state_.contacts_outdated)
+        rebuild_contacts(model_, state_, broad_);
+    if (state_.cycle == 0)
+        state_.ledger.initial = stored_energy(model_, state_).total();
+}
+
+std::vector<Problem> Simulation::find_problems()
+{
+    std::vector<Problem> problems;
+    const double limit = critical_step();
+    if (model_.time_step > limit && state_.method != Method::impulse)
+        problems.push_back({.key = "time.step",
+                            .text = "time: step = " + with_digits("%.4g", model_.time_step) + " s (above the stable limit 2/omega_max = " +
+                                    with_digits("%.4g", limit) + " s of the contacts). Give a smaller step, or none to use Eq. (32): " +
+                                    with_digits("%.4g", model_.paper_time_step) + " s."});
+    return problems;
+}
+
+double Simulation::critical_step()
+{
+    return critical_time_step(model_, state_.blocks, state_.contacts);
+}
+
+void Simulation::excavate(const std::string& name)
+{
+    const auto at = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name);
+    const Index excavation = at == model_.excavation_names.end() ? no_index : static_cast<Index>(at - model_.excavation_names.begin());
+    const Index single = excavation == no_index ? model_.find_block(name) : no_index;
+    std::vector<std::uint8_t> removed(static_cast<std::size_t>(model_.blocks()), 0);
+    for (Index i = 0; i < model_.blocks(); ++i)
+        removed[i] = (excavation != no_index && model_.excavation[i] == excavation) || i == single;
+
+    const Contacts& contacts = state_.contacts;
+    std::vector<Index>& near = state_.next_to_excavation;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const Index ref = contacts.ref[i];
+        const Index inc = contacts.inc[i];
+        if (removed[ref] == removed[inc])
+            continue;
+        // Faces that lay against what is removed, whether or not they carried force.
+        const EdgePair edges = contacts.edges(i);
+        const EdgeTouch touch = touch_edges(edges, view_edges(edges, state_.blocks.motion[ref], state_.blocks.motion[inc]),
+                                            state_.blocks.motion[ref], state_.blocks.motion[inc]);
+        const double gap = -std::max(touch.point[0].overlap, touch.point[1].overlap);
+        if (touch.length > contacts.length_floor[i] && gap < contacts.length_floor[i])
+            near.push_back(removed[ref] != 0 ? inc : ref);
+    }
+    for (Index i = 0; i < model_.blocks(); ++i)
+        if (removed[i] != 0)
+        {
+            state_.blocks.present[i] = 0;
+            state_.blocks.inertia[i] = {};
+            state_.blocks.motion[i].vx = state_.blocks.motion[i].vy = state_.blocks.motion[i].w = 0.0;
+        }
+    std::erase_if(near, [&](Index i) { return state_.blocks.present[i] == 0; });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    state_.contacts_outdated = true;
+    state_.excavation_cycle = state_.cycle;
+}
+
+void Simulation::begin_stage(Index stage)
+{
+    const StageDef& def = model_.stages[stage];
+    state_.stage = stage;
+    state_.stage_begin_cycle = state_.cycle;
+    const double stored = stored_energy(model_, state_).total();
+    const double changes = state_.ledger.contact_changes;
+    for (const std::string& name : def.excavate)
+        excavate(name);
+    for (const std::string& name : def.fix)
+        set_mobility(model_, model_.find_block(name), false, state_.blocks);
+    for (const std::string& name : def.free)
+        set_mobility(model_, model_.find_block(name), true, state_.blocks);
+    if (!def.fix.empty() || !def.free.empty())
+        state_.contacts_outdated = true;
+    if (state_.contacts_outdated)
+        rebuild_contacts(model_, state_, broad_);
+    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
+    state_.method = def.method.value_or(state_.method);
+    state_.damping = def.damping.value_or(state_.damping);
+    for (Index i = 0; i < model_.blocks(); ++i)
+    {
+        state_.blocks.reference_position[i] = {state_.blocks.motion[i].x, state_.blocks.motion[i].y};
+        state_.blocks.reference_angle[i] = state_.blocks.motion[i].angle;
+    }
+}
+
+void Simulation::advance(std::int64_t cycles)
+{
+    for (std::int64_t i = 0; i < cycles; ++i)
+    {
+        run_cycle(model_, state_, work_, broad_, threads_);
+        contact_point_updates_ += count_contacts().closed();
+    }
+}
+
+void Simulation::check_state() const
+{
+    const Blocks& blocks = state_.blocks;
+    const std::string when = "cycle " + std::to_string(state_.cycle) + ", time " + with_digits("%.6g", state_.time) + " s: ";
+    for (Index i = 0; i < blocks.size(); ++i)
+    {
+        const BlockMotion& m = blocks.motion[i];
+        if (!std::isfinite(m.x + m.y + m.c + m.s + m.vx + m.vy + m.w))
+            throw RunError(when + "block \"" + model_.name[i] + "\": position or velocity is not a finite number (the motion is unstable). "
+                           "Give a smaller time.step or remove very small blocks (generator.smallest_block_area).");
+    }
+    const Contacts& contacts = state_.contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const Index ref = contacts.ref[i];
+        const Index inc = contacts.inc[i];
+        const EdgePair edges = contacts.edges(i);
+        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref], blocks.motion[inc]);
+        const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
+        const double limit = model_.contact.overlap_limit * std::min(model_.size(ref), model_.size(inc));
+        if (overlap > limit)
+            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\": overlap = " + with_digits("%.4g", overlap) +
+                           " m (above contact.overlap_limit: " + with_digits("%.4g", limit) + " m). Give a smaller time.step or a greater "
+                           "joint normal_stiffness, or raise the limit if this overlap is meant.");
+    }
+}
+
+Equilibrium Simulation::equilibrium() const
+{
+    Equilibrium sums;
+    add_equilibrium({0, state_.blocks.size()}, model_, state_, sums);
+    return sums;
+}
+
+ContactCounts Simulation::count_contacts() const
+{
+    ContactCounts counts;
+    for (int k = 0; k < 2; ++k)
+        for (const std::uint8_t regime : state_.contacts.regime[k])
+            ++counts.points[regime];
+    counts.points[0] = 0;
+    return counts;
+}
+}  // namespace hdem

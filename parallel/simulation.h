@@ -1,0 +1,57 @@
+#pragma once
+/// A run: model, state and scratch together, advanced cycle by cycle.
+
+#include "core/check.h"
+#include "core/motion/equilibrium.h"
+#include "parallel/cycle.h"
+
+#include <array>
+
+namespace hdem
+{
+/// Closed contact points by regime.
+struct ContactCounts
+{
+    std::array<Index, 4> points{};  ///< indexed by Regime; open ones are not counted
+    [[nodiscard]] Index closed() const { return points[1] + points[2] + points[3]; }
+};
+
+/// Threads to use when the user names no number: OMP_NUM_THREADS, else the processors this process may run on.
+[[nodiscard]] int default_threads();
+
+class Simulation
+{
+  public:
+    Simulation(Model model, State state, int threads = 1);
+
+    [[nodiscard]] const Model& model() const { return model_; }
+    [[nodiscard]] const State& state() const { return state_; }
+    [[nodiscard]] int threads() const { return threads_; }
+
+    /// Problems that need contacts to be seen: a step above the stable limit.
+    [[nodiscard]] std::vector<Problem> find_problems();
+
+    /// Excavate, fix, free; set method and damping; count displacements from here.
+    void begin_stage(Index stage);
+
+    void advance(std::int64_t cycles);
+    /// Throw RunError at a non-finite value or an overlap above its limit; names cycle, time, blocks and the setting that may help.
+    void check_state() const;
+
+    [[nodiscard]] Equilibrium equilibrium() const;
+    [[nodiscard]] ContactCounts count_contacts() const;
+    [[nodiscard]] double critical_step();  ///< 2 / omega_max [s]
+    /// Closed contact points summed over all cycles run by this object.
+    [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
+
+  private:
+    void excavate(const std::string& name);
+
+    Model model_;
+    State state_;
+    Workspace work_;
+    BroadPhase broad_;
+    int threads_ = 1;
+    std::int64_t contact_point_updates_ = 0;
+};
+}  // namespace hdem

@@ -1,0 +1,66 @@
+/// hdem check: read and generate only.
+
+#include "io/load_case.h"
+#include "io/polygons.h"
+#include "parallel/simulation.h"
+#include "tools/hdem/options.h"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+void list_blocks(const Model& model, const State& state)
+{
+    fmt::print("{:<12} {:<12} {:>12} {:>12} {:>12} {:>12}  mobility\n", "name", "material", "area [m2]", "mass [kg]", "x [m]", "y [m]");
+    for (const Index i : model.slot_of_user)
+    {
+        const BlockMotion& at = state.blocks.motion[i];
+        fmt::print("{:<12} {:<12} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}  {}{}\n", model.name[i], model.material_names[model.material[i]], model.area[i],
+                   model.mass[i], at.x + model.origin.x(), at.y + model.origin.y(), state.blocks.is_free(i) ? "free" : "fixed",
+                   model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
+    }
+}
+}  // namespace
+
+int check_command(const CheckOptions& options)
+{
+    std::vector<Override> overrides;
+    for (const std::string& text : options.overrides)
+        overrides.push_back(parse_override(text));
+    const LoadedCase loaded = load_case(options.case_file, overrides);
+    Simulation simulation(loaded.setup.model, loaded.setup.state);
+    const std::vector<Problem> problems = simulation.find_problems();
+    const Model& model = simulation.model();
+    const State& state = simulation.state();
+
+    if (options.list_blocks)
+        list_blocks(model, state);
+    Index free = 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < model.blocks(); ++i)
+        if (state.blocks.is_free(i))
+        {
+            ++free;
+            smallest = std::min(smallest, model.mass[i]);
+        }
+    const RockMass& rock = loaded.setup.rock;
+    fmt::print("blocks            {} ({} free)\n", model.blocks(), free);
+    fmt::print("smallest free     {:.6g} kg\n", smallest);
+    if (rock.joints > 0)
+        fmt::print("joints            {} traces, {} cuts, {} refused, {} skipped by persistence, {} slivers merged\n", rock.joints, rock.cuts,
+                   rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
+    fmt::print("time step         {:.6g} s\n", model.time_step);
+    fmt::print("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
+    fmt::print("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());
+    fmt::print("threshold scale   {:.6g}\n", model.threshold_scale);
+    for (const Problem& warning : loaded.warnings)
+        fmt::print("{}\n", warning.text);
+    if (!problems.empty())
+        throw InputError(loaded.file.source.located(problems));
+    return exit_done;
+}
+}  // namespace hdem

@@ -1,0 +1,92 @@
+/// hdem: jointed rock made of rigid polygonal blocks. One subcommand a file.
+
+#include "core/check.h"
+#include "core/version.h"
+#include "io/case_format.h"
+#include "tools/hdem/options.h"
+#include "tools/hdem/plot.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace hdem
+{
+namespace
+{
+void add_run(CLI::App& app, RunOptions& options)
+{
+    CLI::App* run = app.add_subcommand("run", "Run a case to its end and write results into a folder");
+    run->add_option("case", options.case_file, "Case file (TOML); io/case_format.md describes it")->required();
+    run->add_option("-o,--output", options.folder, "Folder of the results; default: the case file's name without its ending");
+    run->add_option("--method", options.method, "Contact method instead of the case's: force, impulse or hybrid")
+        ->check(CLI::IsMember({"force", "impulse", "hybrid"}));
+    run->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    run->add_option("--set", options.overrides, "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
+    run->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
+}
+
+void add_check(CLI::App& app, CheckOptions& options)
+{
+    CLI::App* check = app.add_subcommand("check", "Read a case and generate its blocks, without running it");
+    check->add_option("case", options.case_file, "Case file (TOML)")->required();
+    check->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");
+    check->add_flag("--blocks", options.list_blocks, "List all blocks: name, material, area, centroid, fixed or free");
+    check->add_option("--wkt", options.wkt_file, "Write the blocks to this file as WKT polygons");
+}
+
+int dispatch(int argc, char** argv)
+{
+    CLI::App app("hdem: hybrid discrete element method for jointed rock in two dimensions", "hdem");
+    app.set_version_flag("--version", std::string(version_line()));
+    app.require_subcommand(1);
+    app.failure_message(CLI::FailureMessage::help);
+    RunOptions run;
+    run.command_line.assign(argv, argv + argc);
+    CheckOptions check;
+    bool markdown = false;
+    add_run(app, run);
+    add_check(app, check);
+    CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
+    schema->add_flag("--markdown", markdown, "Print io/case_format.md instead");
+    // The picture's own options are read by tools/plot.py.
+    CLI::App* plot = app.add_subcommand("plot", "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
+    plot->prefix_command();
+    plot->set_help_flag();
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? exit_done : exit_bad_input;
+    }
+    if (*schema)
+    {
+        fmt::print("{}", markdown ? case_format_markdown() : case_json_schema());
+        return exit_done;
+    }
+    if (*plot)
+        return run_plot(plot->remaining());
+    return app.got_subcommand("run") ? run_command(run) : check_command(check);
+}
+}  // namespace
+}  // namespace hdem
+
+int main(int argc, char** argv)
+{
+    try
+    {
+        return hdem::dispatch(argc, argv);
+    }
+    catch (const hdem::InputError& error)
+    {
+        for (const hdem::Problem& problem : error.problems())
+            fmt::print(stderr, "error: {}\n", problem.text);
+        return hdem::exit_bad_input;
+    }
+    catch (const std::exception& error)
+    {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return hdem::exit_run_failed;
+    }
+}

@@ -1,0 +1,46 @@
+#include "tools/hdem/plot.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace hdem
+{
+namespace
+{
+/// The distribution's, for which python3-h5py and python3-matplotlib are packaged; the first python3 of PATH may be another.
+constexpr const char* python = "/usr/bin/python3";
+
+/// PREFIX/bin/hdem finds PREFIX/share/hdem, installed or in a build folder.
+std::filesystem::path shared_folder()
+{
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    return program.parent_path().parent_path() / "share" / "hdem";
+}
+}  // namespace
+
+int run_plot(const std::vector<std::string>& arguments)
+{
+    const std::string script = (shared_folder() / "plot.py").string();
+    if (::access(script.c_str(), R_OK) != 0)
+    {
+        fmt::print(stderr, "error: hdem plot: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n", script);
+        return 1;
+    }
+    std::vector<std::string> words = {python, script};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    std::fflush(nullptr);
+    ::execv(python, argv.data());
+    fmt::print(stderr, "error: hdem plot: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", python, std::strerror(errno));
+    return 1;
+}
+}  // namespace hdem

@@ -1,0 +1,101 @@
+#include "tools/hdem/screen.h"
+
+#include "core/check.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace hdem
+{
+Log::Log(const std::filesystem::path& file, bool quiet) : file_(std::fopen(file.c_str(), "w")), quiet_(quiet), interactive_(!quiet && isatty(STDERR_FILENO) != 0)
+{
+    if (file_ == nullptr)
+        throw RunError(fmt::format("{}: cannot be written (is the folder writable?). Give another folder with -o.", file.string()));
+}
+
+Log::~Log()
+{
+    if (progress_shown_)
+        std::fputs("\r\033[K", stderr);
+    std::fclose(file_);
+}
+
+void Log::line(const std::string& text)
+{
+    if (progress_shown_)
+        std::fputs("\r\033[K", stderr);
+    progress_shown_ = false;
+    if (!quiet_)
+    {
+        fmt::print("{}\n", text);
+        std::fflush(stdout);
+    }
+    fmt::print(file_, "{}\n", text);
+    std::fflush(file_);
+}
+
+void Log::progress(const std::string& text)
+{
+    if (!interactive_)
+        return;
+    fmt::print(stderr, "\r\033[K{}", text);
+    std::fflush(stderr);
+    progress_shown_ = true;
+}
+
+std::string duration_text(double seconds)
+{
+    if (!(seconds < 1.0e9))
+        return "-";
+    if (seconds < 60.0)
+        return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    if (whole < 3600)
+        return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02d} min", whole / 3600, whole % 3600 / 60);
+}
+
+RowObserver::RowObserver(const Simulation& simulation, Log& log) : simulation_(simulation), log_(log) {}
+
+std::int64_t RowObserver::next_cycle(std::int64_t now) const
+{
+    constexpr std::int64_t progress_every = 200;  // the progress line lives between rows, on a terminal only
+    const std::int64_t every = simulation_.model().output.row_every;
+    return next_multiple(now, log_.is_interactive() ? std::min(every, progress_every) : every);
+}
+
+void RowObserver::begin_stage(const Model& model, const State& state)
+{
+    const StageDef& stage = model.stages[state.stage];
+    const std::int64_t most = last_cycle(stage, state.cycle, model.time_step) - state.cycle;
+    stage_time_ = std::chrono::steady_clock::now();
+    stage_cycle_ = state.cycle;
+    log_.line("");
+    log_.line(stage.until_converged ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
+                                                  simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
+                                    : fmt::format("stage \"{}\": {} cycles", stage.name, most));
+    log_.line(fmt::format("{:>9} {:>11} {:>12} {:>11} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]", "kinetic [J]", "unbalanced", "stick", "slip",
+                          "impulse", "cycles/s", "time left"));
+}
+
+void RowObserver::observe(const Model& model, const State& state)
+{
+    if (state.cycle == stage_cycle_ || state.cycle == row_cycle_)
+        return;
+    const StageDef& stage = model.stages[state.stage];
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_time_).count();
+    const double rate = static_cast<double>(state.cycle - stage_cycle_) / std::max(seconds, 1e-9);
+    const double left = static_cast<double>(last_cycle(stage, stage_cycle_, model.time_step) - state.cycle) / rate;
+    const std::string left_text = (stage.until_converged ? "< " : "") + duration_text(left);
+    const Equilibrium now = simulation_.equilibrium();
+    if (log_.is_interactive() && next_multiple(state.cycle - 1, model.output.row_every) != state.cycle && next_cycle(state.cycle - 1) == state.cycle)
+    {
+        log_.progress(fmt::format("cycle {}  kinetic energy {:.4g} J  {:.0f} cycles/s  time left {}", state.cycle, now.kinetic_energy, rate, left_text));
+        return;
+    }
+    const ContactCounts counts = simulation_.count_contacts();
+    log_.line(fmt::format("{:>9} {:>11.5g} {:>12.4e} {:>11.3e} {:>7} {:>7} {:>7} {:>10.0f} {:>12}", state.cycle, state.time, now.kinetic_energy,
+                          now.unbalanced_force_ratio(), counts.points[1], counts.points[2], counts.points[3], rate, left_text));
+    row_cycle_ = state.cycle;
+}
+}  // namespace hdem

@@ -1,0 +1,287 @@
+#!/usr/bin/python3
+"""Draws one frame of a run, or one of its histories. Called by `hdem plot`; see its --help.
+
+The blocks that stay in place decide the range of the colours: one fallen block must not wash out the rest. Detached blocks are
+drawn hatched where they are.
+"""
+import argparse
+import math
+import sys
+from pathlib import Path
+
+try:
+    import numpy as np
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.colors import ListedColormap
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    from hdem_io import ResultError, open_run, read_blocks
+except ImportError as missing:
+    sys.exit(f"error: hdem plot: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
+
+# Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
+GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
+MATERIALS = ["#e8d9b5", "#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2", "#f0e442", "#d55e00"]
+SEQUENTIAL, DIVERGING = "YlGnBu", "RdBu_r"
+REGIMES = ["no contact", "force", "impulse"]
+
+# name -> label, unit, value per block, whether both signs occur
+FIELDS = {
+    "displacement": ("displacement", "m", lambda b: np.linalg.norm(b["displacement"], axis=1), False),
+    "displacement_x": ("displacement in x", "m", lambda b: b["displacement"][:, 0], True),
+    "displacement_y": ("displacement in y", "m", lambda b: b["displacement"][:, 1], True),
+    "rotation": ("rotation", "deg", lambda b: np.degrees(b["rotation"]), True),
+    "velocity": ("speed", "m/s", lambda b: b["speed"], False),
+    "stress": ("mean stress, magnitude", "Pa", lambda b: b["stress_magnitude"], False),
+    "stress_xx": ("mean stress $\\sigma_{xx}$, compression positive", "Pa", lambda b: b["stress_xx"], True),
+    "stress_yy": ("mean stress $\\sigma_{yy}$, compression positive", "Pa", lambda b: b["stress_yy"], True),
+    "stress_xy": ("mean stress $\\sigma_{xy}$", "Pa", lambda b: b["stress_xy"], True),
+}
+CLASSES = ("regime", "material", "none")
+MOTION = ("displacement", "displacement_x", "displacement_y", "rotation", "velocity")    # a falling block has far more of it than the others
+PREFIXES = {"m": [(1, "m"), (1e-3, "mm"), (1e-6, "µm")], "m/s": [(1, "m/s"), (1e-3, "mm/s"), (1e-6, "µm/s")],
+            "Pa": [(1e6, "MPa"), (1e3, "kPa"), (1, "Pa")], "N": [(1e6, "MN"), (1e3, "kN"), (1, "N")]}
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="hdem plot", description="Draw a frame of a run, or a history of it, as PNG, SVG or PDF.")
+    parser.add_argument("result", type=Path, help="results.h5, the run's folder, or one blocks_NNNNNN.hdf")
+    parser.add_argument("-o", "--output", type=Path, help="picture; its ending decides the format (default: COLOUR_NNNNNN.png beside the result)")
+    parser.add_argument("--colour", "--color", default="displacement", choices=[*FIELDS, *CLASSES], help="what the colours show (default: displacement)")
+    parser.add_argument("--frame", default="last", help="number of the frame, or last (default)")
+    parser.add_argument("--excavation", action="store_true", help="only the surroundings of the excavation")
+    parser.add_argument("--window", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="only this part [m]")
+    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, in SI units")
+    parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
+    parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
+    parser.add_argument("--title", help="instead of the case's title")
+    parser.add_argument("--width", type=float, default=160.0, help="of the picture [mm] (default: 160)")
+    parser.add_argument("--dpi", type=float, default=200.0, help="of a PNG (default: 200)")
+    options = parser.parse_args(arguments)
+    if options.frame != "last" and not options.frame.isdigit():
+        parser.error("argument --frame: a number, or last")
+    for name, low in (("width", 20.0), ("dpi", 10.0)):
+        if not low <= getattr(options, name) <= 5000.0:
+            parser.error(f"argument --{name}: {low:g} to 5000")
+    return options
+
+
+def scaled_unit(unit, greatest):
+    """Factor and name of the unit in which the greatest value reads best."""
+    for factor, name in PREFIXES.get(unit, []):
+        if greatest >= factor:
+            return factor, name
+    return PREFIXES.get(unit, [(1, unit)])[-1]
+
+
+def colour_range(values, signed):
+    """Low, high, and whether a few values lie beyond; from the blocks that stay in place."""
+    values = values[np.isfinite(values)]
+    if not len(values) or not np.any(values):
+        return (-1.0, 1.0, "neither") if signed else (0.0, 1.0, "neither")
+    magnitude = np.abs(values)
+    greatest, usual = magnitude.max(), np.percentile(magnitude, 98)
+    outliers = greatest > 5.0 * usual > 0.0
+    high = usual if outliers else greatest
+    if not signed:
+        return 0.0, high, "max" if outliers else "neither"
+    return -high, high, "both" if outliers else "neither"
+
+
+def pick(parts_of, chosen, blocks):
+    return [part for part, block in zip(parts_of, blocks["part_block"]) if chosen[block]]
+
+
+def draw_field(axes, blocks, options):
+    label, unit, value, signed = FIELDS[options.colour]
+    values = value(blocks).astype(float)
+    detached = blocks["detached"].astype(bool)
+    hatched = detached if options.colour in MOTION else np.zeros_like(detached)
+    low, high, extend = colour_range(values[~hatched], signed)
+    if options.range:
+        (low, high), extend = options.range, "both"
+    factor, unit = scaled_unit(unit, max(abs(low), abs(high)))
+    shown = pick(blocks["part_polygon"], ~hatched, blocks)
+    faces = PolyCollection(shown, cmap=DIVERGING if signed else SEQUENTIAL, edgecolors="face", linewidths=0.1)
+    faces.set_array(values[blocks["part_block"]][~hatched[blocks["part_block"]]] / factor)
+    faces.set_clim(low / factor, high / factor)
+    axes.add_collection(faces)
+    bar = axes.figure.colorbar(faces, ax=axes, extend=extend, shrink=0.85, aspect=28, pad=0.025)
+    bar.set_label(f"{label} [{unit}]")
+    bar.outline.set_linewidth(0.6)
+    if not np.any(hatched):
+        return []
+    axes.add_collection(PolyCollection(pick(blocks["part_polygon"], hatched, blocks), facecolors=FALLEN, edgecolors=ORANGE, linewidths=0.0, hatch="//////"))
+    distance = 1e3 * blocks["info"]["detached_distance"]
+    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:g} mm ({np.count_nonzero(hatched)} blocks)")]
+
+
+def draw_classes(axes, blocks, options):
+    if options.colour == "none":
+        numbers, names, colours = np.zeros(len(blocks["id"]), int), ["blocks"], ["#efe6d2"]
+    elif options.colour == "regime":
+        numbers, names, colours = blocks["regime"].astype(int), REGIMES, [GREY, BLUE, ORANGE]
+    else:
+        names = blocks["material_names"]
+        numbers, colours = blocks["material"], [MATERIALS[i % len(MATERIALS)] for i in range(len(names))]
+    faces = PolyCollection(blocks["part_polygon"], cmap=ListedColormap(colours), edgecolors="face", linewidths=0.1)
+    faces.set_array(numbers[blocks["part_block"]])
+    faces.set_clim(-0.5, len(colours) - 0.5)
+    axes.add_collection(faces)
+    if options.colour == "none":
+        return []
+    return [Patch(facecolor=colours[i], edgecolor=DARK, linewidth=0.4, label=f"{names[i]} ({np.count_nonzero(numbers == i)} blocks)") for i in np.unique(numbers)]
+
+
+def draw_contacts(axes, blocks, contacts, width_mm):
+    """From centroid to contact to centroid, as wide as the normal force is great."""
+    force = contacts["normal_force"].astype(float)
+    if not len(force) or not force.max() > 0.0:
+        return []
+    position = blocks["position"][np.searchsorted(blocks["id"], contacts["blocks"])]
+    lines = np.stack([position[:, 0], contacts["points"].mean(axis=1), position[:, 1]], axis=1)
+    widest = max(0.5, width_mm / 65.0)    # points
+    reference = np.percentile(force, 99.5)
+    widths = widest * np.clip(force / reference, 0.0, 1.0)
+    kept = widths > 0.02 * widest
+    colours = np.where(contacts["regime"] == 3, ORANGE, DARK)
+    axes.add_collection(LineCollection(lines[kept], linewidths=widths[kept], colors=colours[kept], capstyle="round", zorder=3))
+    factor, unit = scaled_unit("N", reference)
+    handles = [Line2D([], [], color=DARK, linewidth=widest, label=f"normal force {reference / factor:.3g} {unit}")]
+    if np.any(contacts["regime"] == 3):
+        handles.append(Line2D([], [], color=ORANGE, linewidth=widest, label="the same, by impulse"))
+    return handles
+
+
+def view_of(blocks, options):
+    """x0, y0, x1, y1 [m]"""
+    if options.window:
+        x0, y0, x1, y1 = options.window
+        return min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
+    points = np.concatenate(blocks["part_polygon"] + [blocks["outline"].reshape(-1, 2)])
+    margin = 0.02
+    if options.excavation:
+        if not len(blocks["outline"]):
+            raise ResultError("this case has no excavation to look at; leave out --excavation")
+        points, margin = blocks["outline"].reshape(-1, 2), 0.6
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin *= max(high - low)
+    return (*(low - margin), *(high + margin))
+
+
+def figure_for(view, options, has_bar, legend_rows):
+    """Figure and axes in which a metre is as long in x as in y and nothing is left empty."""
+    width = options.width / 25.4
+    left, right, bottom, top = 0.62, 0.95 if has_bar else 0.15, 0.52 + 0.2 * legend_rows, 0.5    # inches around the axes
+    height = (width - left - right) * (view[3] - view[1]) / (view[2] - view[0])
+    height = min(max(height, 0.8), 2.5 * width)
+    figure = plt.figure(figsize=(width, height + bottom + top), dpi=options.dpi)
+    total = height + bottom + top
+    return figure, figure.add_axes([left / width, bottom / total, (width - left - right * 0.2) / width, height / total])
+
+
+def draw_frame(run, options):
+    single = options.result.suffix == ".hdf"
+    blocks = read_blocks(options.result) if single else run.blocks(options.frame)
+    if not len(blocks["id"]):
+        raise ResultError("this frame holds no blocks")
+    contacts = run.contacts(options.frame) if options.contacts and not single else None
+    if options.contacts and single:
+        raise ResultError("--contacts needs the run's folder or its results.h5, not a single frame")
+    view = view_of(blocks, options)
+    field = options.colour in FIELDS
+    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts))
+    figure, axes = figure_for(view, options, field, rows)
+    handles = draw_field(axes, blocks, options) if field else draw_classes(axes, blocks, options)
+    line = float(np.clip(14.0 / math.sqrt(max(visible(blocks, view), 1)), 0.04, 0.6))
+    axes.add_collection(LineCollection(blocks["edges"], colors="#999999" if contacts else DARK, linewidths=line, capstyle="round", zorder=2))
+    if len(blocks["outline"]):
+        axes.add_collection(LineCollection(blocks["outline"], colors="black", linewidths=1.6, capstyle="round", zorder=2.5))
+    if contacts:
+        handles += draw_contacts(axes, blocks, contacts, options.width)
+    axes.set_xlim(view[0], view[2])
+    axes.set_ylim(view[1], view[3])
+    axes.set_aspect("equal")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    axes.ticklabel_format(useOffset=False, style="plain")
+    info = blocks["info"]
+    title = options.title if options.title is not None else info["title"]
+    when = f"cycle {info['cycle']}, {info['time']:.6g} s"
+    axes.set_title("\n".join(filter(None, [title, f"stage \"{info['stage']}\", {when}" if info["stage"] else when])), loc="left")
+    if handles:
+        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.42 / axes_height(figure, axes)), ncol=2 if len(handles) > 1 else 1,
+                    frameon=False, borderaxespad=0.0, handlelength=1.8, columnspacing=1.5)
+    return figure
+
+
+def axes_height(figure, axes):
+    """In inches, as drawn."""
+    axes.apply_aspect()
+    return axes.get_position().height * figure.get_size_inches()[1]
+
+
+def visible(blocks, view):
+    x, y = blocks["position"].T
+    return np.count_nonzero((x >= view[0]) & (x <= view[2]) & (y >= view[1]) & (y <= view[3]))
+
+
+def panel_of(name, unit):
+    """What is drawn in one panel: quantities of one unit; without a unit, counts of points."""
+    return unit if unit != "1" else "points" if name.endswith("_points") else name.replace("_", " ")
+
+
+def draw_history(run, options):
+    table = run.energy() if options.history == "energy" else run.history(options.history)
+    names = [name for name in table if name not in ("cycle", "time")]
+    panels = sorted({panel_of(name, table.unit[name]) for name in names}, key=lambda panel: (panel != "J", panel))
+    if not len(table["time"]):
+        raise ResultError(f"history {options.history} holds no rows yet")
+    width = options.width / 25.4
+    figure, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, figsize=(width, 0.9 + 1.5 * len(panels)), dpi=options.dpi, layout="constrained")
+    for axes, panel in zip(grid[:, 0], panels):
+        same = [name for name in names if panel_of(name, table.unit[name]) == panel]
+        unit = table.unit[same[0]]
+        factor, shown = scaled_unit(unit, max(np.nanmax(np.abs(table[name])) for name in same))
+        positive = np.concatenate([table[name][table[name] > 0.0] for name in same])
+        log = options.history == "energy" and panel != "points" and len(positive) and positive.max() > 1e3 * positive.min()
+        for name, colour in zip(same, ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"] * len(same)):
+            values = np.where(table[name] > 0.0, table[name], np.nan) if log else table[name]    # a logarithm knows no zero
+            axes.plot(table["time"], values / factor, color=colour, linewidth=0.9, label=name.replace("_", " "))
+        axes.set_yscale("log" if log else "linear")
+        axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]")
+        axes.grid(linewidth=0.3, color="#cccccc")
+        axes.legend(frameon=False, loc="best", ncol=len(same))
+    grid[-1, 0].set_xlabel("time [s]")
+    grid[0, 0].set_title(options.title if options.title is not None else options.history, loc="left")
+    return figure
+
+
+def main(arguments):
+    options = parse(arguments)
+    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
+                         "hatch.linewidth": 0.5, "legend.fontsize": 7.5, "svg.hashsalt": "hdem", "svg.fonttype": "none"})
+    try:
+        if not options.result.exists():
+            raise ResultError(f"{options.result}: no such file or folder")
+        single = options.result.suffix == ".hdf"
+        run = None if single else open_run(options.result)
+        figure = draw_history(run, options) if options.history else draw_frame(run, options)
+        if options.output is None:
+            folder = options.result if options.result.is_dir() else options.result.parent
+            name = options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
+            options.output = folder / f"{name}.png"
+        options.output.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(options.output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if options.output.suffix == ".svg" else None)
+    except (ResultError, OSError, ValueError) as error:
+        print(f"error: hdem plot: {error}", file=sys.stderr)
+        return 1
+    print(options.output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,39 @@
+#pragma once
+/// All checks of hdem_verify. Each group of problems stands in a file of its own.
+
+#include "verification/checks/report.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace hdem::verification
+{
+struct Check
+{
+    enum class Length
+    {
+        is_short,  ///< part of `ctest`
+        is_long    ///< more than about twenty seconds; ctest label "long"
+    };
+    std::string name;  ///< "paper.table2", "closed_form.A1"
+    std::string what;
+    void (*run)(Report&) = nullptr;
+    Length length = Length::is_short;
+};
+
+inline constexpr std::array<const char*, 3> all_methods{"force", "impulse", "hybrid"};
+
+std::vector<Check> static_test_checks();
+std::vector<Check> bounce_checks();
+std::vector<Check> transition_checks();
+std::vector<Check> tunnel_checks();
+std::vector<Check> sliding_checks();
+std::vector<Check> column_checks();
+std::vector<Check> wall_checks();
+std::vector<Check> stability_checks();
+std::vector<Check> order_checks();
+
+/// In the order of the table.
+std::vector<Check> all_checks();
+}  // namespace hdem::verification

@@ -1,0 +1,10 @@
+# cmake -DPROGRAM=hdem_verify "-DNAMES=a b c" -P compare_names.cmake: fails when `hdem_verify --list` has other names.
+execute_process(COMMAND ${PROGRAM} --list OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE " [^\n]*\n" ";" listed "${listing}")
+list(REMOVE_ITEM listed "")
+string(REPLACE " " ";" expected "${NAMES}")
+list(SORT listed)
+list(SORT expected)
+if(NOT listed STREQUAL expected)
+    message(FATAL_ERROR "hdem_verify --list: ${listed}\nCMakeLists.txt:     ${expected}\nGive verification/CMakeLists.txt the same names.")
+endif()

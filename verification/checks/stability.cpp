@@ -1,0 +1,203 @@
+/// What stands and what falls, the same in a turned frame, and cyclic shear: closed forms A2, A8, A12, A16, A19.
+
+#include "verification/checks/checks.h"
+#include "verification/checks/variants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace hdem::verification
+{
+namespace
+{
+/// A block that moved farther than 0.05 m or turned by more than 0.05 rad since the last stage began.
+bool falls(const CaseRun& run)
+{
+    const Blocks& blocks = run.state().blocks;
+    for (Index i = 0; i < blocks.size(); ++i)
+        if (blocks.displacement(i).norm() > 0.05 || std::abs(blocks.motion[i].angle - blocks.reference_angle[i]) > 0.05)
+            return true;
+    return false;
+}
+
+struct Tilt
+{
+    const char* name;
+    const char* case_file;
+    double critical_deg;
+    const char* source;
+};
+
+/// Shares of the tilt, as the case files' loads have it.
+constexpr std::array<double, 5> steps{0.5, 0.3, 0.12, 0.05, 0.03};
+
+void check_tilt(Report& report, const Tilt& tilt, const Variant& variant)
+{
+    for (const double off : {-0.1, 0.1})
+    {
+        const double beta = radians(tilt.critical_deg + off);
+        Overrides overrides = variant.overrides();
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            overrides.push_back(set(fmt::format("load[{}].acceleration", i),
+                                    Vec2(steps[i] * g * std::sin(beta), steps[i] * g * (1.0 - std::cos(beta)))));
+        const CaseRun run(report, tilt.case_file, overrides);
+        report.require({fmt::format("{}, {}: moves at {:.3f}° (1 = yes)", variant.name(), tilt.name, tilt.critical_deg + off),
+                        tilt.source, off > 0.0 ? 1.0 : 0.0, falls(run) ? 1.0 : 0.0},
+                       absolute(0.0));
+    }
+}
+
+double degrees(double slope)
+{
+    return std::atan(slope) * 180.0 / std::numbers::pi;
+}
+
+void check_a2(Report& report)
+{
+    for (const Variant& variant : all_variants("default"))
+    {
+        check_tilt(report, {"slides", "tilt/slide.toml", 30.0, "tan β = tan φ"}, variant);
+        check_tilt(report, {"topples", "tilt/topple.toml", degrees(0.5), "tan β = width / height"}, variant);
+    }
+}
+
+void check_a16(Report& report)
+{
+    for (const char* method : all_methods)
+    {
+        const Variant variant{method, "default", 1.0};
+        check_tilt(report, {"wall", "tilt/wall.toml", degrees(0.4), "tan θ = μ"}, variant);
+        check_tilt(report, {"five cubes", "tilt/cubes.toml", degrees(0.2), "tan θ = 0.2"}, variant);
+    }
+}
+
+/// The upper n bricks stand `share` of their farthest overhang beyond the edge; those below are fixed and flush with it.
+bool overhang_falls(Report& report, const Variant& variant, int n, double share)
+{
+    Overrides bricks = variant.overrides();
+    for (int k = 1; k <= 4; ++k)
+    {
+        double end = 0.0;
+        for (int below = k; below <= n; ++below)
+            end += share / (2.0 * below);
+        const double y = 0.5 * (4 - k);
+        bricks.push_back(
+            set(fmt::format("block[{}].polygon", k), Polygon{{end - 1.0, y}, {end, y}, {end, y + 0.5}, {end - 1.0, y + 0.5}}));
+        bricks.push_back({fmt::format("block[{}].fixed", k), k > n ? "true" : "false"});
+    }
+    return falls(CaseRun(report, "tilt/overhang.toml", bricks));
+}
+
+void check_a12(Report& report)
+{
+    for (const Variant& variant : all_variants("default"))
+        for (int n = 1; n <= 4; ++n)
+            for (const double share : {0.995, 1.005})
+                report.require({fmt::format("{}, {} bricks: falls at {} of the overhang (1 = yes)", variant.name(), n, share),
+                                "Σ 1/(2k)", share > 1.0 ? 1.0 : 0.0, overhang_falls(report, variant, n, share) ? 1.0 : 0.0},
+                               absolute(0.0));
+}
+
+/// ∮ F dx over samples first, ..., last [J]. A prescribed velocity holds before the contacts are evaluated, so the shear force of cycle c belongs
+/// to the position after cycle c.
+double loop_work(const std::vector<double>& force, const std::vector<double>& x, std::size_t first, std::size_t last)
+{
+    double work = 0.0;
+    for (std::size_t c = first; c < last; ++c)
+        work += 0.5 * (force[c] + force[c + 1]) * (x[c + 1] - x[c]);
+    return std::abs(work);
+}
+
+void check_a8(Report& report)
+{
+    constexpr std::size_t begin = 2000;  // at +5 mm
+    constexpr std::size_t loop = 4000;   // cycles
+    const double strength = 1e6 / std::numbers::sqrt3;
+    for (const double factor : {1.0, 10.0})
+    {
+        const double elastic = strength / (factor * 1e9);
+        const double area = 4.0 * strength * (5e-3 - elastic);
+        const CaseRun run(report, "shear/cyclic.toml", {set("joint.default.shear_stiffness", factor * 1e9)});
+        const std::vector<double>& force = run.column("joint.shear_force");
+        const std::vector<double>& x = run.column("block.position_x");
+        const std::string name = factor == 1.0 ? "force: " : "force, 10 K: ";
+        report.require({name + "greatest shear stress [Pa]", "σ tan φ", strength, std::abs(*std::ranges::max_element(force))},
+                       relative(1e-6));
+        std::size_t c = 1000;
+        while (c + 1 < force.size() && std::abs(force[c + 1]) < strength * (1.0 - 1e-9))
+            ++c;
+        report.require({name + "slip from [mm]", "τ / k_s", 1e3 * elastic,
+                        1e3 * (x[c] - x[0] + (strength - std::abs(force[c])) / (factor * 1e9))},
+                       relative(1e-6));
+        report.require({name + "work of the first loop [J/m²]", "4 τ (u − τ/k_s)", area, loop_work(force, x, begin, begin + loop)},
+                       relative(1e-3));
+        report.require({name + "drift of the shear force over ten loops [of the strength]", "closed loop", 0.0,
+                        (force[begin + 10 * loop] - force[begin + loop]) / strength},
+                       absolute(1e-6));
+        report.require(
+            {name + "drift of the loop's work", "closed loop", 0.0,
+             (loop_work(force, x, begin + 9 * loop, begin + 10 * loop) - loop_work(force, x, begin + loop, begin + 2 * loop)) /
+                 area},
+            absolute(1e-6));
+    }
+}
+
+/// Farthest distance between a block's last position and that in the turned run, turned back; as a share of the way the farthest block went.
+double turned_difference(Report& report, const std::string& case_file, const Overrides& overrides)
+{
+    const double angle = radians(37.0);
+    const CaseRun plain(report, case_file, overrides);
+    const CaseRun turned(report, case_file, turned_case(case_file, overrides, angle));
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    double off = 0.0;
+    double way = 0.0;
+    for (Index i = 0; i < plain.model().blocks(); ++i)
+    {
+        const Index j = turned.block(plain.model().name[i]);
+        const Vec2 d = turned.state().blocks.displacement(j);
+        const Vec2 back(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
+        off = std::max(off, (back - plain.state().blocks.displacement(i)).norm());
+        way = std::max(way, plain.state().blocks.displacement(i).norm());
+    }
+    return off / way;
+}
+
+struct Turned
+{
+    const char* case_file;
+    int stages;
+};
+
+void check_a19(Report& report)
+{
+    for (const char* method : all_methods)
+        for (const Turned& turned : {Turned{"sliding/incline.toml", 2}, Turned{"sliding/stop.toml", 2},
+                                     Turned{"paper_dynamic/dynamic.toml", 1}, Turned{"chain/pair.toml", 1}})
+            for (const char* damping : {"dynamic", "default"})
+            {
+                Overrides overrides{set("contact.method", std::string(method))};
+                for (int stage = 0; stage < turned.stages; ++stage)
+                    overrides.push_back(set(fmt::format("stage[{}].damping", stage), std::string(damping)));
+                const Quantity quantity{
+                    fmt::format("{}, {}, {}: off when turned by 37° [of the way]", method, damping, turned.case_file), "isotropy",
+                    0.0, turned_difference(report, turned.case_file, overrides)};
+                // Local damping acts on each component of the velocity by itself, Eq. (13), and so depends on the axes.
+                std::string(damping) == "dynamic" ? report.require(quantity, absolute(1e-9)) : report.inform(quantity);
+            }
+}
+}  // namespace
+
+std::vector<Check> stability_checks()
+{
+    return {{"closed_form.A2", "onset of sliding and of toppling", check_a2},
+            {"closed_form.A8", "cyclic shear of one joint", check_a8},
+            {"closed_form.A12", "overhang of stacked bricks", check_a12},
+            {"closed_form.A16", "tilted wall and stack of cubes", check_a16},
+            {"closed_form.A19", "the same in a frame turned by 37°", check_a19}};
+}
+}  // namespace hdem::verification

@@ -1,0 +1,231 @@
+/// hdem_verify: each published number and each textbook answer beside hdem's own.
+
+#include "core/check.h"
+#include "verification/checks/case_run.h"
+#include "verification/checks/checks.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+namespace hdem::verification
+{
+namespace
+{
+enum ExitCode : int
+{
+    exit_done = 0,
+    exit_run_failed = 1,
+    exit_bad_usage = 2,
+    exit_missed = 3
+};
+
+struct Options
+{
+    std::vector<std::string> names;
+    std::string json_file;
+    std::string cases = HDEM_CASE_FOLDER;
+    unsigned jobs = 0;
+    bool list = false;
+    bool commands = false;
+    bool misses = false;
+};
+
+struct Outcome
+{
+    Report report;
+    std::string failure;
+    double seconds = 0.0;
+};
+
+bool is_asked(const Check& check, const std::vector<std::string>& names)
+{
+    return names.empty() || std::ranges::any_of(names,
+                                                [&](const std::string& name)
+                                                {
+                                                    return check.name == name || check.name.starts_with(name + '.') ||
+                                                           (name == "short" && check.length == Check::Length::is_short);
+                                                });
+}
+
+Outcome run_check(const Check& check)
+{
+    Outcome outcome;
+    const auto start = std::chrono::steady_clock::now();
+    try
+    {
+        check.run(outcome.report);
+        outcome.report.close();
+    }
+    catch (const InputError& error)
+    {
+        for (const Problem& problem : error.problems())
+            outcome.failure += problem.text + '\n';
+    }
+    catch (const std::exception& error)
+    {
+        outcome.failure = error.what();
+    }
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return outcome;
+}
+
+/// Checks share nothing, so each thread takes the next one.
+std::vector<Outcome> run_checks(const std::vector<Check>& checks, unsigned jobs)
+{
+    std::vector<Outcome> outcomes(checks.size());
+    std::atomic<std::size_t> next{0};
+    const auto work = [&]
+    {
+        for (std::size_t i = next++; i < checks.size(); i = next++)
+            outcomes[i] = run_check(checks[i]);
+    };
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < jobs; ++i)
+        threads.emplace_back(work);
+    work();
+    threads.clear();
+    return outcomes;
+}
+
+const char* word(Verdict verdict)
+{
+    return verdict == Verdict::pass ? "pass" : (verdict == Verdict::miss ? "MISS" : "");
+}
+
+std::string number(double value)
+{
+    return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
+}
+
+void print_table(const Check& check, const Outcome& outcome, const Options& options)
+{
+    fmt::print("\n{}: {} ({:.1f} s)\n", check.name, check.what, outcome.seconds);
+    fmt::print("  {:<66} {:<30} {:>12} {:>12} {:>11} {:>10} {}\n", "quantity", "source", "reference", "ours", "deviation", "bar",
+               "verdict");
+    for (const Row& row : outcome.report.rows())
+        if (!options.misses || row.verdict == Verdict::miss)
+            fmt::print("  {:<66} {:<30} {:>12} {:>12} {:>11} {:>10} {}\n", row.quantity.name, row.quantity.source,
+                       number(row.quantity.reference), number(row.quantity.measured), row.deviation_text(), row.bar_text(),
+                       word(row.verdict));
+    if (!outcome.failure.empty())
+        fmt::print("  MISS: did not run to its end: {}\n", outcome.failure);
+    if (options.commands)
+        for (const std::string& command : outcome.report.commands())
+            fmt::print("  {}\n", command);
+}
+
+nlohmann::json json_number(double value)
+{
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json as_json(const std::vector<Check>& checks, const std::vector<Outcome>& outcomes)
+{
+    nlohmann::json rows = nlohmann::json::array();
+    for (std::size_t i = 0; i < checks.size(); ++i)
+    {
+        for (const Row& row : outcomes[i].report.rows())
+            rows.push_back({{"case", checks[i].name},
+                            {"quantity", row.quantity.name},
+                            {"source", row.quantity.source},
+                            {"reference", json_number(row.quantity.reference)},
+                            {"measured", json_number(row.quantity.measured)},
+                            {"deviation", json_number(row.deviation())},
+                            {"tolerance", row.bar ? nlohmann::json(row.bar->tolerance) : nlohmann::json()},
+                            {"bar", row.bar_text()},
+                            {"pass", row.bar ? nlohmann::json(row.verdict == Verdict::pass) : nlohmann::json()}});
+        if (!outcomes[i].failure.empty())
+            rows.push_back(
+                {{"case", checks[i].name}, {"quantity", "runs to its end"}, {"source", outcomes[i].failure}, {"pass", false}});
+    }
+    return rows;
+}
+
+int report_all(const std::vector<Check>& checks, const std::vector<Outcome>& outcomes, const Options& options)
+{
+    int met = 0;
+    int missed = 0;
+    for (std::size_t i = 0; i < checks.size(); ++i)
+    {
+        print_table(checks[i], outcomes[i], options);
+        for (const Row& row : outcomes[i].report.rows())
+        {
+            met += row.verdict == Verdict::pass ? 1 : 0;
+            missed += row.verdict == Verdict::miss ? 1 : 0;
+        }
+        missed += outcomes[i].failure.empty() ? 0 : 1;
+    }
+    fmt::print("\n{} checks: {} bars met, {} missed\n", checks.size(), met, missed);
+    if (!options.json_file.empty())
+    {
+        std::ofstream file(options.json_file);
+        file << as_json(checks, outcomes).dump(1) << '\n';
+        if (!file.flush())
+        {
+            fmt::print(stderr, "error: {}: cannot be written. Give another file with --json.\n", options.json_file);
+            return exit_run_failed;
+        }
+    }
+    return missed == 0 ? exit_done : exit_missed;
+}
+
+int verify(int argc, char** argv)
+{
+    CLI::App app("hdem_verify: published numbers and textbook answers beside hdem's own", "hdem_verify");
+    Options options;
+    app.add_option("CASE", options.names,
+                   "Checks to run: a name of --list, a group (paper, closed_form), or short; all by default");
+    app.add_option("--json", options.json_file, "Write all rows to this file");
+    app.add_option("--jobs", options.jobs, "Checks at a time; default: one a core")->check(CLI::Range(1, 1024));
+    app.add_option("--cases", options.cases, "Folder of the case files")->check(CLI::ExistingDirectory);
+    app.add_flag("--list", options.list, "Only list the checks");
+    app.add_flag("--commands", options.commands, "Show the hdem commands that repeat the runs");
+    app.add_flag("--misses", options.misses, "Show only rows that miss their bar");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? exit_done : exit_bad_usage;
+    }
+    case_folder() = options.cases;
+    std::vector<Check> checks = all_checks();
+    for (const std::string& name : options.names)
+        if (std::ranges::none_of(checks, [&](const Check& check) { return is_asked(check, {name}); }))
+        {
+            fmt::print(stderr, "error: check \"{}\" (no such check). hdem_verify --list shows their names.\n", name);
+            return exit_bad_usage;
+        }
+    std::erase_if(checks, [&](const Check& check) { return !is_asked(check, options.names); });
+    if (options.list)
+    {
+        for (const Check& check : checks)
+            fmt::print("{:<18} {:<6} {}\n", check.name, check.length == Check::Length::is_short ? "short" : "long", check.what);
+        return exit_done;
+    }
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    return report_all(checks, run_checks(checks, options.jobs > 0 ? options.jobs : cores), options);
+}
+}  // namespace
+}  // namespace hdem::verification
+
+int main(int argc, char** argv)
+{
+    try
+    {
+        return hdem::verification::verify(argc, argv);
+    }
+    catch (const std::exception& error)
+    {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return hdem::verification::exit_run_failed;
+    }
+}

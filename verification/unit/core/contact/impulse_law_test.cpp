@@ -1,0 +1,230 @@
+#include "verification/unit/block_pair.h"
+#include "verification/unit/case_run.h"
+
+#include <rapidcheck/gtest.h>
+
+namespace hdem
+{
+namespace
+{
+using scenes::rectangle;
+using test::CaseRun;
+using test::ContactInvariants;
+using test::number;
+
+CaseDef without_gravity(CaseDef scene, double restitution)
+{
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::impulse;
+    scene.contact.restitution = restitution;
+    scene.contact.impulse_sweeps = 50;
+    scene.damping.preset = DampingPreset::dynamic;
+    return scene;
+}
+
+CaseDef two_blocks(double restitution)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "left", rectangle({-1, 0}, {0, 1})).velocity = {2.0, 0.0};
+    scenes::add_block(scene, "right", rectangle({0, 0}, {1, 1})).velocity = {-1.0, 0.0};
+    return without_gravity(scene, restitution);
+}
+
+class Impact : public ContactInvariants
+{
+};
+
+TEST_F(Impact, OnTheGroundReboundsWithRestitutionTimesItsSpeed)
+{
+    for (const double e : {0.0, 0.1, 0.5, 1.0})
+    {
+        CaseDef scene = without_gravity(scenes::block_on_ground(), e);
+        scene.blocks[1].velocity = {0.0, -2.0};
+        CaseRun run(scene);
+        run.advance(1);
+        // Two points solved one after another: fifty sweeps shrink the error by more than 4 each.
+        EXPECT_NEAR(run.velocity("block").y(), 2.0 * e, 1e-12) << "e = " << e;
+        EXPECT_NEAR(run.motion("block").w, 0.0, 1e-12);
+    }
+}
+
+TEST_F(Impact, OfTwoEqualBlocksExchangesTheirVelocitiesWithoutLoss)
+{
+    CaseRun run(two_blocks(1.0));
+    expect_momentum_kept(run, 1);
+    EXPECT_NEAR(run.velocity("left").x(), -1.0, 1e-12);
+    EXPECT_NEAR(run.velocity("right").x(), 2.0, 1e-12);
+}
+
+TEST_F(Impact, OfTwoBlocksReversesTheirRelativeVelocityByTheRestitution)
+{
+    for (const double e : {0.0, 0.3, 0.8})
+    {
+        CaseRun run(two_blocks(e));
+        expect_momentum_kept(run, 1);
+        EXPECT_NEAR(run.velocity("right").x() - run.velocity("left").x(), 3.0 * e, 1e-12);
+        EXPECT_NEAR(run.velocity("right").x() + run.velocity("left").x(), 1.0, 1e-12);
+    }
+}
+
+TEST_F(Impact, OfAJointWithItsOwnRestitutionUsesThat)
+{
+    CaseDef scene = two_blocks(0.1);
+    scene.joints[0].restitution = 0.6;
+    CaseRun run(scene);
+    run.advance(1);
+    EXPECT_NEAR(run.velocity("right").x() - run.velocity("left").x(), 1.8, 1e-12);
+}
+
+/// A unit square that lands on one corner on frictionless ground: J = m_c (1 + e) v with m_c = m / (1 + 6 x^2), by hand.
+TEST_F(Impact, OnACornerSpinsTheBlockByItsMomentOfInertia)
+{
+    CaseDef scene = without_gravity(scenes::block_on_ground(), 0.5);
+    scene.joints[0].friction_angle_deg = 0.0;
+    const double angle = 0.2, c = std::cos(angle), s = std::sin(angle);
+    for (Vec2& p : scene.blocks[1].polygon)
+    {
+        const Vec2 arm = p - Vec2(-0.5, 0.0);
+        p = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+    }
+    scene.blocks[1].velocity = {0.0, -2.0};
+    CaseRun run(scene);
+    run.advance(1);
+    const double x = -(0.5 * c - 0.5 * s);  // of the corner from the centroid
+    const double mass = 2700.0, inertia = mass / 6.0;
+    const double impulse = 1.5 * 2.0 / (1.0 / mass + x * x / inertia);
+    EXPECT_NEAR(run.velocity("block").y(), -2.0 + impulse / mass, 1e-9);
+    EXPECT_NEAR(run.motion("block").w, x * impulse / inertia, 1e-9);
+}
+
+TEST_F(Impact, WithFrictionCarriesAtMostItsTangentAndCohesion)
+{
+    CaseDef scene = without_gravity(scenes::block_on_ground(4.0, 0.1), 0.0);
+    scene.joints[0].friction_angle_deg = 20.0;
+    scene.joints[0].cohesion = 1e5;
+    scene.blocks[1].velocity = {3.0, -1.0};
+    CaseRun run(scene);
+    run.advance(1);
+    const Vec2 force = run.forces_between("ground", "block");
+    const double dt = run.model().time_step;
+    const double most = force.x() * std::tan(radians(20.0)) + 1e5 * 4.0;
+    EXPECT_NEAR(std::abs(force.y()), most, 1e-9 * most) << "it slides: the limit is reached";
+    // A flat plate is hardly tipped by friction; the momentum it loses is the impulse the contact reports.
+    EXPECT_NEAR(1080.0 * (3.0 - run.velocity("block").x()), most * dt, 1e-9 * most * dt);
+    EXPECT_NEAR(force.x() * dt, 1080.0 * 1.0, 0.05 * 1080.0);
+}
+
+TEST_F(Impact, WithMuchFrictionSticks)
+{
+    CaseDef scene = without_gravity(scenes::block_on_ground(4.0, 0.1), 0.0);
+    scene.joints[0].friction_angle_deg = 60.0;
+    scene.blocks[1].velocity = {0.5, -1.0};
+    CaseRun run(scene);
+    run.advance(1);
+    EXPECT_NEAR(run.velocity("block").x(), 0.0, 1e-9) << "of the centroid, 5 cm above the face: it does not turn";
+}
+
+/// Frictionless at any restitution, with friction at none: kinetic energy never grows; momentum is kept.
+RC_GTEST_PROP(RandomImpact, KeepsMomentumAndAddsNoKineticEnergy, ())
+{
+    const bool rough = *rc::gen::inRange(0, 2) == 1;
+    CaseDef scene = without_gravity(test::pair_scene(test::random_convex(), test::random_convex()), rough ? 0.0 : number(0.0, 1.0));
+    scene.joints[0].friction_angle_deg = rough ? number(0.0, 60.0) : 0.0;
+    scene.blocks[1].velocity = {0.0, 0.0};
+    CaseRun run(scene, [](const Model& model, State& state) {
+        // One beside the other, touching within a hair, moving towards each other.
+        const Index a = model.find_block("a"), b = model.find_block("b");
+        Contact contact{.part_a = 0, .part_b = 1};
+        double near = 0.0, far = 10.0;
+        const double angle = number(0.0, 6.28);
+        const double x = state.blocks.motion[a].x;
+        for (int i = 0; i < 60; ++i)
+        {
+            const double middle = 0.5 * (near + far);
+            state.blocks.motion[b].x = x + middle * std::cos(angle);
+            state.blocks.motion[b].y = state.blocks.motion[a].y + middle * std::sin(angle);
+            contact.ref_edge = no_index;
+            (find_features(model, state.blocks.motion, contact) < -1e-5 ? near : far) = middle;
+        }
+        BlockMotion& m = state.blocks.motion[b];
+        m.vx = -std::cos(angle) + number(-0.3, 0.3);
+        m.vy = -std::sin(angle) + number(-0.3, 0.3);
+        m.w = number(-1.0, 1.0);
+    });
+    const double before = run.simulation.equilibrium().kinetic_energy;
+    const test::Momentum momentum = run.momentum();
+    run.advance(1);
+    RC_ASSERT(run.simulation.equilibrium().kinetic_energy <= before * (1.0 + 1e-12));
+    RC_ASSERT((run.momentum().linear - momentum.linear).norm() <= 1e-12 * momentum.linear.norm());
+}
+
+TEST_F(Impact, LeavesARestingBlockAtRestUnderGravity)
+{
+    for (const double e : {0.0, 0.5, 1.0})
+    {
+        CaseDef scene = scenes::block_on_ground();
+        scene.contact.method = Method::impulse;
+        scene.contact.restitution = e;
+        CaseRun run(scene);
+        run.advance(2000);
+        const double gravity_step = 9.81 * run.model().time_step;
+        EXPECT_LT(run.velocity("block").norm(), 2.0 * gravity_step) << "e = " << e;
+        EXPECT_LT(run.displacement("block").norm(), 2e-6);
+        if (e == 1.0)
+            continue;  // without any loss it rattles within a step of gravity
+        EXPECT_NEAR(run.forces_between("ground", "block").x(), 2700.0 * 9.81, 1e-3 * 2700.0 * 9.81) << "J / dt is the weight, Eq. (29)";
+    }
+}
+
+TEST(ImpulseStack, CarriesItsWeightTheBetterTheMoreSweeps)
+{
+    std::vector<double> errors;
+    for (const int sweeps : {1, 10, 100})
+    {
+        CaseDef scene = scenes::stack(5);
+        scene.contact.method = Method::impulse;
+        scene.contact.impulse_sweeps = sweeps;
+        CaseRun run(scene);
+        run.advance(500);
+        const double weight = 5.0 * 2700.0 * 9.81;
+        errors.push_back(std::abs(run.forces_between("ground", "block1").x() - weight) / weight);
+    }
+    EXPECT_LE(errors[1], errors[0]);
+    EXPECT_LE(errors[2], errors[1]);
+    EXPECT_LT(errors[2], 1e-3) << "of ten contact points; each sweep passes loads on by one block";
+}
+
+TEST(PositionCorrection, TakesTheOverlapBackWithoutKineticEnergy)
+{
+    CaseDef scene = without_gravity(scenes::block_on_ground(), 0.5);
+    CaseRun run(scene, [](const Model& model, State& state) { state.blocks.motion[model.find_block("block")].y -= 1e-3; });
+    run.advance(1);
+    EXPECT_NEAR(run.displacement("block").y(), 1e-3 - 1e-7, 1e-12) << "all but the allowed overlap, at once";
+    EXPECT_EQ(run.velocity("block").norm(), 0.0);
+    EXPECT_EQ(run.motion("block").w, 0.0);
+    run.advance(10);
+    EXPECT_EQ(run.velocity("block").norm(), 0.0);
+    EXPECT_NEAR(run.displacement("block").y(), 1e-3 - 1e-7, 1e-12);
+}
+
+TEST(PositionCorrection, TakesTheGivenShareOfTheOverlap)
+{
+    CaseDef scene = without_gravity(scenes::block_on_ground(), 0.5);
+    scene.contact.correction_fraction = 0.25;
+    CaseRun run(scene, [](const Model& model, State& state) { state.blocks.motion[model.find_block("block")].y -= 1e-3; });
+    run.advance(1);
+    EXPECT_NEAR(run.displacement("block").y(), 0.25 * (1e-3 - 1e-7), 1e-12);
+}
+
+TEST(PositionCorrection, SharesTheWayByMass)
+{
+    CaseDef scene = without_gravity(two_blocks(0.0), 0.0);
+    scene.blocks[1].polygon = rectangle({0, -1}, {3, 2});  // nine times the mass
+    scene.blocks[0].velocity = scene.blocks[1].velocity = {0.0, 0.0};
+    CaseRun run(scene, [](const Model& model, State& state) { state.blocks.motion[model.find_block("left")].x += 1e-3; });
+    run.advance(1);
+    EXPECT_NEAR(run.displacement("left").x(), -0.9 * (1e-3 - 1e-7), 1e-9);
+    EXPECT_NEAR(run.displacement("right").x(), 0.1 * (1e-3 - 1e-7), 1e-9);
+}
+}  // namespace
+}  // namespace hdem

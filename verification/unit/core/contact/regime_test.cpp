@@ -1,0 +1,84 @@
+#include "core/contact/regime.h"
+#include "core/types.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace hdem
+{
+namespace
+{
+constexpr double mass = 2700.0;
+constexpr double square_inertia = mass / 6.0;  // m (a^2 + a^2) / 12 of the unit square
+constexpr BlockInertia unit_square{1.0 / mass, 1.0 / mass, 1.0 / square_inertia, 0.0};
+
+TEST(CollisionMass, OfACentralImpactIsTheReducedMass)
+{
+    EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.0, unit_square, 0.0, 0.0, 1.0), 0.5 * mass, 1e-9);
+    EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.0, {}, 0.0, 0.6, 0.8), mass, 1e-9) << "an immovable block is infinitely heavy";
+}
+
+TEST(CollisionMass, OfAUnitSquareHitAtItsCornerIsTwoFifthsOfItsMass)
+{
+    // 1/m + 0.5^2 / (m/6) = 2.5/m
+    EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.5, {}, 0.5, 0.0, 1.0), mass / 2.5, 1e-9);
+}
+
+TEST(CollisionMass, LeavesOutWhatIsPrescribed)
+{
+    const BlockInertia rail{0.0, 1.0 / mass, 0.0, 0.0};  // free in y only
+    EXPECT_EQ(inverse_collision_mass(rail, 0.5, {}, 0.0, 1.0, 0.0), 0.0);
+    EXPECT_DOUBLE_EQ(inverse_collision_mass(rail, 0.5, {}, 0.0, 0.0, 1.0), 1.0 / mass);
+}
+
+/// The definition of the collision mass: an impulse J along n at the point changes the relative velocity there, along n, by J / m_c.
+RC_GTEST_PROP(CollisionMass, TurnsAnImpulseIntoAChangeOfRelativeVelocity, ())
+{
+    const auto number = [](double low, double high) { return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001); };
+    const BlockInertia a{1.0 / number(1, 10), 1.0 / number(1, 10), 1.0 / number(1, 10), 0.0};
+    const BlockInertia b{1.0 / number(1, 10), 1.0 / number(1, 10), 1.0 / number(1, 10), 0.0};
+    const Vec2 n = Vec2(std::cos(number(0, 6.3)), number(-1, 1)).normalized();
+    const Vec2 arm_a(number(-2, 2), number(-2, 2)), arm_b(number(-2, 2), number(-2, 2));
+    const auto velocity_of = [&](const BlockInertia& i, const Vec2& arm, double sign)
+    {
+        const Vec2 v(sign * i.inverse_mass_x * n.x(), sign * i.inverse_mass_y * n.y());
+        const double w = sign * i.inverse_inertia * cross(arm, n);
+        return Vec2(v + w * turned_left(arm));
+    };
+    const double change = n.dot(velocity_of(b, arm_b, 1.0) - velocity_of(a, arm_a, -1.0));
+    const double inverse = inverse_collision_mass(a, cross(arm_a, n), b, cross(arm_b, n), n.x(), n.y());
+    RC_ASSERT(std::abs(change - inverse) <= 1e-12 * inverse);
+}
+
+/// A mass thrown by a spring: all of K u^2 / 2 becomes m v^2 / 2.
+TEST(ElasticVelocity, IsTheSpeedTheStoredEnergyGives)
+{
+    const double stiffness = 7e9, deflection = 3.78e-6;
+    const double force = stiffness * deflection;
+    const double v = std::sqrt(elastic_velocity_squared(force, stiffness, 1.0 / mass, 0.0, 5e8, 1.0 / mass));
+    EXPECT_NEAR(0.5 * mass * v * v, 0.5 * stiffness * deflection * deflection, 1e-12 * force * deflection);
+    // Two points share it: half the force, half the stiffness each.
+    const double half = elastic_velocity_squared(0.5 * force, 0.5 * stiffness, 1.0 / mass, 0.0, 2.5e8, 1.0 / mass);
+    EXPECT_DOUBLE_EQ(2.0 * half, v * v);
+    // Two free masses share the energy at rest of their common centre: the relative speed belongs to the reduced mass.
+    const double apart = std::sqrt(elastic_velocity_squared(force, stiffness, 2.0 / mass, 0.0, 5e8, 2.0 / mass));
+    EXPECT_NEAR(2.0 * 0.5 * mass * 0.25 * apart * apart, 0.5 * force * deflection, 1e-12 * force * deflection);
+}
+
+/// [Lee2025] sect. 4.3: a 1 m block about to slide, dt = 5e-5 s, C_scale = 1.
+TEST(ThresholdVelocity, OfTheSlidingBlockIsTheOneDerivedByHand)
+{
+    const double gravity_velocity = 5e-5 * 9.81;
+    const double immovable = elastic_velocity_squared(26487.0, 7e9, 1.0 / mass, 25292.3, 5e8, 1.0 / mass);
+    EXPECT_NEAR(threshold_velocity(1.0, gravity_velocity, immovable), 0.0231, 5e-5);
+    const double heavy_ground = elastic_velocity_squared(26487.0, 7e9, 2.0 / mass, 25292.3, 5e8, 2.0 / mass);
+    EXPECT_NEAR(threshold_velocity(1.0, gravity_velocity, heavy_ground), 0.0325, 5e-5);
+    EXPECT_DOUBLE_EQ(threshold_velocity(3.0, gravity_velocity, immovable), 3.0 * threshold_velocity(1.0, gravity_velocity, immovable));
+}
+
+TEST(ThresholdVelocity, OfAFirstTouchIsWhatGravityGivesInOneStep)
+{
+    EXPECT_DOUBLE_EQ(threshold_velocity(1.0, 4.9e-4, elastic_velocity_squared(0.0, 7e9, 1.0 / mass, 0.0, 5e8, 1.0 / mass)), 4.9e-4);
+}
+}  // namespace
+}  // namespace hdem

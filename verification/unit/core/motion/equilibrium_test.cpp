@@ -1,0 +1,85 @@
+#include "core/motion/equilibrium.h"
+#include "parallel/stages.h"
+#include "verification/unit/case_run.h"
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+TEST(KineticEnergy, CountsTranslationAndRotationOfFreeBlocks)
+{
+    CaseDef scene = scenes::stack(2);
+    scene.blocks[1].velocity = {3.0, 4.0};
+    scene.blocks[2].angular_velocity = 2.0;
+    const CaseRun run(scene);
+    const Equilibrium sums = run.simulation.equilibrium();
+    EXPECT_NEAR(sums.kinetic_energy, 0.5 * 2700.0 * 25.0 + 0.5 * 450.0 * 4.0, 1e-9);
+    EXPECT_NEAR(sums.free_mass, 5400.0, 1e-9);
+    EXPECT_NEAR(sums.greatest_speed, 5.0, 1e-15);
+    EXPECT_NEAR(sums.kinetic_energy_at(5e-4), 0.5 * 5400.0 * 25e-8, 1e-15);
+}
+
+TEST(UnbalancedForceRatio, IsOneInFreeFallAndNothingAtRest)
+{
+    CaseDef scene = scenes::block_on_ground();
+    for (Vec2& p : scene.blocks[1].polygon)
+        p.y() += 0.01;
+    scene.contact.method = Method::force;
+    CaseRun run(scene);
+    run.advance(1);
+    EXPECT_DOUBLE_EQ(run.simulation.equilibrium().unbalanced_force_ratio(), 1.0);
+    run.advance(20000);
+    EXPECT_LT(run.simulation.equilibrium().unbalanced_force_ratio(), 1e-6);
+}
+
+/// Impulses count as forces J / dt: a block at rest on impulses is in equilibrium too.
+TEST(UnbalancedForceRatio, IsNothingAtRestOnImpulses)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.contact.method = Method::impulse;
+    CaseRun run(scene);
+    run.advance(500);
+    EXPECT_LT(run.simulation.equilibrium().unbalanced_force_ratio(), 1e-3) << "one sweep too few leaves a thousandth";
+}
+
+TEST(Convergence, NeedsAllCriteriaListed)
+{
+    ConvergenceDef criteria{.criteria = {"kinetic_energy", "unbalanced_force_ratio"}, .mean_speed = 1e-3, .unbalanced_force_ratio = 1e-2};
+    Equilibrium now{.kinetic_energy = 1e-6, .unbalanced_force = 1.0, .applied_force = 1000.0, .free_mass = 10.0};  // limit 5e-6 J
+    EXPECT_TRUE(is_converged(criteria, now));
+    now.kinetic_energy = 1e-5;
+    EXPECT_FALSE(is_converged(criteria, now));
+    now.kinetic_energy = 1e-6;
+    now.unbalanced_force = 11.0;
+    EXPECT_FALSE(is_converged(criteria, now));
+    criteria.criteria = {"kinetic_energy"};
+    EXPECT_TRUE(is_converged(criteria, now));
+    criteria.criteria = {};
+    EXPECT_FALSE(is_converged(criteria, now)) << "nothing asked for is nothing reached";
+}
+
+TEST(DisplacementReport, CountsWhatStayedAndNamesWhatDetached)
+{
+    CaseDef scene = scenes::stack(3);
+    scene.convergence.detached_distance = 0.1;
+    CaseRun run(scene, [](const Model&, State&) {});
+    State state = run.state();
+    const auto move = [&](const std::string& name, double by) { state.blocks.motion[run.slot(name)].x += by; };
+    move("block1", 0.01);
+    move("block2", 0.03);
+    move("block3", 0.5);
+    const DisplacementReport report = report_displacements(run.model(), state);
+    EXPECT_EQ(report.counted, 2);
+    EXPECT_NEAR(report.mean, 0.02, 1e-15);
+    EXPECT_NEAR(report.greatest, 0.03, 1e-15);
+    EXPECT_EQ(report.detached, std::vector<Index>{run.slot("block3")});
+    state.next_to_excavation = {run.slot("block1")};
+    const DisplacementReport near = report_displacements(run.model(), state);
+    EXPECT_EQ(near.counted, 1);
+    EXPECT_NEAR(near.mean, 0.01, 1e-15);
+    EXPECT_NEAR(near.mean_all, 0.02, 1e-15);
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,317 @@
+#include "core/rock/excavation.h"
+#include "verification/unit/core/rock/rock_invariants.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+ExcavationDef excavation(const std::string& name, OutlineShape shape, const Vec2& position, double width, double height)
+{
+    ExcavationDef def;
+    def.name = name;
+    def.shape = shape;
+    def.position = position;
+    def.width = width;
+    def.height = height;
+    def.diameter = width;
+    return def;
+}
+
+CaseDef rock_case(std::uint64_t seed = 1)
+{
+    return jointed_case(20.0, 18.0, {{-10.0, 1.7}, {70.0, 1.7}, {-75.0, 3.5}}, seed);
+}
+
+double area_inside(const RockMass& rock, Index number)
+{
+    double sum = 0.0;
+    for (const RockBlock& block : rock.blocks)
+    {
+        sum += block.excavation == number ? area(block) : 0.0;
+    }
+    return sum;
+}
+
+/// Centroids of inside parts lie in the outline, those of others outside.
+void expect_separated(const RockMass& rock, const Polygon& outline, Index number)
+{
+    for (const RockBlock& block : rock.blocks)
+    {
+        for (const ConvexPart& part : block.parts)
+        {
+            const double common = overlap_area(part.vertices, outline);
+            EXPECT_NEAR(common, block.excavation == number ? signed_area(part.vertices) : 0.0, 1e-11) << block.name;
+        }
+    }
+}
+
+TEST(Outline, OfAHorseshoeIsARectangleUnderAHalfCircleOfStraightEdges)
+{
+    ExcavationDef def = excavation("t", OutlineShape::horseshoe, {3.0, -2.0}, 9.0, 8.0);
+    def.arc_segments = 16;
+    const Polygon outline = outline_polygon(def);
+    EXPECT_EQ(outline.size(), 19u);  // two feet, and 17 vertices of the arc
+    EXPECT_TRUE(is_convex(outline));
+    const double arc = 16.0 / 2.0 * 4.5 * 4.5 * std::sin(std::numbers::pi / 16.0);
+    EXPECT_NEAR(signed_area(outline), 9.0 * 3.5 + arc, 1e-13);
+    const Box box = bounding_box(outline);
+    EXPECT_EQ(box.low, Vec2(-1.5, -2.0));
+    EXPECT_EQ(box.high, Vec2(7.5, 6.0));
+}
+
+TEST(Outline, OfCircleRectangleAndPolygonIsTheirs)
+{
+    ExcavationDef circle = excavation("c", OutlineShape::circle, {1.0, 1.0}, 2.0, 0.0);
+    circle.arc_segments = 12;
+    EXPECT_EQ(outline_polygon(circle).size(), 12u);
+    EXPECT_NEAR(signed_area(outline_polygon(circle)), 3.0, 1e-14);  // the dodecagon of radius 1 has area 3
+    EXPECT_NEAR(signed_area(outline_polygon(excavation("r", OutlineShape::rectangle, {0.0, 0.0}, 3.0, 2.0))), 6.0, 1e-15);
+    ExcavationDef polygon;
+    polygon.polygon = {{0, 0}, {0, 1}, {1, 0}};
+    EXPECT_DOUBLE_EQ(signed_area(outline_polygon(polygon)), 0.5);
+}
+
+TEST(Excavation, OfJointedRockKeepsItsJointsAndItsArea)
+{
+    for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        const CaseDef def = tunnel_case(seed, InsideOutline::jointed);
+        const RockMass rock = generate_rock_mass(def);
+        const Polygon outline = outline_polygon(def.excavations[0]);
+        EXPECT_NEAR(area_inside(rock, 0), signed_area(outline), 1e-11);
+        expect_separated(rock, outline, 0);
+        expect_sound(rock);
+        std::size_t inside = 0;
+        for (const RockBlock& block : rock.blocks)
+        {
+            if (block.excavation == 0)
+            {
+                EXPECT_EQ(block.name, "tunnel." + std::to_string(++inside));
+                EXPECT_FALSE(block.fix_x);
+            }
+        }
+        EXPECT_GT(inside, 20u);
+    }
+}
+
+TEST(Excavation, AsOneBlockHasTheOutlinesVerticesAndName)
+{
+    const CaseDef def = tunnel_case(1, InsideOutline::one_block);
+    const RockMass rock = generate_rock_mass(def);
+    const Polygon outline = outline_polygon(def.excavations[0]);
+    const RockBlock& block = rock.blocks.back();
+    EXPECT_EQ(block.name, "tunnel");
+    ASSERT_EQ(block.parts.size(), 1u) << "a convex outline is one part";
+    EXPECT_TRUE(
+        std::is_permutation(outline.begin(), outline.end(), block.parts[0].vertices.begin(), block.parts[0].vertices.end()));
+    for (const std::int32_t source : block.parts[0].source)
+    {
+        EXPECT_EQ(source, static_cast<std::int32_t>(edge_outline));
+    }
+    expect_separated(rock, outline, 0);
+    expect_sound(rock);
+}
+
+TEST(Excavation, MarksTheWholeOutlineAndNothingElseAsOutline)
+{
+    const CaseDef def = tunnel_case(2, InsideOutline::jointed);
+    const Polygon outline = outline_polygon(def.excavations[0]);
+    double perimeter = 0.0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+    {
+        perimeter += (outline[next(i, outline.size())] - outline[i]).norm();
+    }
+    double marked = 0.0;
+    for (const DirectedEdge& edge : all_edges(generate_rock_mass(def)))
+    {
+        if (edge.source == edge_outline)
+        {
+            marked += (edge.to - edge.from).norm();
+            EXPECT_LT(distance_to_boundary(outline, 0.5 * (edge.from + edge.to)), 1e-9);
+        }
+    }
+    EXPECT_NEAR(marked, 2.0 * perimeter, 1e-9) << "both sides";
+}
+
+TEST(Excavation, OfAConcaveOutlineIsSound)
+{
+    for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    {
+        for (const InsideOutline inside : {InsideOutline::jointed, InsideOutline::one_block})
+        {
+            SCOPED_TRACE(seed);
+            CaseDef def = rock_case(seed);
+            def.generator.smallest_block_area = 0.2;
+            ExcavationDef cross;
+            cross.name = "cross";
+            cross.inside = inside;
+            cross.polygon = {{5, 7},   {8, 7},   {8, 4},   {11, 4}, {11, 7}, {14, 7},
+                             {14, 10}, {11, 10}, {11, 13}, {8, 13}, {8, 10}, {5, 10}};
+            def.excavations = {cross};
+            const RockMass rock = generate_rock_mass(def);
+            EXPECT_NEAR(area_inside(rock, 0), 45.0, 1e-11);
+            expect_separated(rock, cross.polygon, 0);
+            expect_sound(rock);
+        }
+    }
+}
+
+TEST(Excavation, InsideASingleBlockLeavesARing)
+{
+    CaseDef def = jointed_case(10.0, 10.0, {});
+    def.excavations = {excavation("hole", OutlineShape::circle, {5.0, 5.0}, 4.0, 0.0)};
+    const RockMass rock = generate_rock_mass(def);
+    ASSERT_EQ(rock.blocks.size(), 2u);
+    EXPECT_GT(rock.blocks[0].parts.size(), 2u);
+    expect_separated(rock, outline_polygon(def.excavations[0]), 0);
+    expect_edges_wholly_internal_or_external(rock);
+    EXPECT_NEAR(summed_area(rock), 100.0, 1e-11);
+}
+
+TEST(Excavation, MayCutABlockIntoSeveralOutside)
+{
+    CaseDef def = jointed_case(10.0, 10.0, {});
+    def.excavations = {excavation("trench", OutlineShape::rectangle, {5.0, -1.0}, 2.0, 12.0)};
+    const RockMass rock = generate_rock_mass(def);
+    ASSERT_EQ(rock.blocks.size(), 3u);
+    EXPECT_NEAR(area_inside(rock, 0), 20.0, 1e-13);
+    EXPECT_EQ(rock.blocks[0].name, "b1");
+    EXPECT_EQ(rock.blocks[1].name, "b2");
+    EXPECT_EQ(rock.blocks[2].name, "trench.1");
+}
+
+TEST(Excavation, AlongJointsCutsNothing)
+{
+    CaseDef def = jointed_case(6.0, 6.0, {{0.0, 1.0}, {90.0, 1.0}});
+    def.joint_sets[0].deviation_deg = def.joint_sets[1].deviation_deg = 0.0;
+    def.excavations = {excavation("room", OutlineShape::rectangle, {3.0, 2.0}, 2.0, 2.0)};
+    const RockMass rock = generate_rock_mass(def);
+    EXPECT_EQ(rock.blocks.size(), 36u);
+    EXPECT_NEAR(area_inside(rock, 0), 4.0, 1e-13);
+    expect_sound(rock);
+}
+
+TEST(Excavation, OpenToTheSurfaceIsCutWhereTheDomainIs)
+{
+    for (const InsideOutline inside : {InsideOutline::jointed, InsideOutline::one_block})
+    {
+        CaseDef def = rock_case();
+        def.domain.fixed = {"top"};
+        ExcavationDef cut = excavation("cut", OutlineShape::rectangle, {10.0, 12.0}, 5.0, 10.0);
+        cut.inside = inside;
+        def.excavations = {cut};
+        const RockMass rock = generate_rock_mass(def);
+        EXPECT_NEAR(area_inside(rock, 0), 5.0 * 6.0, 1e-11);
+        expect_sound(rock);
+        for (const RockBlock& block : rock.blocks)
+        {
+            EXPECT_FALSE(block.fix_x && block.excavation == 0) << "an excavated block is never fixed";
+        }
+    }
+}
+
+TEST(Excavation, WithVerticesOnJointsSharesThemToTheLastBit)
+{
+    // The circle's leftmost and rightmost vertices lie on a joint, where they are computed in more than one way.
+    for (int i = 0; i < 20; ++i)
+    {
+        CaseDef def = jointed_case(10.0, 10.0, {{0.0, 1.0}, {90.0, 1.0}});
+        def.joint_sets[0].deviation_deg = def.joint_sets[1].deviation_deg = 0.0;
+        def.joint_sets[1].persistence = 0.7;
+        ExcavationDef first = excavation("first", OutlineShape::circle, {4.0, 5.0}, 3.1 + 0.07 * i, 0.0);
+        ExcavationDef second = excavation("second", OutlineShape::circle, {7.0, 5.0}, 3.3 + 0.05 * i, 0.0);
+        first.inside = second.inside = InsideOutline::one_block;
+        def.excavations = {first, second};
+        expect_sound(generate_rock_mass(def));
+    }
+}
+
+TEST(Excavations, ThatOverlapLeaveTheCommonAreaToTheFirst)
+{
+    for (const InsideOutline inside : {InsideOutline::jointed, InsideOutline::one_block})
+    {
+        CaseDef def = rock_case(3);
+        ExcavationDef first = excavation("first", OutlineShape::rectangle, {8.0, 5.0}, 6.0, 6.0);
+        ExcavationDef second = excavation("second", OutlineShape::rectangle, {12.0, 6.0}, 6.0, 6.0);
+        first.inside = second.inside = inside;
+        def.excavations = {first, second};
+        const RockMass rock = generate_rock_mass(def);
+        EXPECT_NEAR(area_inside(rock, 0), 36.0, 1e-11);
+        EXPECT_NEAR(area_inside(rock, 1), 36.0 - 2.0 * 5.0, 1e-11);
+        expect_sound(rock);
+    }
+}
+
+TEST(Excavations, ThatTouchShareTheirBoundary)
+{
+    CaseDef def = rock_case(4);
+    def.generator.smallest_block_area = 0.3;
+    def.excavations = {excavation("heading", OutlineShape::rectangle, {10.0, 8.0}, 6.0, 3.0),
+                       excavation("bench", OutlineShape::rectangle, {10.0, 5.0}, 6.0, 3.0)};
+    const RockMass rock = generate_rock_mass(def);
+    EXPECT_NEAR(area_inside(rock, 0), 18.0, 1e-11);
+    EXPECT_NEAR(area_inside(rock, 1), 18.0, 1e-11);
+    expect_sound(rock);
+}
+
+TEST(Slivers, AreJoinedToANeighbourOnTheirSideOfTheOutline)
+{
+    // A grid of 1 m, and a floor 0.05 m above a row of joints: 0.05 m² pieces lie outside, below the floor.
+    CaseDef def = jointed_case(6.0, 6.0, {{0.0, 1.0}, {90.0, 1.0}});
+    def.joint_sets[0].deviation_deg = def.joint_sets[1].deviation_deg = 0.0;
+    def.excavations = {excavation("room", OutlineShape::rectangle, {3.0, 2.05}, 2.0, 1.95)};
+    EXPECT_EQ(generate_rock_mass(def).blocks.size(), 38u);
+    def.generator.smallest_block_area = 0.1;
+    const RockMass rock = generate_rock_mass(def);
+    EXPECT_EQ(rock.merged_slivers, 2);
+    EXPECT_EQ(rock.blocks.size(), 36u);
+    EXPECT_NEAR(area_inside(rock, 0), 3.9, 1e-13);
+    std::size_t joined = 0;
+    for (const RockBlock& block : rock.blocks)
+    {
+        EXPECT_GE(area(block), 0.1);
+        // The blocks below the floor take the slivers over their whole upper edges: both are rectangles of 1 m x 1.05 m.
+        joined += std::abs(area(block) - 1.05) < 1e-12 ? 1 : 0;
+    }
+    EXPECT_EQ(joined, 2u);
+    expect_sound(rock);
+    EXPECT_TRUE(rock.warnings.empty());
+}
+
+TEST(Slivers, LeaveNoBlockBelowTheSmallestAreaAroundATunnel)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    {
+        const RockMass rock = generate_rock_mass(tunnel_case(seed, InsideOutline::one_block));
+        double least = 1e9;
+        for (const RockBlock& block : rock.blocks)
+        {
+            least = std::min(least, area(block));
+        }
+        EXPECT_GT(rock.merged_slivers, 0);
+        EXPECT_TRUE(rock.warnings.empty());
+        EXPECT_GE(least, 0.363);
+        EXPECT_NEAR(least * 2700.0, 979.0, 0.05 * 979.0) << "the smallest block of the published model";
+    }
+}
+
+TEST(Slivers, WithoutANeighbourOnTheirSideStayWithAWarning)
+{
+    CaseDef def = jointed_case(10.0, 10.0, {});
+    def.generator.smallest_block_area = 1.0;
+    def.excavations = {excavation("niche", OutlineShape::rectangle, {5.0, 5.0}, 0.5, 0.5)};
+    const RockMass rock = generate_rock_mass(def);
+    EXPECT_EQ(rock.merged_slivers, 0);
+    ASSERT_EQ(rock.warnings.size(), 1u);
+    EXPECT_EQ(rock.warnings[0].key, "excavation[0]");
+    EXPECT_EQ(rock.warnings[0].severity, Problem::Severity::warning);
+    EXPECT_EQ(rock.blocks.size(), 2u);
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,67 @@
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace hdem
+{
+namespace
+{
+using test::ScratchFolder;
+using test::text_in;
+using testing::AllOf;
+using testing::HasSubstr;
+
+template <class Action>
+std::string message_of(const Action& action)
+{
+    try
+    {
+        action();
+    }
+    catch (const RunError& error)
+    {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(AtomicFile, ReplacesTheOldContentAndLeavesNothingElse)
+{
+    const ScratchFolder folder("atomic");
+    write_atomically(folder / "sub/file.txt", std::string_view("old and long"));
+    write_atomically(folder / "sub/file.txt", std::string_view("new"));
+    EXPECT_EQ(text_in(folder / "sub/file.txt"), "new");
+    EXPECT_FALSE(std::filesystem::exists(folder / "sub/file.txt.tmp"));
+}
+
+/// A limit on file sizes stands in for a full disk: write() fails half-way.
+TEST(AtomicFile, KeepsTheOldFileWhenTheNewOneDoesNotFit)
+{
+    const ScratchFolder folder("atomic_full");
+    write_atomically(folder / "file.txt", std::string_view("old"));
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1000, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    const std::string message = message_of([&] { write_atomically(folder / "file.txt", std::string(5000, 'x')); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_THAT(message, AllOf(HasSubstr("file.txt: cannot be written (File too large)"), HasSubstr("ulimit")));
+    EXPECT_EQ(text_in(folder / "file.txt"), "old");
+    EXPECT_FALSE(std::filesystem::exists(folder / "file.txt.tmp"));
+}
+
+TEST(AtomicFile, NamesTheFolderThatCannotBeMade)
+{
+    const ScratchFolder folder("atomic_folder");
+    write_atomically(folder / "file", std::string_view("a file, not a folder"));
+    EXPECT_THAT(message_of([&] { write_atomically(folder / "file/inside.txt", std::string_view("x")); }), HasSubstr("-o"));
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,187 @@
+#include "core/check.h"
+#include "io/hdf5_reader.h"
+#include "io/hdf5_writer.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#ifdef __SANITIZE_ADDRESS__
+/// HDF5 1.10.8 loses some memory when it cannot open a damaged file.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions()
+{
+    return "leak:libhdf5";
+}
+#endif
+
+namespace hdem
+{
+namespace
+{
+using test::ScratchFolder;
+using test::text_in;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <class Action>
+std::string message_of(const Action& action)
+{
+    try
+    {
+        action();
+    }
+    catch (const RunError& error)
+    {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::vector<double> ramp(std::size_t n)
+{
+    std::vector<double> values(n);
+    std::iota(values.begin(), values.end(), 0.5);
+    return values;
+}
+
+TEST(Hdf5File, GivesBackWhatWasWritten)
+{
+    const ScratchFolder folder("hdf5");
+    Hdf5Writer out(folder / "a.h5");
+    out.write("/deep/in/reals", ramp(300000), {100000, 3});
+    out.write("/floats", std::vector<float>{1.5f, -2.5f});
+    out.write("/none", std::vector<std::int32_t>{}, {0, 2});
+    out.write("/bytes", std::vector<std::uint8_t>{0, 255});
+    out.write("/longs", std::vector<std::int64_t>{INT64_MIN, INT64_MAX});
+    out.write_texts("/texts", {"short", "", "Überlänge"});
+    out.write_texts("/no_texts", {});
+    out.set_attribute("/deep", "seed", std::uint64_t{UINT64_MAX});
+    out.set_attribute("/deep", "version", std::vector<std::int64_t>{1, 0});
+    out.set_text("/deep", "title", "α = 30°");
+    out.set_text("/deep", "empty", "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5")) << "before commit()";
+    out.commit();
+
+    const Hdf5Reader in(folder / "a.h5");
+    EXPECT_EQ(in.read<double>("/deep/in/reals", {any_extent, 3}), ramp(300000));
+    EXPECT_THAT(in.read<float>("/floats", {2}), ElementsAre(1.5f, -2.5f));
+    EXPECT_THAT(in.read<std::int32_t>("/none", {any_extent, 2}), ElementsAre());
+    EXPECT_THAT(in.read<std::uint8_t>("/bytes", {2}), ElementsAre(0, 255));
+    EXPECT_THAT(in.read<std::int64_t>("/longs", {2}), ElementsAre(INT64_MIN, INT64_MAX));
+    EXPECT_THAT(in.read_texts("/texts"), ElementsAre("short", "", "Überlänge"));
+    EXPECT_THAT(in.read_texts("/no_texts"), ElementsAre());
+    EXPECT_THAT(in.attribute<std::uint64_t>("/deep", "seed", {}), ElementsAre(UINT64_MAX));
+    EXPECT_THAT(in.attribute<std::int64_t>("/deep", "version", {2}), ElementsAre(1, 0));
+    EXPECT_EQ(in.text("/deep", "title"), "α = 30°");
+    EXPECT_EQ(in.text("/deep", "empty"), "");
+    EXPECT_THAT(in.children("/"), ElementsAre("bytes", "deep", "floats", "longs", "no_texts", "none", "texts"));
+    EXPECT_EQ(in.shape("/deep/in/reals"), (Shape{100000, 3}));
+    EXPECT_TRUE(in.has("/deep/in"));
+    EXPECT_FALSE(in.has("/deep/out"));
+    EXPECT_FALSE(in.has("/floats/x"));
+    EXPECT_FALSE(in.has_attribute("/deep", "nothing"));
+}
+
+TEST(Hdf5File, SameContentGivesTheSameBytes)
+{
+    const ScratchFolder folder("hdf5_bytes");
+    for (const char* name : {"a.h5", "b.h5"})
+    {
+        Hdf5Writer out(folder / name);
+        out.write("/group/reals", ramp(1000));
+        out.set_text("/group", "title", "same");
+        out.commit();
+    }
+    EXPECT_TRUE(text_in(folder / "a.h5") == text_in(folder / "b.h5"));
+}
+
+TEST(Hdf5File, ErrorsNameFileObjectAndReason)
+{
+    const ScratchFolder folder("hdf5_errors");
+    Hdf5Writer out(folder / "a.h5");
+    out.write("/reals", ramp(6), {2, 3});
+    EXPECT_THAT(message_of([&] { out.write("/reals", ramp(1)); }), AllOf(HasSubstr("a.h5: /reals: cannot be written"), HasSubstr("exists")));
+    EXPECT_THAT(message_of([&] { out.write("/wrong", ramp(5), {2, 3}); }), HasSubstr("5 elements do not fill its shape of 6"));
+    EXPECT_THAT(message_of([&] { out.set_attribute("/nowhere", "x", 1.0); }), HasSubstr("/nowhere@x: cannot be written"));
+    out.link("/elsewhere", "other.h5", "/reals");
+    out.commit();
+    Hdf5Writer other(folder / "other.h5");
+    other.write("/reals", ramp(6), {2, 3});
+    other.commit();
+
+    EXPECT_THAT(message_of([&] { const Hdf5Reader in(folder / "b.h5"); }), HasSubstr("b.h5: /: cannot be read"));
+    std::ofstream(folder / "text.h5") << "no HDF5 at all";
+    EXPECT_THAT(message_of([&] { const Hdf5Reader in(folder / "text.h5"); }), HasSubstr("text.h5: /: cannot be read"));
+    const Hdf5Reader in(folder / "a.h5");
+    EXPECT_THAT(message_of([&] { (void)in.read<double>("/reals", {6}); }), HasSubstr("/reals: cannot be read (shape [2, 3], expected [6])"));
+    EXPECT_THAT(message_of([&] { (void)in.read<float>("/reals", {2, 3}); }), HasSubstr("another type of element"));
+    EXPECT_THAT(message_of([&] { (void)in.read<std::int64_t>("/reals", {2, 3}); }), HasSubstr("another type of element"));
+    EXPECT_THAT(message_of([&] { (void)in.read<double>("/absent", {any_extent}); }), HasSubstr("/absent: cannot be read (not in this file)"));
+    EXPECT_THAT(message_of([&] { (void)in.read<double>("/elsewhere", {2, 3}); }), HasSubstr("not in this file")) << "an external link was followed";
+    EXPECT_THAT(message_of([&] { (void)in.read_texts("/reals"); }), HasSubstr("not a text"));
+}
+
+/// Without a checksum each of these would be another number.
+TEST(Hdf5File, AFlippedBitInTheDataIsAnError)
+{
+    const ScratchFolder folder("hdf5_bits");
+    std::vector<double> values = ramp(5000);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = std::sin(1e3 * values[i]);  // so that the packed data is long
+    for (const Hdf5Writer::Packing packing : {Hdf5Writer::Packing::deflated, Hdf5Writer::Packing::plain})
+    {
+        Hdf5Writer out(folder / "a.h5");
+        out.write("/reals", values, {5000}, packing);
+        out.commit();
+        const std::string good = text_in(folder / "a.h5");
+        int refused = 0;
+        for (int i = 0; i < 50; ++i)
+        {
+            std::string bad = good;
+            bad[bad.size() / 2 + static_cast<std::size_t>(i) * 97] ^= 4;
+            std::ofstream(folder / "bad.h5", std::ios::binary) << bad;
+            refused += message_of([&] { (void)Hdf5Reader(folder / "bad.h5").read<double>("/reals", {5000}); }) != "no error" ? 1 : 0;
+        }
+        EXPECT_EQ(refused, 50);
+    }
+}
+
+/// Whatever bytes are changed, or the file cut short: an error or some values, never a crash or a huge allocation.
+TEST(Hdf5File, DamagedFilesAreReadOrRefused)
+{
+    const ScratchFolder folder("hdf5_damage");
+    Hdf5Writer out(folder / "a.h5");
+    out.write("/group/reals", ramp(40), {20, 2});
+    out.write_texts("/texts", {"one", "two"});
+    out.set_text("/group", "title", "damage");
+    out.commit();
+    const std::string good = text_in(folder / "a.h5");
+    std::uint64_t random = 12345;
+    const auto next_random = [&](std::uint64_t n) {
+        random = random * 6364136223846793005U + 1442695040888963407U;
+        return (random >> 33U) % n;
+    };
+    int refused = 0;
+    for (int i = 0; i < 1000; ++i)
+    {
+        std::string bad = good;
+        if (i % 10 == 0)
+            bad.resize(next_random(bad.size()));
+        for (std::uint64_t k = 0; k <= next_random(4) && !bad.empty(); ++k)
+            bad[next_random(bad.size())] = static_cast<char>(next_random(256));
+        std::ofstream(folder / "bad.h5", std::ios::binary) << bad;
+        refused += message_of([&] {
+            const Hdf5Reader in(folder / "bad.h5");
+            (void)in.children("/");
+            (void)in.read<double>("/group/reals", {any_extent, 2});
+            (void)in.read_texts("/texts");
+            (void)in.text("/group", "title");
+        }) != "no error" ? 1 : 0;
+    }
+    EXPECT_GT(refused, 100);
+}
+}  // namespace
+}  // namespace hdem

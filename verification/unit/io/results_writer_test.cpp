@@ -1,0 +1,175 @@
+#include "core/check.h"
+#include "io/hdf5_reader.h"
+#include "io/run_recorder.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <thread>
+
+namespace hdem
+{
+namespace
+{
+using test::ScratchFolder;
+using test::SmallRun;
+using testing::ElementsAre;
+
+SmallRun run_with_histories()
+{
+    SmallRun run = test::small_run();
+    run.model.histories = {test::history("contact", {"ground", "block"}, contact_history_quantities(), 5),
+                           test::history("block", {"block"}, block_history_quantities(), 2)};
+    run.model.output = {.row_every = 10, .frame_every = 20, .contacts = true};
+    run.state.cycle = 0;
+    run.state.time = 0.0;
+    test::load_contact(run, 0, 26487.0, 10.0, Regime::stick);
+    return run;
+}
+
+Provenance some_provenance()
+{
+    return {.case_file = "a.toml", .case_text = "title = \"a\"\n", .overrides = {}, .command_line = {"hdem", "run", "a.toml"}, .seed = 3, .threads = 2,
+            .cpu = "c", .hostname = "h", .environment = {}, .begin = "b", .end = ""};
+}
+
+/// What a run does: show the cycles that are asked for.
+void show(SmallRun& run, RunRecorder& recorder, std::int64_t last)
+{
+    while (run.state.cycle < last)
+    {
+        run.state.cycle = std::min(last, recorder.next_cycle(run.state.cycle));
+        run.state.time = 1e-4 * static_cast<double>(run.state.cycle);
+        recorder.observe(run.model, run.state);
+    }
+}
+
+TEST(RunRecorder, AsksForTheNextCycleThatAnythingNeeds)
+{
+    const ScratchFolder folder("recorder_next");
+    const SmallRun run = run_with_histories();
+    const RunRecorder recorder(folder.path(), run.model, some_provenance());
+    EXPECT_EQ(recorder.next_cycle(0), 2);
+    EXPECT_EQ(recorder.next_cycle(4), 5);
+    EXPECT_EQ(recorder.next_cycle(19), 20);
+}
+
+TEST(RunRecorder, TakesRowsAndFramesAtTheirIntervalsAndAtTheEndOfAStage)
+{
+    const ScratchFolder folder("recorder_rows");
+    SmallRun run = run_with_histories();
+    RunRecorder recorder(folder.path(), run.model, some_provenance());
+    recorder.add_energy({"work", "J"}, [](const Model&, const State& state) { return 2.0 * static_cast<double>(state.cycle); });
+    recorder.observe(run.model, run.state);
+    show(run, recorder, 23);
+    recorder.end_stage(run.model, run.state);
+
+    const Hdf5Reader in(folder / "results.h5");
+    EXPECT_THAT(in.read<std::int64_t>("/history/contact/cycle", {any_extent}), ElementsAre(0, 5, 10, 15, 20, 23));
+    EXPECT_THAT(in.read<std::int64_t>("/history/block/cycle", {any_extent}), ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 23));
+    EXPECT_THAT(in.read<std::int64_t>("/energy/cycle", {any_extent}), ElementsAre(0, 10, 20, 23));
+    EXPECT_THAT(in.read<double>("/energy/work", {any_extent}), ElementsAre(0.0, 20.0, 40.0, 46.0));
+    EXPECT_EQ(in.text("/energy/work", "unit"), "J");
+    EXPECT_THAT(in.read<double>("/energy/stick_points", {4}), ElementsAre(2.0, 2.0, 2.0, 2.0));
+    EXPECT_THAT(in.read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 20, 23));
+    EXPECT_THAT(in.read<double>("/history/contact/normal_force", {6}), testing::Each(26487.0));
+    EXPECT_EQ(in.text("/provenance", "end"), "") << "the run goes on";
+    recorder.finish(run.model, run.state);
+    const Hdf5Reader last(folder / "results.h5");
+    EXPECT_NE(last.text("/provenance", "end"), "");
+    EXPECT_EQ(last.read<std::int64_t>("/energy/cycle", {any_extent}).size(), 4U) << "nothing new since the end of the stage";
+    EXPECT_EQ(last.text("/provenance", "case_sha256"), "90491c6e4037bedf0914b90026a47dd3ce491e73825e407b6b196617674467e9");
+}
+
+/// Independent reader, every object against the page, and what ParaView needs.
+TEST(RunRecorder, FilesAreAsTheirPageSays)
+{
+    if (std::system("/usr/bin/python3 -c 'import h5py' 2> /dev/null") != 0)
+        GTEST_SKIP() << "needs python3-h5py";
+    const ScratchFolder folder("recorder_page");
+    SmallRun run = run_with_histories();
+    RunRecorder recorder(folder.path(), run.model, some_provenance());
+    recorder.observe(run.model, run.state);
+    show(run, recorder, 20);
+    run.state.blocks.present[1] = 0;
+    test::load_contact(run, 0, 0.0, 0.0, Regime::open);    // a frame without contacts
+    show(run, recorder, 40);
+    recorder.finish(run.model, run.state);
+    const std::string source = HDEM_SOURCE_DIR;
+    const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source + "/io/hdf5_format.md " +
+                                folder.path().string() + " > " + (folder / "log").string() + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << test::text_in(folder / "log");
+}
+
+TEST(RunRecorder, RestartKeepsWhatLedToIt)
+{
+    const ScratchFolder folder("recorder_restart");
+    SmallRun run = run_with_histories();
+    {
+        RunRecorder recorder(folder.path(), run.model, some_provenance());
+        recorder.observe(run.model, run.state);
+        show(run, recorder, 60);
+        recorder.end_stage(run.model, run.state);
+    }
+    run.state.cycle = 40;
+    RunRecorder recorder(folder.path(), run.model, some_provenance(), run.state);
+    recorder.observe(run.model, run.state);
+    show(run, recorder, 50);
+    recorder.finish(run.model, run.state);
+    const Hdf5Reader in(folder / "results.h5");
+    EXPECT_THAT(in.read<std::int64_t>("/energy/cycle", {any_extent}), ElementsAre(0, 10, 20, 30, 40, 50));
+    EXPECT_EQ(in.read<double>("/history/block/speed", {any_extent}).size(), 26U);
+    EXPECT_THAT(in.read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 20, 40, 50));
+}
+
+TEST(RunRecorder, RefusesHistoriesThatCannotBeGroups)
+{
+    const ScratchFolder folder("recorder_names");
+    for (const char* name : {"a/b", ".", "", "block"})
+    {
+        SmallRun run = run_with_histories();
+        run.model.histories[0].name = name;
+        EXPECT_THROW(RunRecorder(folder.path(), run.model, some_provenance()), InputError) << name;
+    }
+}
+
+/// Another process writes without pause and is killed at any moment: what is on the disk is whole each time.
+TEST(ResultsWriter, FileIsWholeWheneverTheRunIsKilled)
+{
+    const ScratchFolder folder("results_killed");
+    int seen = 0;
+    for (int kill_number = 0; kill_number < 20; ++kill_number)
+    {
+        const pid_t child = fork();
+        if (child == 0)
+        {
+            SmallRun run = run_with_histories();
+            FrameWriter frames(folder.path(), run.model);
+            ResultsWriter results(folder / "results.h5", some_provenance());
+            const std::size_t table = results.add_table("/energy", {{"cycle_again", "1"}});
+            for (std::int64_t cycle = 0;; ++cycle)
+            {
+                for (int i = 0; i < 500; ++i)
+                    results.add_row(table, 500 * cycle + i, 0.0, std::vector<double>{static_cast<double>(500 * cycle + i)});
+                frames.write(run.model, run.state);
+                results.write(frames.frames(), true);
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(40 + 13 * kill_number));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        if (!std::filesystem::exists(folder / "results.h5"))
+            continue;
+        ++seen;
+        const Hdf5Reader in(folder / "results.h5");
+        const auto cycle = in.read<std::int64_t>("/energy/cycle", {any_extent});
+        const auto again = in.read<double>("/energy/cycle_again", {cycle.size()});
+        EXPECT_EQ(cycle.size() % 500, 0U);
+        EXPECT_TRUE(std::equal(cycle.begin(), cycle.end(), again.begin(), [](std::int64_t a, double b) { return static_cast<double>(a) == b; }));
+    }
+    EXPECT_GT(seen, 10);
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,155 @@
+#include "parallel/stages.h"
+#include "verification/unit/case_run.h"
+
+#include <gmock/gmock.h>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Notes what it is shown.
+class Witness : public Observer
+{
+  public:
+    explicit Witness(std::int64_t every) : every_(every) {}
+    std::int64_t next_cycle(std::int64_t now) const override { return next_multiple(now, every_); }
+    void begin_stage(const Model&, const State&) override { events.push_back("begin"); }
+    void observe(const Model&, const State& state) override { events.push_back(std::to_string(state.cycle)); }
+    void end_stage(const Model&, const State&) override { events.push_back("end"); }
+
+    std::vector<std::string> events;
+
+  private:
+    std::int64_t every_;
+};
+
+std::vector<StageResult> run_all(const CaseDef& scene, std::vector<Observer*> observers = {})
+{
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state));
+    return run_stages(simulation, observers);
+}
+
+TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.time.step = 1e-4;
+    scene.stages = {{.name = "cycles", .cycles = 123}, {.name = "seconds", .duration = 0.01}, {.name = "odd", .duration = 0.00101}, {.name = "none", .cycles = 0}};
+    const std::vector<StageResult> results = run_all(scene);
+    ASSERT_EQ(results.size(), 4u);
+    EXPECT_EQ(results[0].cycles, 123);
+    EXPECT_EQ(results[1].cycles, 100) << "0.01 s / 1e-4 s, in spite of rounding";
+    EXPECT_EQ(results[1].first_cycle, 123);
+    EXPECT_EQ(results[2].cycles, 11) << "begun is finished";
+    EXPECT_EQ(results[3].cycles, 0);
+    EXPECT_FALSE(results[0].converged);
+}
+
+TEST(Stages, ShowObserversTheCyclesTheyAskedForAndTheEnds)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.stages = {{.name = "one", .cycles = 25}, {.name = "two", .cycles = 10}};
+    Witness tens(10), sevens(7), ends(0);
+    run_all(scene, {&tens, &sevens, &ends});
+    EXPECT_THAT(tens.events, ElementsAre("0", "begin", "10", "20", "25", "end", "begin", "30", "35", "end"));
+    EXPECT_THAT(sevens.events, ElementsAre("0", "begin", "7", "14", "21", "25", "end", "begin", "28", "35", "end"));
+    EXPECT_THAT(ends.events, ElementsAre("0", "begin", "25", "end", "begin", "35", "end"));
+}
+
+TEST(Stages, DoNotDependOnWhoWatches)
+{
+    CaseDef scene = scenes::pile(8, 4);
+    scene.stages[0].cycles = 500;
+    std::vector<std::uint64_t> hashes;
+    for (const std::int64_t every : {0, 1, 37})
+    {
+        Witness witness(every);
+        Observer* const observers[] = {&witness};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        run_stages(simulation, observers);
+        hashes.push_back(state_hash(simulation.model(), simulation.state()));
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+CaseDef until_converged(const std::string& criterion)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.contact.method = Method::force;
+    scene.stages = {{.name = "settle", .until_converged = true, .max_cycles = 20000}};
+    scene.convergence = {.criteria = {criterion}, .least_cycles = 100, .check_every = 10};
+    return scene;
+}
+
+TEST(Stages, EndOnceConvergedByEitherCriterion)
+{
+    for (const std::string criterion : {"kinetic_energy", "unbalanced_force_ratio"})
+    {
+        const std::vector<StageResult> results = run_all(until_converged(criterion));
+        EXPECT_TRUE(results[0].converged) << criterion;
+        EXPECT_TRUE(results[0].until_converged);
+        EXPECT_LT(results[0].cycles, 5000) << criterion;
+        EXPECT_EQ(results[0].cycles % 10, 0);
+        EXPECT_GE(results[0].cycles, 100);
+    }
+}
+
+TEST(Stages, AreNotConvergedBeforeTheLeastCyclesNorAfterTheLimit)
+{
+    CaseDef scene = until_converged("kinetic_energy");
+    scene.convergence.least_cycles = 3000;
+    EXPECT_EQ(run_all(scene)[0].cycles, 3000);
+    scene = until_converged("unbalanced_force_ratio");
+    scene.convergence.unbalanced_force_ratio = 0.0;
+    scene.stages[0].max_cycles = 555;
+    const StageResult result = run_all(scene)[0];
+    EXPECT_EQ(result.cycles, 555);
+    EXPECT_FALSE(result.converged);
+}
+
+std::string error_of(const CaseDef& scene)
+{
+    try
+    {
+        run_all(scene);
+    }
+    catch (const RunError& error)
+    {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(RunChecks, NameTheBlockWhoseMotionIsNotFinite)
+{
+    CaseDef scene = scenes::empty_scene(5000);
+    scenes::add_block(scene, "runaway", scenes::rectangle({0, 0}, {1, 1}));
+    scene.time.step = 1.0;
+    scene.loads = {{.blocks = {"runaway"}, .force = {1e308, 0.0}}};
+    const std::string error = error_of(scene);
+    EXPECT_THAT(error, HasSubstr("\"runaway\""));
+    EXPECT_THAT(error, HasSubstr("cycle 1000"));
+    EXPECT_THAT(error, HasSubstr("time.step"));
+}
+
+TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.joints[0].normal_stiffness = scene.joints[0].shear_stiffness = 1e5;  // the weight sinks in by 0.26 m
+    scene.contact.method = Method::force;
+    scene.stages[0].cycles = 5000;
+    const std::string error = error_of(scene);
+    EXPECT_THAT(error, HasSubstr("\"ground\""));
+    EXPECT_THAT(error, HasSubstr("\"block\""));
+    EXPECT_THAT(error, HasSubstr("contact.overlap_limit"));
+    scene.contact.overlap_limit = 0.6;
+    EXPECT_EQ(error_of(scene), "none");
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,51 @@
+#include "verification/unit/case_run.h"
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+/// The order of summation does not know the number of threads: the same to the last bit.
+class Threads : public testing::TestWithParam<int>
+{
+  protected:
+    static void expect_hash_of_one_thread(const CaseDef& scene, std::int64_t cycles)
+    {
+        CaseRun one(scene, 1), many(scene, GetParam());
+        ASSERT_EQ(many.simulation.threads(), GetParam());
+        one.advance(cycles);
+        many.advance(cycles);
+        EXPECT_GT(one.simulation.contact_point_updates(), 500);
+        EXPECT_EQ(one.hash(), many.hash());
+        EXPECT_EQ(one.simulation.contact_point_updates(), many.simulation.contact_point_updates());
+        EXPECT_EQ(one.energy(), many.energy());
+    }
+};
+
+TEST_P(Threads, GiveTheSamePileByEveryMethod)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+    {
+        CaseDef scene = scenes::pile(40, 8);
+        scene.contact.method = method;
+        expect_hash_of_one_thread(scene, 6000);
+    }
+}
+
+TEST_P(Threads, GiveTheSameRockAndTheSameExcavation)
+{
+    CaseDef scene = scenes::joints(20.0, 20.0, 1.0, 3.0);
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {10.0, 10.0}, .diameter = 6.0}};
+    scene.stages = {{.name = "dig", .cycles = 10, .excavate = {"tunnel"}}};
+    expect_hash_of_one_thread(scene, 1500);
+}
+
+TEST_P(Threads, MayBeMoreThanThereAreBlocks)
+{
+    expect_hash_of_one_thread(scenes::stack(2), 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(2, 3, 8));
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+"""A small run of the program, read by hdem_io.py and drawn by `hdem plot`.
+
+    plot_test.py HDEM TOOLS    the program, and the folder of hdem_io.py and plot.py
+
+Exit code 77 (skipped) without h5py or matplotlib.
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+try:
+    import numpy as np
+    import matplotlib.image
+    import h5py    # noqa: F401
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(TOOLS))
+import hdem_io    # noqa: E402
+import plot       # noqa: E402
+
+# A concave block on a ground beside a prop that is removed, and a block that falls 0.2 m.
+CASE = """
+title = "Small run"
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_angle_deg = 30.0
+[time]
+step = 1e-4
+[convergence]
+detached_distance = 0.05
+[[block]]
+name = "ground"
+polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]
+fixed = true
+[[block]]
+name = "l"
+polygon = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+[[block]]
+name = "prop"
+polygon = [[6, 0], [7, 0], [7, 1], [6, 1]]
+[[block]]
+name = "ball"
+polygon = [[4, 0.2], [5, 0.2], [5, 1.2], [4, 1.2]]
+[[stage]]
+name = "settle"
+cycles = 200
+[[stage]]
+name = "fall"
+cycles = 1500
+excavate = ["prop"]
+[output]
+row_every = 100
+[[history]]
+name = "rest"
+between = ["ground", "l"]
+quantities = ["normal_force", "overlap"]
+every = 10
+[[history]]
+name = "ball"
+block = "ball"
+quantities = ["displacement", "speed"]
+every = 10
+"""
+
+
+def area(polygon):
+    x, y = np.asarray(polygon).T
+    return 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+class SmallRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_plot_test_")
+        cls.folder = Path(cls.scratch.name) / "out"
+        case = Path(cls.scratch.name) / "small.toml"
+        case.write_text(CASE, encoding="utf-8")
+        subprocess.run([HDEM, "run", case, "-o", cls.folder, "--quiet"], check=True)
+        cls.run_ = hdem_io.open_run(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def plot(self, *arguments):
+        """Exit code and what was said."""
+        done = subprocess.run([HDEM, "plot", *map(str, arguments)], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_frames_are_those_of_the_ends_of_stages(self):
+        self.assertEqual([(frame.cycle, frame.stage) for frame in self.run_.frames if frame.cycle > 0], [(200, "settle"), (1700, "fall")])
+        self.assertEqual(hdem_io.open_run(self.folder / "results.h5").frames, self.run_.frames)
+
+    def test_polygons_are_the_blocks(self):
+        blocks = self.run_.blocks(0)
+        self.assertEqual(list(blocks["name"]), ["ground", "l", "prop", "ball"])
+        for polygon, expected in zip(blocks["polygon"], blocks["area"]):
+            self.assertAlmostEqual(area(polygon), expected, places=9)
+        self.assertAlmostEqual(area(blocks["polygon"][1]), 3.0, places=9)
+        self.assertGreater(np.count_nonzero(blocks["part_block"] == 1), 1, "a concave block has several parts")
+        lengths = np.linalg.norm(blocks["edges"][:, 1] - blocks["edges"][:, 0], axis=1)
+        self.assertAlmostEqual(lengths[blocks["edge_block"] == 1].sum(), 8.0, places=9)
+        self.assertEqual(blocks["displacement"].shape, (4, 2))
+
+    def test_excavated_block_is_gone_and_fallen_one_detached(self):
+        blocks = self.run_.blocks("last")
+        self.assertEqual(list(blocks["name"]), ["ground", "l", "ball"])
+        self.assertEqual(list(blocks["detached"]), [0, 0, 1])
+        self.assertEqual(list(blocks["fixed"]), [1, 0, 0])
+        self.assertAlmostEqual(np.linalg.norm(blocks["outline"][:, 1] - blocks["outline"][:, 0], axis=1).sum(), 4.0, places=9)
+        self.assertEqual(blocks["info"]["title"], "Small run")
+
+    def test_contacts_carry_the_weight(self):
+        contacts = self.run_.contacts("last")
+        blocks = self.run_.blocks("last")
+        on_l = np.any(blocks["name"][np.searchsorted(blocks["id"], contacts["blocks"])] == "l", axis=1)
+        self.assertAlmostEqual(contacts["normal_force"][on_l].sum() / (3.0 * 2700.0 * 9.81), 1.0, places=2)
+        self.assertEqual(contacts["points"].shape[1:], (2, 2))
+
+    def test_histories_have_units_and_end_with_the_run(self):
+        rest = self.run_.history("rest")
+        self.assertEqual(rest.unit["normal_force"], "N")
+        self.assertEqual(rest["cycle"][-1], 1700)
+        self.assertAlmostEqual(rest["normal_force"][-1] / (3.0 * 2700.0 * 9.81), 1.0, places=2)
+        self.assertEqual(sorted(self.run_.history("ball")), ["cycle", "displacement_x", "displacement_y", "speed", "time"])
+        self.assertIn("kinetic_energy", self.run_.energy())
+        self.assertEqual(self.run_.provenance()["case_text"], CASE)
+        with self.assertRaisesRegex(hdem_io.ResultError, "ball, rest"):
+            self.run_.history("nothing")
+
+    def test_every_colour_gives_a_picture(self):
+        for colour in [*plot.FIELDS, *plot.CLASSES]:
+            picture = self.folder / f"{colour}.png"
+            code, said = self.plot(self.folder, "-o", picture, "--colour", colour, "--dpi", "80")
+            self.assertEqual((code, said.strip()), (0, str(picture)))
+            self.assertGreater(matplotlib.image.imread(picture)[..., :3].std(), 0.01, "not a blank page")
+
+    def test_other_pictures(self):
+        for arguments in (["--contacts"], ["--excavation"], ["--frame", "0"], ["--window", "0", "0", "2", "2"], ["--history", "energy"],
+                          ["--history", "ball"], ["--range", "0", "1e-3"]):
+            picture = self.folder / "other.png"
+            code, said = self.plot(self.folder / "results.h5", "-o", picture, "--dpi", "80", *arguments)
+            self.assertEqual(code, 0, said)
+            picture.unlink()
+
+    def test_vector_pictures_are_the_same_each_time(self):
+        for name in ("one.svg", "two.svg"):
+            self.assertEqual(self.plot(self.folder, "-o", self.folder / name)[0], 0)
+        self.assertEqual((self.folder / "one.svg").read_text(), (self.folder / "two.svg").read_text())
+        xml.etree.ElementTree.parse(self.folder / "one.svg")
+
+    def test_errors_say_what_is_wrong(self):
+        for arguments, expected, words in ((["nowhere"], 1, "no such file"), ([self.folder, "--frame", "77"], 1, "has no frame 77"),
+                                           ([self.folder, "--colour", "pink"], 2, "invalid choice"), ([self.folder / "run.log"], 1, "cannot be read"),
+                                           ([self.folder, "--history", "x"], 1, "histories are ball, rest"),
+                                           ([self.folder, "-o", self.folder / "a.xyz"], 1, "xyz")):
+            code, said = self.plot(*arguments)
+            self.assertEqual(code, expected, said)
+            self.assertIn(words, said)
+            self.assertNotIn("Traceback", said)
+
+
+class ColourRange(unittest.TestCase):
+    def test_greatest_value_is_the_end(self):
+        self.assertEqual(plot.colour_range(np.array([0.0, 1.0, 2.0]), False), (0.0, 2.0, "neither"))
+        self.assertEqual(plot.colour_range(np.array([-3.0, 1.0]), True), (-3.0, 3.0, "neither"))
+
+    def test_few_far_values_do_not_wash_out_the_rest(self):
+        low, high, extend = plot.colour_range(np.append(np.linspace(0.0, 1e-3, 500), 0.09), False)
+        self.assertLess(high, 1.1e-3)
+        self.assertEqual((low, extend), (0.0, "max"))
+
+    def test_nothing_moves(self):
+        self.assertEqual(plot.colour_range(np.zeros(4), False), (0.0, 1.0, "neither"))
+
+    def test_units_read_well(self):
+        self.assertEqual(plot.scaled_unit("m", 0.02), (1e-3, "mm"))
+        self.assertEqual(plot.scaled_unit("Pa", 2e6), (1e6, "MPa"))
+        self.assertEqual(plot.scaled_unit("deg", 0.1), (1, "deg"))
+        self.assertEqual(plot.scaled_unit("m", 0.0), (1e-6, "µm"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
