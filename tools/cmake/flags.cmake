@@ -6,7 +6,9 @@ target_compile_features(hdem_flags INTERFACE cxx_std_20)
 # Nothing reads errno after a math function or traps floating-point exceptions, so these two change no result.
 set(HDEM_NUMERIC_FLAGS -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(HDEM_NATIVE)
-    list(APPEND HDEM_NUMERIC_FLAGS -march=native -mtune=native)
+    # g++ 12 fuses pairs like (a c - b s, a s + b c) into fmaddsub when it vectorises, in spite of -ffp-contract=off, and the bits then
+    # differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into.
+    list(APPEND HDEM_NUMERIC_FLAGS -march=native -mtune=native -mno-fma -mno-avx512f)
 endif()
 
 set(HDEM_SANITIZE_FLAGS "")

@@ -14,7 +14,7 @@ struct Check
     enum class Length
     {
         is_short,  ///< part of `ctest`
-        is_long    ///< more than about twenty seconds; ctest label "long"
+        is_long    ///< more than about twenty seconds
     };
     std::string name;  ///< "paper.table2", "closed_form.A1"
     std::string what;

@@ -167,7 +167,8 @@ CaseDef voronoi(int columns, int rows, std::uint64_t seed)
                     if (s != r || d != c)
                         cell = nearer_part(cell, points[r * columns + c], points[s * columns + d]);
             const std::string name = std::to_string(c + 1) + "." + std::to_string(r + 1);
-            const bool at_side = std::any_of(cell.begin(), cell.end(), [&](const Vec2& p) { return p.x() == 0.0 || p.x() == columns || p.y() == 0.0; });
+            const bool at_side = std::any_of(cell.begin(), cell.end(),
+                                             [&](const Vec2& p) { return p.x() == 0.0 || p.x() == columns || p.y() == 0.0; });
             at_side ? add_fixed_block(scene, name, cell) : add_block(scene, name, cell);
         }
     return scene;

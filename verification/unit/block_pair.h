@@ -59,7 +59,10 @@ struct BlockPair
 
     explicit BlockPair(const CaseDef& scene) : BlockPair(build_model(scene)) {}
     explicit BlockPair(Setup setup)
-        : model(std::move(setup.model)), state(std::move(setup.state)), a(model.find_block("a")), b(model.find_block("b"))
+        : model(std::move(setup.model)),
+          state(std::move(setup.state)),
+          a(model.find_block("a")),
+          b(model.find_block("b"))
     {
     }
 
@@ -86,7 +89,10 @@ struct BlockPair
             polygon.push_back(world(m, shapes.vertex[v]));
         return polygon;
     }
-    static Vec2 world(const BlockMotion& m, const Vec2& p) { return {m.x + m.c * p.x() - m.s * p.y(), m.y + m.s * p.x() + m.c * p.y()}; }
+    static Vec2 world(const BlockMotion& m, const Vec2& p)
+    {
+        return {m.x + m.c * p.x() - m.s * p.y(), m.y + m.s * p.x() + m.c * p.y()};
+    }
 
     /// Search all contacts between all blocks; contacts known before keep their history.
     void search()
@@ -100,7 +106,8 @@ struct BlockPair
                 for (Index k = 0; k < state.contacts.size(); ++k)
                     if (state.contacts.part_a[k] == i && state.contacts.part_b[k] == j)
                         contact = state.contacts.get(k);
-                if (shapes.part_block[i] != shapes.part_block[j] && find_features(model, state.blocks.motion, contact) <= skin_width(model))
+                if (shapes.part_block[i] != shapes.part_block[j] &&
+                    find_features(model, state.blocks.motion, contact) <= skin_width(model))
                     found.push_back(contact);
             }
         state.contacts.resize(static_cast<Index>(found.size()));
@@ -131,7 +138,8 @@ struct BlockPair
     [[nodiscard]] bool is_closed_at(const Contact& contact) const
     {
         const EdgeTouch t = touch(contact);
-        return is_closed(t.length, t.point[0].overlap, contact.length_floor) || is_closed(t.length, t.point[1].overlap, contact.length_floor);
+        return is_closed(t.length, t.point[0].overlap, contact.length_floor) ||
+               is_closed(t.length, t.point[1].overlap, contact.length_floor);
     }
 };
 }  // namespace hdem::test

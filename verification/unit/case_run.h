@@ -52,7 +52,8 @@ inline double elastic_energy(const Model& model, const State& state)
             const double length = 0.5 * report_contact(state, i).bearing_length;
             const double normal = contacts.normal_force[k][i];
             const double shear = contacts.shear_force[k][i];
-            energy += 0.5 * normal * normal / (joint.normal_stiffness * length) + 0.5 * shear * shear / (joint.shear_stiffness * length);
+            energy += 0.5 * normal * normal / (joint.normal_stiffness * length) +
+                      0.5 * shear * shear / (joint.shear_stiffness * length);
         }
     return energy;
 }
@@ -76,8 +77,14 @@ class CaseRun
   public:
     explicit CaseRun(const CaseDef& def, int threads = 1) : CaseRun(build_model(def), threads) {}
     /// For starts that no case file can say.
-    CaseRun(const CaseDef& def, const std::function<void(const Model&, State&)>& change) : CaseRun(changed(build_model(def), change)) {}
-    explicit CaseRun(Setup setup, int threads = 1) : simulation(std::move(setup.model), std::move(setup.state), threads) { simulation.begin_stage(0); }
+    CaseRun(const CaseDef& def, const std::function<void(const Model&, State&)>& change)
+        : CaseRun(changed(build_model(def), change))
+    {
+    }
+    explicit CaseRun(Setup setup, int threads = 1) : simulation(std::move(setup.model), std::move(setup.state), threads)
+    {
+        simulation.begin_stage(0);
+    }
 
     Simulation simulation;
 
@@ -138,7 +145,8 @@ class ContactInvariants : public testing::Test
             size += run.model().mass[i] * std::hypot(m.vx, m.vy) + run.model().inertia[i] * std::abs(m.w);
         }
         EXPECT_LE((after.linear - before.linear).norm(), share * size) << "linear momentum, share " << share;
-        EXPECT_LE(std::abs(after.angular - before.angular), 10.0 * share * size) << "angular momentum, arms below 10 m, share " << share;
+        EXPECT_LE(std::abs(after.angular - before.angular), 10.0 * share * size)
+            << "angular momentum, arms below 10 m, share " << share;
     }
 
     /// One more cycle, in which the contact forces on all blocks, fixed ones too, sum to nothing: force and moment about the origin.

@@ -99,7 +99,8 @@ TEST(Stage, FindsTheContactsOfABlockThatItFrees)
     for (int i = 0; i < 2000; ++i)
     {
         run.advance(1);
-        ASSERT_NEAR(run.displacement("block").y(), 0.0, 1e-5) << "cycle " << run.state().cycle << ": twice the static deflection is 7.6 um";
+        ASSERT_NEAR(run.displacement("block").y(), 0.0, 1e-5)
+            << "cycle " << run.state().cycle << ": twice the static deflection is 7.6 um";
     }
     EXPECT_NEAR(run.forces_between("ground", "block").x(), 2700.0 * 9.81, 1.0);
 }
@@ -108,7 +109,9 @@ TEST(Stage, SetsMethodAndDampingFromThereOn)
 {
     CaseDef scene = scenes::block_on_ground();
     scene.contact.method = Method::force;
-    scene.stages = {{.name = "one", .cycles = 10}, {.name = "two", .cycles = 10, .method = Method::impulse, .damping = DampingPreset::paper}, {.name = "three", .cycles = 10}};
+    scene.stages = {{.name = "one", .cycles = 10},
+                    {.name = "two", .cycles = 10, .method = Method::impulse, .damping = DampingPreset::paper},
+                    {.name = "three", .cycles = 10}};
     CaseRun run(scene);
     run.advance(10);
     EXPECT_EQ(run.simulation.count_contacts().points[static_cast<int>(Regime::impulse)], 0);

@@ -38,7 +38,10 @@ TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)
 {
     CaseDef scene = scenes::block_on_ground();
     scene.time.step = 1e-4;
-    scene.stages = {{.name = "cycles", .cycles = 123}, {.name = "seconds", .duration = 0.01}, {.name = "odd", .duration = 0.00101}, {.name = "none", .cycles = 0}};
+    scene.stages = {{.name = "cycles", .cycles = 123},
+                    {.name = "seconds", .duration = 0.01},
+                    {.name = "odd", .duration = 0.00101},
+                    {.name = "none", .cycles = 0}};
     const std::vector<StageResult> results = run_all(scene);
     ASSERT_EQ(results.size(), 4u);
     EXPECT_EQ(results[0].cycles, 123);

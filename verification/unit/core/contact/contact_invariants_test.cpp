@@ -81,8 +81,11 @@ TEST_P(EveryMethod, AddsNoEnergyInAFallWithFriction)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::Values(Method::force, Method::impulse, Method::hybrid),
-                         [](const auto& method)
-                         { return std::string(method.param == Method::force ? "Force" : (method.param == Method::impulse ? "Impulse" : "Hybrid")); });
+                         [](const auto& method) {
+                             return std::string(method.param == Method::force
+                                                    ? "Force"
+                                                    : (method.param == Method::impulse ? "Impulse" : "Hybrid"));
+                         });
 
 // ---- force method against closed forms ------------------------------------------------------------------------------
 

@@ -131,26 +131,28 @@ RC_GTEST_PROP(RandomImpact, KeepsMomentumAndAddsNoKineticEnergy, ())
     CaseDef scene = without_gravity(test::pair_scene(test::random_convex(), test::random_convex()), rough ? 0.0 : number(0.0, 1.0));
     scene.joints[0].friction_angle_deg = rough ? number(0.0, 60.0) : 0.0;
     scene.blocks[1].velocity = {0.0, 0.0};
-    CaseRun run(scene, [](const Model& model, State& state) {
-        // One beside the other, touching within a hair, moving towards each other.
-        const Index a = model.find_block("a"), b = model.find_block("b");
-        Contact contact{.part_a = 0, .part_b = 1};
-        double near = 0.0, far = 10.0;
-        const double angle = number(0.0, 6.28);
-        const double x = state.blocks.motion[a].x;
-        for (int i = 0; i < 60; ++i)
-        {
-            const double middle = 0.5 * (near + far);
-            state.blocks.motion[b].x = x + middle * std::cos(angle);
-            state.blocks.motion[b].y = state.blocks.motion[a].y + middle * std::sin(angle);
-            contact.ref_edge = no_index;
-            (find_features(model, state.blocks.motion, contact) < -1e-5 ? near : far) = middle;
-        }
-        BlockMotion& m = state.blocks.motion[b];
-        m.vx = -std::cos(angle) + number(-0.3, 0.3);
-        m.vy = -std::sin(angle) + number(-0.3, 0.3);
-        m.w = number(-1.0, 1.0);
-    });
+    CaseRun run(scene,
+                [](const Model& model, State& state)
+                {
+                    // One beside the other, touching within a hair, moving towards each other.
+                    const Index a = model.find_block("a"), b = model.find_block("b");
+                    Contact contact{.part_a = 0, .part_b = 1};
+                    double near = 0.0, far = 10.0;
+                    const double angle = number(0.0, 6.28);
+                    const double x = state.blocks.motion[a].x;
+                    for (int i = 0; i < 60; ++i)
+                    {
+                        const double middle = 0.5 * (near + far);
+                        state.blocks.motion[b].x = x + middle * std::cos(angle);
+                        state.blocks.motion[b].y = state.blocks.motion[a].y + middle * std::sin(angle);
+                        contact.ref_edge = no_index;
+                        (find_features(model, state.blocks.motion, contact) < -1e-5 ? near : far) = middle;
+                    }
+                    BlockMotion& m = state.blocks.motion[b];
+                    m.vx = -std::cos(angle) + number(-0.3, 0.3);
+                    m.vy = -std::sin(angle) + number(-0.3, 0.3);
+                    m.w = number(-1.0, 1.0);
+                });
     const double before = run.simulation.equilibrium().kinetic_energy;
     const test::Momentum momentum = run.momentum();
     run.advance(1);
@@ -172,7 +174,8 @@ TEST_F(Impact, LeavesARestingBlockAtRestUnderGravity)
         EXPECT_LT(run.displacement("block").norm(), 2e-6);
         if (e == 1.0)
             continue;  // without any loss it rattles within a step of gravity
-        EXPECT_NEAR(run.forces_between("ground", "block").x(), 2700.0 * 9.81, 1e-3 * 2700.0 * 9.81) << "J / dt is the weight, Eq. (29)";
+        EXPECT_NEAR(run.forces_between("ground", "block").x(), 2700.0 * 9.81, 1e-3 * 2700.0 * 9.81)
+            << "J / dt is the weight, Eq. (29)";
     }
 }
 

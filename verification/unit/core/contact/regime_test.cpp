@@ -15,7 +15,8 @@ constexpr BlockInertia unit_square{1.0 / mass, 1.0 / mass, 1.0 / square_inertia,
 TEST(CollisionMass, OfACentralImpactIsTheReducedMass)
 {
     EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.0, unit_square, 0.0, 0.0, 1.0), 0.5 * mass, 1e-9);
-    EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.0, {}, 0.0, 0.6, 0.8), mass, 1e-9) << "an immovable block is infinitely heavy";
+    EXPECT_NEAR(1.0 / inverse_collision_mass(unit_square, 0.0, {}, 0.0, 0.6, 0.8), mass, 1e-9)
+        << "an immovable block is infinitely heavy";
 }
 
 TEST(CollisionMass, OfAUnitSquareHitAtItsCornerIsTwoFifthsOfItsMass)
@@ -73,7 +74,8 @@ TEST(ThresholdVelocity, OfTheSlidingBlockIsTheOneDerivedByHand)
     EXPECT_NEAR(threshold_velocity(1.0, gravity_velocity, immovable), 0.0231, 5e-5);
     const double heavy_ground = elastic_velocity_squared(26487.0, 7e9, 2.0 / mass, 25292.3, 5e8, 2.0 / mass);
     EXPECT_NEAR(threshold_velocity(1.0, gravity_velocity, heavy_ground), 0.0325, 5e-5);
-    EXPECT_DOUBLE_EQ(threshold_velocity(3.0, gravity_velocity, immovable), 3.0 * threshold_velocity(1.0, gravity_velocity, immovable));
+    EXPECT_DOUBLE_EQ(threshold_velocity(3.0, gravity_velocity, immovable),
+                     3.0 * threshold_velocity(1.0, gravity_velocity, immovable));
 }
 
 TEST(ThresholdVelocity, OfAFirstTouchIsWhatGravityGivesInOneStep)

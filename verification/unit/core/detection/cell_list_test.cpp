@@ -117,7 +117,8 @@ TEST(CellList, LeavesOutBoxesThatAreNotNumbers)
 
 TEST(CellList, SurvivesBoxesBeyondAllCells)
 {
-    std::vector<Box> boxes = {box_at({0, 0}, 1e-3, 1e-3), box_at({0, 0}, 1, 1), box_at({1e30, -1e30}, 1, 1), box_at({1e30, 1e30}, 1, 1)};
+    std::vector<Box> boxes = {box_at({0, 0}, 1e-3, 1e-3), box_at({0, 0}, 1, 1), box_at({1e30, -1e30}, 1, 1),
+                              box_at({1e30, 1e30}, 1, 1)};
     EXPECT_TRUE(agrees_with_brute_force(boxes));
 }
 

@@ -57,7 +57,8 @@ TEST(EdgeTouch, OfATiltedSquareFollowsTheSlope)
 {
     const double angle = 0.1;
     // Turned about its lower left corner, which lies 1e-4 m deep at x = 0.
-    const Vec2 centre = Vec2(0.0, 1.0 - 1e-4) + Vec2(0.5 * std::cos(angle) - 0.5 * std::sin(angle), 0.5 * std::sin(angle) + 0.5 * std::cos(angle));
+    const Vec2 centre = Vec2(0.0, 1.0 - 1e-4) +
+                        Vec2(0.5 * std::cos(angle) - 0.5 * std::sin(angle), 0.5 * std::sin(angle) + 0.5 * std::cos(angle));
     const EdgeTouch t = touch(square_on_slab, {}, {.x = centre.x(), .y = centre.y(), .c = std::cos(angle), .s = std::sin(angle)});
     EXPECT_NEAR(t.length, std::cos(angle), 1e-15);
     EXPECT_NEAR(t.point[1].overlap, 1e-4, 1e-15);
@@ -102,7 +103,13 @@ RandomTouch random_touch()
     const Vec2 along(std::cos(turn), std::sin(turn));
     const Vec2 at = number(-1.2, 1.2) * along + number(1.2, 1.5) * turned_left(along);
     r.ref = {.x = 3.0, .y = -2.0, .c = along.x(), .s = along.y(), .vx = number(-1, 1), .vy = number(-1, 1), .w = number(-1, 1)};
-    r.inc = {.x = 3.0 + at.x(), .y = -2.0 + at.y(), .c = std::cos(turn + angle), .s = std::sin(turn + angle), .vx = number(-1, 1), .vy = number(-1, 1), .w = number(-1, 1)};
+    r.inc = {.x = 3.0 + at.x(),
+             .y = -2.0 + at.y(),
+             .c = std::cos(turn + angle),
+             .s = std::sin(turn + angle),
+             .vx = number(-1, 1),
+             .vy = number(-1, 1),
+             .w = number(-1, 1)};
     return r;
 }
 
@@ -143,7 +150,8 @@ RC_GTEST_PROP(EdgeTouch, RelativeVelocityIsThatOfTheMaterialPoints, ())
     {
         const Vec2 arm = along * axis + across * turned_left(axis);
         const Vec2 body(m.c * arm.x() + m.s * arm.y(), m.c * arm.y() - m.s * arm.x());
-        const auto place = [&](const BlockMotion& at) { return Vec2(at.x + at.c * body.x() - at.s * body.y(), at.y + at.s * body.x() + at.c * body.y()); };
+        const auto place = [&](const BlockMotion& at)
+        { return Vec2(at.x + at.c * body.x() - at.s * body.y(), at.y + at.s * body.x() + at.c * body.y()); };
         return Vec2((place(later(m, dt)) - place(later(m, -dt))) / (2.0 * dt));
     };
     for (const TouchPoint& p : t.point)

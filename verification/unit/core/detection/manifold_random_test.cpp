@@ -144,7 +144,9 @@ RC_GTEST_PROP(ContactForces, OfTwoBlocksAreOppositeInForceAndMoment, ())
     const double size = f.on_a.norm();
     RC_ASSERT(size > 0.0);
     RC_ASSERT((f.on_a + f.on_b).norm() <= 1e-14 * size);  // the same number, added with both signs
-    const auto about_origin = [&](Index block, const Vec2& force, double moment) { return moment + cross({pair.motion(block).x, pair.motion(block).y}, force); };
+    const auto about_origin = [&](Index block, const Vec2& force, double moment) {
+        return moment + cross({pair.motion(block).x, pair.motion(block).y}, force);
+    };
     RC_ASSERT(std::abs(about_origin(pair.a, f.on_a, f.moment_a) + about_origin(pair.b, f.on_b, f.moment_b)) <= 1e-13 * size);
 }
 

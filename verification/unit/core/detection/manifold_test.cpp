@@ -21,7 +21,10 @@ bool is_external(const Model& model, Index edge)
 TEST(Manifold, OfASquareOnASlabIsTheFaceBetweenThem)
 {
     BlockPair pair(test::pair_scene(rectangle({-2, -1}, {2, 0}), unit_square));
-    pair.place(pair.b, pair.motion(pair.a).y == 0.0 ? Vec2(0.25, 1.0 - 1e-5) : Vec2(pair.motion(pair.a).x + 0.25, pair.motion(pair.a).y + 1.0 - 1e-5), 0.0);
+    pair.place(pair.b,
+               pair.motion(pair.a).y == 0.0 ? Vec2(0.25, 1.0 - 1e-5)
+                                            : Vec2(pair.motion(pair.a).x + 0.25, pair.motion(pair.a).y + 1.0 - 1e-5),
+               0.0);
     pair.search();
     ASSERT_EQ(pair.state.contacts.size(), 1);
     Contact contact = pair.state.contacts.get(0);
@@ -101,7 +104,8 @@ double boundary_on_top()
         for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
             for (const Index end : {v, shapes.next_vertex(part, v)})
             {
-                const Vec2 at = BlockPair::world(setup.state.blocks.motion[shapes.part_block[part]], shapes.vertex[end]) + model.origin;
+                const Vec2 at = BlockPair::world(setup.state.blocks.motion[shapes.part_block[part]], shapes.vertex[end]) +
+                                model.origin;
                 if (!is_external(model, v) && std::abs(at.y() - 3.0) < 1e-9)
                     return at.x();
             }

@@ -46,7 +46,8 @@ TEST(UnbalancedForceRatio, IsNothingAtRestOnImpulses)
 
 TEST(Convergence, NeedsAllCriteriaListed)
 {
-    ConvergenceDef criteria{.criteria = {"kinetic_energy", "unbalanced_force_ratio"}, .mean_speed = 1e-3, .unbalanced_force_ratio = 1e-2};
+    ConvergenceDef criteria{
+        .criteria = {"kinetic_energy", "unbalanced_force_ratio"}, .mean_speed = 1e-3, .unbalanced_force_ratio = 1e-2};
     Equilibrium now{.kinetic_energy = 1e-6, .unbalanced_force = 1.0, .applied_force = 1000.0, .free_mass = 10.0};  // limit 5e-6 J
     EXPECT_TRUE(is_converged(criteria, now));
     now.kinetic_energy = 1e-5;

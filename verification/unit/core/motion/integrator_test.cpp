@@ -80,7 +80,8 @@ CaseRun oscillator(double step, double speed)
     scene.damping.preset = DampingPreset::dynamic;
     scene.time.step = step;
     scene.blocks[1].velocity = {0.0, speed};
-    return CaseRun(scene, [](const Model& model, State& state) { state.blocks.motion[model.find_block("block")].y -= 2700.0 * 9.81 / 7e9; });
+    return CaseRun(scene, [](const Model& model, State& state)
+                   { state.blocks.motion[model.find_block("block")].y -= 2700.0 * 9.81 / 7e9; });
 }
 
 constexpr double speed = 1e-3;  // the amplitude, 0.6 um, is below the static deflection of 3.8 um: the contact stays closed

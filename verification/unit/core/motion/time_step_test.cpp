@@ -13,7 +13,7 @@ using test::CaseRun;
 
 TEST(PaperTimeStep, GivesThePrintedSteps)
 {
-    EXPECT_NEAR(paper_time_step(2700.0, 7e9, 0.1), 8.78e-5, 0.005e-5);        // sect. 4.1, one block of 1 m2
+    EXPECT_NEAR(paper_time_step(2700.0, 7e9, 0.1), 8.78e-5, 0.005e-5);           // sect. 4.1, one block of 1 m2
     EXPECT_NEAR(paper_time_step(0.3627 * 2700.0, 7e9, 0.1), 5.29e-5, 0.005e-5);  // sect. 4.4
 }
 
@@ -45,7 +45,8 @@ TEST(CriticalTimeStep, OfAFreeBlockIsThatOfItsRockingMode)
 {
     const double k_n = 7e9, k_s = 5e8, mass = 2700.0, inertia = mass / 6.0;
     Eigen::Matrix2d stiffness;  // by mass: sway, rotation
-    stiffness << k_s / mass, 0.5 * k_s / std::sqrt(mass * inertia), 0.5 * k_s / std::sqrt(mass * inertia), (0.25 * k_n + 0.25 * k_s) / inertia;
+    stiffness << k_s / mass, 0.5 * k_s / std::sqrt(mass * inertia), 0.5 * k_s / std::sqrt(mass * inertia),
+        (0.25 * k_n + 0.25 * k_s) / inertia;
     const double greatest = std::max(stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff(), k_n / mass);
     const CaseRun run(scenes::block_on_ground());
     EXPECT_NEAR(critical(run, 2000), 2.0 / std::sqrt(greatest), 1e-6 * 2.0 / std::sqrt(greatest)) << "converged power iteration";

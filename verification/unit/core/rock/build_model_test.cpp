@@ -73,7 +73,8 @@ TEST(BuildModel, StoresNeighboursNearEachOther)
     for (int i = 0; i < 256; ++i)  // in an order that is none
     {
         const int k = (i * 37) % 256;
-        scenes::add_block(scene, std::to_string(k), rectangle({2.0 * (k % 16), 2.0 * (k / 16)}, {2.0 * (k % 16) + 1.0, 2.0 * (k / 16) + 1.0}));
+        scenes::add_block(scene, std::to_string(k),
+                          rectangle({2.0 * (k % 16), 2.0 * (k / 16)}, {2.0 * (k % 16) + 1.0, 2.0 * (k / 16) + 1.0}));
     }
     const hdem::Setup setup = build_model(scene);
     double way = 0.0;
@@ -91,7 +92,12 @@ TEST(BuildModel, TakesJointsBySetByMaterialsOrByDefault)
     CaseDef scene = scenes::joints(6.0, 6.0, 1.5);
     scene.materials.push_back({.name = "concrete", .density = 2400.0});
     scene.joints.push_back({.name = "bedding", .normal_stiffness = 1e9, .shear_stiffness = 1e8, .friction_angle_deg = 20.0});
-    scene.joints.push_back({.name = "lining", .normal_stiffness = 2e9, .shear_stiffness = 1e8, .friction_angle_deg = 40.0, .restitution = 0.7, .materials = {"rock", "concrete"}});
+    scene.joints.push_back({.name = "lining",
+                            .normal_stiffness = 2e9,
+                            .shear_stiffness = 1e8,
+                            .friction_angle_deg = 40.0,
+                            .restitution = 0.7,
+                            .materials = {"rock", "concrete"}});
     scene.joint_sets[0].joint = "bedding";
     scenes::add_block(scene, "slab", rectangle({2, 6}, {4, 7})).material = "concrete";
     const CaseRun run(scene);
@@ -143,7 +149,8 @@ TEST(BuildModel, RefusesNamesThatNobodyDefined)
     std::string keys;
     for (const Problem& problem : problems_of(scene))
         keys += problem.key + " ";
-    EXPECT_EQ(keys, "load[0].blocks stage[0].excavate stage[0].fix stage[0].free history[0].block history[1].between ") << "all of them, not the first";
+    EXPECT_EQ(keys, "load[0].blocks stage[0].excavate stage[0].fix stage[0].free history[0].block history[1].between ")
+        << "all of them, not the first";
 }
 
 TEST(BuildModel, RefusesAModelThatCannotMove)

@@ -27,8 +27,8 @@ TEST(StateHash, SeesTheLastBitOfEveryPoseAndVelocity)
     CaseRun run = settled();
     run.advance(500);
     const std::uint64_t hash = run.hash();
-    for (double BlockMotion::*member : {&BlockMotion::x, &BlockMotion::y, &BlockMotion::c, &BlockMotion::s, &BlockMotion::vx, &BlockMotion::vy,
-                                        &BlockMotion::w, &BlockMotion::angle})
+    for (double BlockMotion::*member : {&BlockMotion::x, &BlockMotion::y, &BlockMotion::c, &BlockMotion::s, &BlockMotion::vx,
+                                        &BlockMotion::vy, &BlockMotion::w, &BlockMotion::angle})
         for (Index i = 0; i < run.model().blocks(); ++i)
         {
             State changed = run.state();
