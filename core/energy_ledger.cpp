@@ -12,8 +12,12 @@ StoredEnergy stored_energy(const Model& model, const State& state)
 {
     StoredEnergy stored;
     for (Index i = 0; i < state.blocks.size(); ++i)
+    {
         if (state.blocks.present[i] != 0)
             stored.kinetic += kinetic_energy(model, state.blocks.motion[i], i);
+        if (state.blocks.is_free(i))
+            stored.one_step_fall += 0.5 * model.mass[i] * model.gravity.squaredNorm() * model.time_step * model.time_step;
+    }
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
         if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
@@ -38,7 +42,8 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
         const PointHistory& point = contact.point[k];
         if (point.regime != Regime::stick && point.regime != Regime::slip)
             continue;
-        const double stretch = point.shear_force / shear_stiffness - touch.point[k].v_t * model.time_step;
+        const double curved = 0.5 * model.time_step * TurningRate(touch.point[k], ref.w, inc.w).t;
+        const double stretch = point.shear_force / shear_stiffness - (touch.point[k].v_t - curved) * model.time_step;
         energy.normal += 0.5 * point.normal_force * (touch.point[k].overlap - point.rest_overlap);
         energy.shear += 0.5 * point.shear_force * stretch;
     }
@@ -48,14 +53,16 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
 double residual(const EnergyLedger& ledger, const StoredEnergy& stored)
 {
     const double in = ledger.initial + ledger.gravity_work + ledger.load_work + ledger.position_correction;
-    const double spent = ledger.friction + ledger.local_damping + ledger.global_damping + ledger.impulse_loss + ledger.contact_changes + ledger.removed;
+    const double spent = ledger.friction + ledger.local_damping + ledger.global_damping + ledger.impulse_loss +
+                         ledger.contact_changes + ledger.removed;
     return in - spent - stored.total();
 }
 
 double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored)
 {
-    const double most = std::max({std::abs(ledger.initial), std::abs(ledger.gravity_work), std::abs(ledger.load_work), std::abs(ledger.friction),
-                                  std::abs(ledger.local_damping), std::abs(ledger.global_damping), std::abs(ledger.impulse_loss), stored.total()});
+    const double most = std::max({std::abs(ledger.initial), std::abs(ledger.gravity_work), std::abs(ledger.load_work),
+                                  std::abs(ledger.friction), std::abs(ledger.local_damping), std::abs(ledger.global_damping),
+                                  std::abs(ledger.impulse_loss), stored.total(), stored.one_step_fall});
     return most > 0.0 ? residual(ledger, stored) / most : 0.0;
 }
 }  // namespace hdem

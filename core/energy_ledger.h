@@ -12,6 +12,7 @@ struct StoredEnergy
     double kinetic = 0.0;
     double elastic_normal = 0.0;
     double elastic_shear = 0.0;
+    double one_step_fall = 0.0;  ///< kinetic energy that gravity gives the free blocks in one step, for scale
     [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
 };
 
@@ -44,6 +45,6 @@ struct SpringEnergy
 
 /// Energy that came in less what is stored or spent; what the ledger cannot explain [J].
 [[nodiscard]] double residual(const EnergyLedger& ledger, const StoredEnergy& stored);
-/// The same as a share of the energy that went through: the largest of the ledger's terms [-].
+/// The same as a share of the energy that went through: the largest of the ledger's terms, or of one step's fall where nothing moves [-].
 [[nodiscard]] double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored);
 }  // namespace hdem

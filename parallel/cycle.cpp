@@ -26,7 +26,8 @@ void rebuild_contacts(const Model& model, State& state, BroadPhase& broad)
     broad.cells.find_pairs(parts, broad.pairs);
     std::sort(broad.pairs.begin(), broad.pairs.end());
     broad.tracked.clear();
-    track_contacts({0, static_cast<Index>(broad.pairs.size())}, broad.pairs, model, state.blocks, state.contacts, broad.tracked, state.ledger);
+    track_contacts({0, static_cast<Index>(broad.pairs.size())}, broad.pairs, model, state.blocks, state.contacts, broad.tracked,
+                   state.ledger);
     const auto n = static_cast<Index>(broad.tracked.size());
     state.contacts.resize(n);
     for (Index i = 0; i < n; ++i)
@@ -48,8 +49,9 @@ void run_cycle(const Model& model, State& state, Workspace& work, BroadPhase& br
     work.pseudo.resize(static_cast<std::size_t>(blocks.size()));
 
     state.feature_searches += refresh_features(all_contacts, model, blocks, contacts, state.ledger);
+    prescribe_motions(model, state.cycle, contacts, blocks, state.ledger);
     apply_weights(all_blocks, model, blocks);
-    apply_loads(model, state.cycle, blocks, work.loaded, state.ledger);
+    apply_loads(model, state.cycle, blocks, work.loaded);
     for_ranges(all_contacts, contact_chunk, threads,  // Eqs. (1)-(10), (24)-(28)
                [&](IndexRange range) { evaluate_contacts(range, model, state.method, blocks, contacts, work.loads); });
     accumulate_loads(all_contacts, contacts, work.loads, blocks.force, state.ledger);
@@ -61,12 +63,13 @@ void run_cycle(const Model& model, State& state, Workspace& work, BroadPhase& br
     if (!work.impulses.empty())
     {
         const IndexRange all_impulses{0, static_cast<Index>(work.impulses.size())};
+        state.ledger.impulse_loss += start_impulses(all_impulses, work.impulses, blocks);
         for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         {
             state.ledger.impulse_loss += sweep_impulses(all_impulses, work.impulses, blocks);  // Eqs. (15)-(18)
-            sweep_correction(all_impulses, model, blocks, work.impulses, work.pseudo);  // Eq. (19)
+            sweep_correction(all_impulses, model, blocks, work.impulses, work.pseudo);         // Eq. (19)
         }
-        add_correction_work(all_blocks, model, blocks, work.pseudo, state.ledger);
+        add_correction_work(model, blocks, contacts, work.pseudo, state.ledger);
         add_impulse_work(all_impulses, model, work.impulses, blocks, state.ledger);
         store_impulses(all_impulses, model, work.impulses, contacts, blocks.force);  // Eqs. (29), (30)
     }

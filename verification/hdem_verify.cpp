@@ -1,8 +1,10 @@
 /// hdem_verify: each published number and each textbook answer beside hdem's own.
 
 #include "core/check.h"
+#include "core/version.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/figure_json.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,6 +32,7 @@ struct Options
 {
     std::vector<std::string> names;
     std::string json_file;
+    std::string curves_file;
     std::string cases = HDEM_CASE_FOLDER;
     unsigned jobs = 0;
     bool list = false;
@@ -148,6 +151,35 @@ nlohmann::json as_json(const std::vector<Check>& checks, const std::vector<Outco
     return rows;
 }
 
+/// {hdem, checks: [{name, what, seconds}], figures}: what the rows say nothing about.
+nlohmann::json curves_json(const std::vector<Check>& checks, const std::vector<Outcome>& outcomes)
+{
+    nlohmann::json done = nlohmann::json::array();
+    nlohmann::json figures = nlohmann::json::array();
+    for (std::size_t i = 0; i < checks.size(); ++i)
+    {
+        done.push_back({{"name", checks[i].name}, {"what", checks[i].what}, {"seconds", outcomes[i].seconds}});
+        for (const Figure& figure : outcomes[i].report.figures())
+        {
+            figures.push_back(as_json(figure));
+            figures.back()["check"] = checks[i].name;
+        }
+    }
+    const Version& build = version();
+    return {{"hdem", {{"line", version_line()}, {"flags", build.flags}}}, {"checks", done}, {"figures", figures}};
+}
+
+/// False, with a message, when the file cannot be written.
+bool write(const std::string& name, const char* option, const nlohmann::json& content, int indent)
+{
+    std::ofstream file(name);
+    file << content.dump(indent) << '\n';
+    if (file.flush())
+        return true;
+    fmt::print(stderr, "error: {}: cannot be written. Give another file with {}.\n", name, option);
+    return false;
+}
+
 int report_all(const std::vector<Check>& checks, const std::vector<Outcome>& outcomes, const Options& options)
 {
     int met = 0;
@@ -163,16 +195,10 @@ int report_all(const std::vector<Check>& checks, const std::vector<Outcome>& out
         missed += outcomes[i].failure.empty() ? 0 : 1;
     }
     fmt::print("\n{} checks: {} bars met, {} missed\n", checks.size(), met, missed);
-    if (!options.json_file.empty())
-    {
-        std::ofstream file(options.json_file);
-        file << as_json(checks, outcomes).dump(1) << '\n';
-        if (!file.flush())
-        {
-            fmt::print(stderr, "error: {}: cannot be written. Give another file with --json.\n", options.json_file);
-            return exit_run_failed;
-        }
-    }
+    if (!options.json_file.empty() && !write(options.json_file, "--json", as_json(checks, outcomes), 1))
+        return exit_run_failed;
+    if (!options.curves_file.empty() && !write(options.curves_file, "--curves", curves_json(checks, outcomes), -1))
+        return exit_run_failed;
     return missed == 0 ? exit_done : exit_missed;
 }
 
@@ -183,6 +209,7 @@ int verify(int argc, char** argv)
     app.add_option("CASE", options.names,
                    "Checks to run: a name of --list, a group (paper, closed_form), or short; all by default");
     app.add_option("--json", options.json_file, "Write all rows to this file");
+    app.add_option("--curves", options.curves_file, "Write the figures' curves to this file");
     app.add_option("--jobs", options.jobs, "Checks at a time; default: one a core")->check(CLI::Range(1, 1024));
     app.add_option("--cases", options.cases, "Folder of the case files")->check(CLI::ExistingDirectory);
     app.add_flag("--list", options.list, "Only list the checks");

@@ -46,8 +46,10 @@ inline bool is_fast(const EdgeTouch& touch, const CoulombSlip& joint, double len
         const double squared = p.v_t * p.v_t + p.v_m * p.v_m;
         speed = std::max(speed, is_closed(touch.length, p.overlap, length_floor) ? squared : 0.0);
     }
-    const double u_th = threshold.fixed >= 0.0 ? threshold.fixed : threshold_velocity(threshold.scale, threshold.gravity_velocity, elastic);
-    return speed > u_th * u_th;
+    const double u_th = threshold.fixed >= 0.0 ? threshold.fixed
+                                               : threshold_velocity(threshold.scale, threshold.gravity_velocity, elastic);
+    // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
+    return speed > u_th * u_th * (1.0 + 1e-9);
 }
 
 inline bool has_moved(const Contacts& contacts, Index i, const EdgeView& v)
@@ -85,11 +87,12 @@ void evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contac
                 last_normal[k] = stored * contacts.normal_force[k][i];
                 last_shear[k] = stored * contacts.shear_force[k][i];
             }
-            impulsive = is_fast(touch, joint, length, contacts.length_floor[i], threshold_inertia(model, blocks, ref), threshold_inertia(model, blocks, inc),
-                                last_normal, last_shear, threshold);
+            impulsive = is_fast(touch, joint, length, contacts.length_floor[i], threshold_inertia(model, blocks, ref),
+                                threshold_inertia(model, blocks, inc), last_normal, last_shear, threshold);
         }
 
-        double f_t = 0.0, f_m = 0.0, moment_ref = 0.0, moment_inc = 0.0, friction = 0.0, changes = 0.0, mobilised = 0.0;
+        double f_t = 0.0, f_m = 0.0, moment_ref = 0.0, moment_inc = 0.0, friction = 0.0, changes = 0.0, mobilised = -1.0,
+               reserve = 0.0;
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
@@ -101,27 +104,35 @@ void evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contac
             const double spring_shear = was_impulse ? 0.0 : shear;
             double& rest = contacts.rest_overlap[k][i];
             const double last_rest = rest;
-            rest = method == Method::force ? 0.0 : rest_overlap(was_impulse, p.overlap, rest, normal, joint.normal_stiffness * length);
-            const PointForce f = spring_force(joint, length, p.overlap - rest, p.v_t, dt, shear);
+            rest = method == Method::force ? 0.0
+                                           : rest_overlap(was_impulse, p.overlap, rest, normal, joint.normal_stiffness * length);
+            const TurningRate turning(p, blocks.motion[ref].w, blocks.motion[inc].w);
+            const double curved = 0.5 * dt * turning.t;
+            const double v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
+            const PointForce f = spring_force(joint, length, p.overlap - rest, v_t, dt, shear);
             const Regime spring_regime = f.slip > 0.0 ? Regime::slip : Regime::stick;
-            contacts.regime[k][i] = static_cast<std::uint8_t>(closed ? (impulsive ? Regime::impulse : spring_regime) : Regime::open);
+            contacts.regime[k][i] = static_cast<std::uint8_t>(closed ? (impulsive ? Regime::impulse : spring_regime)
+                                                                     : Regime::open);
             // The history of an impulse point stays until its impulses of this cycle are known.
             const double on = closed && !impulsive ? 1.0 : 0.0;
             const double keep = closed && impulsive ? 1.0 : 0.0;
             // Energies of this step; u is the stretch of the normal spring, e of the shear spring.
             double& last_overlap = contacts.overlap[k][i];
             const double u = p.overlap - (was_impulse ? rest : last_rest);
-            const double strayed = p.v_m * dt - (p.overlap - last_overlap);  // turning curves the way within a step
+            // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
+            const double strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - last_overlap);
             last_overlap = p.overlap;
             const double shear_stiffness = joint.shear_stiffness * length;
-            const double plastic = -p.v_t * dt - (on * f.shear - spring_shear) / shear_stiffness;
+            const double plastic = -v_t * dt - (on * f.shear - spring_shear) / shear_stiffness;
             const double slipped = 0.5 * (spring_shear + on * f.shear) * plastic;
             const bool stays = closed && !impulsive && spring_normal + std::abs(spring_shear) > 0.0;
             friction += stays ? slipped : 0.0;
-            changes += (stays ? 0.0 : slipped) + change_energy(spring_normal, u, on * f.normal, u - p.v_m * dt) - 0.5 * spring_normal * strayed +
+            changes += (stays ? 0.0 : slipped) + change_energy(spring_normal, u, on * f.normal, u - p.v_m * dt) +
+                       0.5 * spring_normal * strayed + 0.5 * (spring_shear - on * f.shear) * curved * dt +
                        0.5 * spring_shear * spring_shear / joint.shear_stiffness * (1.0 / contacts.last_length[i] - 1.0 / length);
             rest *= on;
-            mobilised = std::max(mobilised, on * f.mobilised);
+            mobilised = std::max(mobilised, on * (1.0 + f.mobilised) - 1.0);
+            reserve += on * f.reserve;
             normal = on * f.normal + keep * normal;
             shear = on * f.shear + keep * shear;
             f_t += on * f.shear;
@@ -137,6 +148,9 @@ void evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contac
         loads.friction[i] = friction;
         loads.changes[i] = changes;
         loads.mobilised[i] = static_cast<float>(mobilised);
+        loads.reserve[i] = static_cast<float>(reserve);
+        loads.t_x[i] = static_cast<float>(touch.ex);
+        loads.t_y[i] = static_cast<float>(touch.ey);
     }
 }
 
@@ -147,37 +161,49 @@ inline std::uint32_t contact_bits(std::uint8_t regime)
 }
 }  // namespace
 
-void evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts, ContactLoads& loads)
+void evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
+                       ContactLoads& loads)
 {
     switch (method)
     {
-        case Method::force: return evaluate<Method::force>(range, model, blocks, contacts, loads);
-        case Method::impulse: return evaluate<Method::impulse>(range, model, blocks, contacts, loads);
-        case Method::hybrid: return evaluate<Method::hybrid>(range, model, blocks, contacts, loads);
+    case Method::force:
+        return evaluate<Method::force>(range, model, blocks, contacts, loads);
+    case Method::impulse:
+        return evaluate<Method::impulse>(range, model, blocks, contacts, loads);
+    case Method::hybrid:
+        return evaluate<Method::hybrid>(range, model, blocks, contacts, loads);
     }
 }
 
-void accumulate_loads(IndexRange range, const Contacts& contacts, const ContactLoads& loads, std::vector<BlockForce>& force, EnergyLedger& ledger)
+void accumulate_loads(IndexRange range, const Contacts& contacts, const ContactLoads& loads, std::vector<BlockForce>& force,
+                      EnergyLedger& ledger)
 {
+    const auto joint_at = [&](BlockForce& block, Index i)
+    {
+        block.contacts |= contact_bits(contacts.regime[0][i]) | contact_bits(contacts.regime[1][i]);
+        block.reserve += loads.reserve[i];
+        if (loads.mobilised[i] <= block.mobilised)
+            return;
+        block.mobilised = loads.mobilised[i];
+        block.t_x = loads.t_x[i];
+        block.t_y = loads.t_y[i];
+    };
     for (Index i = range.begin; i < range.end; ++i)
     {
         ledger.friction += loads.friction[i];
         ledger.contact_changes += loads.changes[i];
-        const std::uint32_t bits = contact_bits(contacts.regime[0][i]) | contact_bits(contacts.regime[1][i]);
-        if (bits == 0)
+        if (contacts.regime[0][i] == 0 && contacts.regime[1][i] == 0)
             continue;
         BlockForce& ref = force[contacts.ref[i]];
         BlockForce& inc = force[contacts.inc[i]];
         ref.x -= loads.x[i];
         ref.y -= loads.y[i];
         ref.moment += loads.moment_ref[i];
-        ref.contacts |= bits;
-        ref.mobilised = std::max(ref.mobilised, loads.mobilised[i]);
+        joint_at(ref, i);
         inc.x += loads.x[i];
         inc.y += loads.y[i];
         inc.moment += loads.moment_inc[i];
-        inc.contacts |= bits;
-        inc.mobilised = std::max(inc.mobilised, loads.mobilised[i]);
+        joint_at(inc, i);
     }
 }
 }  // namespace hdem

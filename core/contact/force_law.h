@@ -11,10 +11,11 @@ namespace hdem
 /// Force on the incident block: `normal` pushes it out of the reference block, `shear` acts along t.
 struct PointForce
 {
-    double normal = 0.0;  ///< F_N >= 0 [N]
-    double shear = 0.0;   ///< F_S [N]
-    double slip = 0.0;    ///< plastic shear displacement of this cycle, >= 0 [m]
+    double normal = 0.0;     ///< F_N >= 0 [N]
+    double shear = 0.0;      ///< F_S [N]
+    double slip = 0.0;       ///< plastic shear displacement of this cycle, >= 0 [m]
     double mobilised = 0.0;  ///< |F_S| as a share of the shear strength, 0 to 1; 1 without any strength [-]
+    double reserve = 0.0;    ///< shear strength not in use [N]
 };
 
 /// Linear normal and shear springs, limited by Coulomb slip.
@@ -22,7 +23,7 @@ struct PointForce
 ///   F_N = K_N L u_N                                                 [Lee2025] Eq. (5), in total form
 ///   F_S <- F_S - K_S L v_t dt,  |F_S| <= F_N tan(phi) + c L         [Lee2025] Eqs. (2), (6), (9), (10)
 ///
-///   u_N overlap beyond the rest overlap (usually 0, see rest_overlap) [m]   v_t velocity of inc relative to ref along t [m/s]   dt time step [s]
+///   u_N overlap beyond the rest overlap (usually 0, see rest_overlap) [m]   v_t velocity of inc relative to ref along t, amid the last step [m/s]   dt [s]
 ///   L   the point's share of the contact length [m], so that K [Pa/m] times L is a stiffness per unit thickness [N/m]
 ///
 /// Differs from the paper: F_N is total, not incremental (no drift); a gap carries no tension; K and c act on L, where
@@ -40,6 +41,7 @@ struct PointForce
     const double strength = shear_strength(joint, f.normal, length);
     f.shear = slip_limited(trial, strength);
     f.slip = std::abs(trial - f.shear) / stiffness;
+    f.reserve = strength - std::abs(f.shear);
     f.mobilised = strength > 0.0 ? std::abs(f.shear) / strength : 1.0;
     return f;
 }

@@ -4,6 +4,7 @@
 #include "core/detection/edge_touch.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hdem
 {
@@ -33,7 +34,10 @@ struct Kick
     double x, y, w_ref, w_inc;
 
     Kick(const ImpulsePoint& p, double j_t, double j_m)
-        : x(p.t_x * j_t - p.t_y * j_m), y(p.t_y * j_t + p.t_x * j_m), w_ref(p.ref_t * j_m - p.ref_m * j_t), w_inc(p.inc_t * j_m - p.inc_m * j_t)
+        : x(p.t_x * j_t - p.t_y * j_m),
+          y(p.t_y * j_t + p.t_x * j_m),
+          w_ref(p.ref_t * j_m - p.ref_m * j_t),
+          w_inc(p.inc_t * j_m - p.inc_m * j_t)
     {
     }
 };
@@ -53,7 +57,8 @@ void apply(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
     inc.w += i_inc.inverse_inertia * kick.w_inc;
 }
 
-ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts, const EdgeTouch& touch)
+ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                        const EdgeTouch& touch)
 {
     const TouchPoint& at = touch.point[end];
     const CoulombSlip& joint = model.joints.laws[contacts.law[contact]];
@@ -79,7 +84,75 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor[contact]) * model.time_step;
     const double spring = joint.normal_stiffness * point_length(touch.length, contacts.length_floor[contact]);
     p.excess_overlap = at.overlap - contacts.normal_force[end][contact] / spring - model.contact.allowed_overlap;
+    p.impulse_normal = contacts.normal_force[end][contact] * model.time_step;
+    p.impulse_shear = slip_limited(contacts.shear_force[end][contact] * model.time_step,
+                                   p.impulse_normal * p.friction + p.cohesive_impulse);
     return p;
+}
+
+/// Change of the approach velocity at one point of a contact by a unit impulse at the other, the off-diagonal of the pair [1/kg].
+double coupling(const ImpulsePoint& a, const ImpulsePoint& b, const Blocks& blocks)
+{
+    const BlockInertia& ref = blocks.inertia[a.ref];
+    const BlockInertia& inc = blocks.inertia[a.inc];
+    return (ref.inverse_mass_x + inc.inverse_mass_x) * a.t_y * a.t_y + (ref.inverse_mass_y + inc.inverse_mass_y) * a.t_x * a.t_x +
+           ref.inverse_inertia * a.ref_t * b.ref_t + inc.inverse_inertia * a.inc_t * b.inc_t;
+}
+
+/// Energy that an impulse takes: its work with the mean of the velocities before and after it.
+double push(ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
+{
+    const PointVelocity before = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
+    apply(p, j_t, j_m, blocks);
+    const PointVelocity after = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
+    return -0.5 * (j_t * (before.t + after.t) + j_m * (before.m + after.m));
+}
+
+/// Normal impulse of a point by itself.
+double single_normal(const ImpulsePoint& p, const Blocks& blocks)
+{
+    const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
+    return std::max(0.0, p.impulse_normal + p.mass_normal * (v_m - p.target));
+}
+
+/// Normal impulses of the two points of one contact, solved together: with one of them the other's velocity changes too.
+std::array<double, 2> pair_normal(const ImpulsePoint& a, const ImpulsePoint& b, const Blocks& blocks)
+{
+    const BlockMotion& ref = blocks.motion[a.ref];
+    const BlockMotion& inc = blocks.motion[a.inc];
+    const double k_a = 1.0 / a.mass_normal;
+    const double k_b = 1.0 / b.mass_normal;
+    const double k_ab = a.coupling;
+    // Approach velocities beyond the targets if neither had an impulse yet.
+    const double r_a = relative_velocity(a, ref, inc).m - a.target + k_a * a.impulse_normal + k_ab * b.impulse_normal;
+    const double r_b = relative_velocity(b, ref, inc).m - b.target + k_ab * a.impulse_normal + k_b * b.impulse_normal;
+    const double det = k_a * k_b - k_ab * k_ab;
+    if (det <= 1e-9 * k_a * k_b)  // neither block can turn: only the sum is known, and each change is shared
+    {
+        const double change = 0.5 * (std::max(r_a, r_b) / k_a - a.impulse_normal - b.impulse_normal);
+        const double j_a = std::max(0.0, a.impulse_normal + change);
+        return {j_a, std::max(0.0, b.impulse_normal + change)};
+    }
+    const std::array<double, 2> both{(k_b * r_a - k_ab * r_b) / det, (k_a * r_b - k_ab * r_a) / det};
+    if (both[0] >= 0.0 && both[1] >= 0.0)
+        return both;
+    const double only_a = std::max(0.0, r_a / k_a);
+    if (r_b - k_ab * only_a <= 0.0)
+        return {only_a, 0.0};
+    return {0.0, std::max(0.0, r_b / k_b)};
+}
+
+double solve_shear(ImpulsePoint& p, Blocks& blocks)
+{
+    const double v_t = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).t;
+    const double last = p.impulse_shear;
+    p.impulse_shear = slip_limited(last - p.mass_shear * v_t, p.impulse_normal * p.friction + p.cohesive_impulse);
+    return push(p, p.impulse_shear - last, 0.0, blocks);
+}
+
+bool are_pair(const std::vector<ImpulsePoint>& points, Index i, Index end)
+{
+    return i + 1 < end && points[i + 1].contact == points[i].contact && points[i].mass_normal > 0.0;
 }
 }  // namespace
 
@@ -98,29 +171,43 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
         for (int k = 0; k < 2; ++k)
             if (contacts.regime[k][i] == impulse)
                 points.push_back(make_point(i, k, model, blocks, contacts, touch));
+        if (contacts.regime[0][i] == impulse && contacts.regime[1][i] == impulse)
+            points[points.size() - 2].coupling = coupling(points[points.size() - 2], points.back(), blocks);
     }
+}
+
+double start_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks)
+{
+    double loss = 0.0;
+    for (Index i = range.begin; i < range.end; ++i)
+        loss += push(points[i], points[i].impulse_shear, -points[i].impulse_normal, blocks);
+    return loss;
 }
 
 double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks)
 {
     double loss = 0.0;
+    const auto change_normal = [&](ImpulsePoint& p, double impulse)
+    {
+        const double change = impulse - p.impulse_normal;
+        p.impulse_normal = impulse;
+        loss += push(p, 0.0, -change, blocks);
+    };
     for (Index i = range.begin; i < range.end; ++i)
     {
         ImpulsePoint& p = points[i];
-        const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
-        const double last_normal = p.impulse_normal;
-        p.impulse_normal = std::max(0.0, last_normal + p.mass_normal * (v_m - p.target));
-        apply(p, 0.0, -(p.impulse_normal - last_normal), blocks);
-
-        const PointVelocity between = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
-        const double v_t = between.t;
-        loss += (p.impulse_normal - last_normal) * 0.5 * (v_m + between.m);
-        const double strength = p.impulse_normal * p.friction + p.cohesive_impulse;
-        const double last_shear = p.impulse_shear;
-        p.impulse_shear = slip_limited(last_shear - p.mass_shear * v_t, strength);
-        apply(p, p.impulse_shear - last_shear, 0.0, blocks);
-        const double after = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).t;
-        loss -= (p.impulse_shear - last_shear) * 0.5 * (v_t + after);
+        const bool pair = are_pair(points, i, range.end);
+        if (pair)
+        {
+            const auto [first, second] = pair_normal(p, points[i + 1], blocks);
+            change_normal(p, first);
+            change_normal(points[i + 1], second);
+            loss += solve_shear(p, blocks);
+            loss += solve_shear(points[++i], blocks);
+            continue;
+        }
+        change_normal(p, single_normal(p, blocks));
+        loss += solve_shear(p, blocks);
     }
     return loss;
 }
@@ -137,7 +224,8 @@ void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks
         Triple& inc = pseudo[p.inc];
         const double v_m = relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc).m;
         const double last = p.correction;
-        p.correction = std::max(0.0, last + p.mass_normal * (v_m + model.contact.correction_fraction * p.excess_overlap / model.time_step));
+        p.correction = std::max(0.0, last + p.mass_normal *
+                                                (v_m + model.contact.correction_fraction * p.excess_overlap / model.time_step));
         const Kick kick(p, 0.0, -(p.correction - last));
         const BlockInertia& i_ref = blocks.inertia[p.ref];
         const BlockInertia& i_inc = blocks.inertia[p.inc];
@@ -150,15 +238,21 @@ void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks
     }
 }
 
-void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
+void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                      EnergyLedger& ledger)
 {
     const double half_step = 0.5 * model.time_step;
-    const auto book = [&](Index block, double x, double y, double w) {
+    const auto book = [&](Index block, double x, double y, double w)
+    {
         const BlockInertia& inertia = blocks.inertia[block];
         const BlockForce& force = blocks.force[block];
         const Vec2 weight = model.mass[block] * model.gravity;
         const double dvx = inertia.inverse_mass_x * x;
         const double dvy = inertia.inverse_mass_y * y;
+        const BlockMotion& motion = blocks.motion[block];  // what holds a prescribed motion takes the impulse too
+        ledger.load_work -= (inertia.inverse_mass_x > 0.0 ? 0.0 : x * motion.vx) +
+                            (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
+                            (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
         ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
         ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
     };

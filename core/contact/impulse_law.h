@@ -19,15 +19,21 @@ namespace hdem
 void collect_impulse_points(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
                             std::vector<ImpulsePoint>& points);
 
-/// One sweep over `range` of the points, one after another: each brings its own approach velocity to its target and its
-/// sliding velocity to zero, within what the joint carries.
+/// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
+/// springs' share between two points is handed over as it is.
+/// @return energy lost, as for sweep_impulses [J]
+double start_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks);
+
+/// One sweep over `range` of the points, one contact after another: each brings its own approach velocities to their targets and its
+/// sliding velocities to zero, within what the joint carries. The normal impulses of a contact's two points are solved together.
 ///
 ///   J   <- max(0, J + m_cN (v_m - target)),   v += J n / m,  w += (u x n) J / I     [Lee2025] Eqs. (15)-(18)
 ///   J_S <- J_S - m_cS v_t,  |J_S| <= J tan(phi) + c L dt                             [Lee2025] Eqs. (9), (10)
 ///
-/// J accumulates over the sweeps, so a later sweep may take back what an earlier one gave too much.
-/// Differs from the paper: Eq. (18) is printed with m_A where the moment of inertia belongs.
-/// Two points of a range must not share a block with points of a range handled at the same time.
+/// J accumulates over the sweeps, so a later sweep may take back what an earlier one, or the start, gave too much.
+/// Differs from the paper: Eq. (18) is printed with m_A where the moment of inertia belongs; one impulse after another sends all of a
+/// resting face's load to one of its ends.
+/// Two contacts of a range must not share a block with contacts of a range handled at the same time.
 /// @return energy lost: the work of the impulses, taken with the mean of the velocities before and after each [J]
 double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks);
 
@@ -40,7 +46,8 @@ void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks
 
 /// Forces of the cycle work along the velocity that the impulses leave, not only along the one they found: book the difference, half a step of
 /// each force times the change of velocity, as work of gravity and as impulse loss. Before impulses are added to the forces.
-void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger);
+void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                      EnergyLedger& ledger);
 
 /// Impulses count as forces J / dt, Eqs. (29), (30): store them as the points' history and add them to the blocks' sums.
 void store_impulses(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,

@@ -14,19 +14,20 @@ struct TouchPoint
     double overlap = 0.0;  ///< > 0 when the blocks interpenetrate [m]
     double ref_t = 0.0;    ///< from the centroid of ref to the point [m]
     double ref_m = 0.0;
-    double inc_t = 0.0;    ///< from the centroid of inc to the point [m]
+    double inc_t = 0.0;  ///< from the centroid of inc to the point [m]
     double inc_m = 0.0;
-    double v_t = 0.0;      ///< velocity of inc relative to ref at the point, Eq. (3) [m/s]; along the edge
-    double v_m = 0.0;      ///< into ref: > 0 when approaching
+    double v_t = 0.0;     ///< velocity of inc relative to ref at the point, Eq. (3) [m/s]; along the edge
+    double v_m = 0.0;     ///< into ref: > 0 when approaching
+    bool on_ref = false;  ///< an end of the reference edge; else a vertex of the incident one
 };
 
 /// Both ends, the axes and the length between them.
 struct EdgeTouch
 {
-    double ex = 1.0;       ///< reference edge's direction t in the world [-]; m is it turned left
+    double ex = 1.0;  ///< reference edge's direction t in the world [-]; m is it turned left
     double ey = 0.0;
-    double length = 0.0;   ///< contact length: of the incident edge's part over the reference edge; <= 0: beside each other [m]
-    TouchPoint point[2];   ///< 0 at the lower t
+    double length = 0.0;  ///< contact length: of the incident edge's part over the reference edge; <= 0: beside each other [m]
+    TouchPoint point[2];  ///< 0 at the lower t
 };
 
 /// Incident edge's two vertices in the axes and from the start of the reference edge.
@@ -64,8 +65,10 @@ struct EdgeView
     EdgeTouch touch;
     touch.ex = v.ex;
     touch.ey = v.ey;
-    const double low = std::max(0.0, std::min(v.t0, v.t1));
-    const double high = std::min(e.length, std::max(v.t0, v.t1));
+    const double inc_low = std::min(v.t0, v.t1);
+    const double inc_high = std::max(v.t0, v.t1);
+    const double low = std::max(0.0, inc_low);
+    const double high = std::min(e.length, inc_high);
     touch.length = high - low;
     const double run = v.t1 - v.t0;
     const double slope = (v.m1 - v.m0) / (run == 0.0 ? 1.0 : run);
@@ -76,6 +79,7 @@ struct EdgeView
         const double t = k == 0 ? low : high;
         TouchPoint& p = touch.point[k];
         p.overlap = v.m0 + slope * (t - v.t0);
+        p.on_ref = k == 0 ? inc_low < 0.0 : inc_high > e.length;
         p.ref_t = e.start_t + t;
         p.ref_m = e.start_m + 0.5 * p.overlap;
         p.inc_t = p.ref_t - v.d_t;
@@ -85,6 +89,24 @@ struct EdgeView
     }
     return touch;
 }
+
+/// Rates of v_t and v_m at a contact point while both blocks keep their velocities: what turning alone does to them [m/s2].
+///
+///   a_t = w_ref^2 r_ref,t - w_inc^2 r_inc,t + w v_m
+///   a_m = w_ref^2 r_ref,m - w_inc^2 r_inc,m - w v_t
+///
+/// with w = w_ref + w_inc for a point that stays on ref, 2 w_ref for one that stays on inc.
+struct TurningRate
+{
+    double t, m;
+
+    TurningRate(const TouchPoint& p, double w_ref, double w_inc)
+    {
+        const double w = w_ref + (p.on_ref ? w_inc : w_ref);
+        t = w_ref * w_ref * p.ref_t - w_inc * w_inc * p.inc_t + w * p.v_m;
+        m = w_ref * w_ref * p.ref_m - w_inc * w_inc * p.inc_m - w * p.v_t;
+    }
+};
 
 /// A contact point is closed down to this gap: far below any real overlap (a 1 m block rests on 4e-6 m), yet enough for
 /// faces that were drawn as touching to count as touching, whatever their rounding. As a share of Contacts::length_floor,

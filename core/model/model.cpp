@@ -7,7 +7,8 @@ namespace hdem
 {
 Index JointTable::find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const
 {
-    for (const std::int32_t source : {source_a, source_b})
+    // Two edges of two sets: the set listed first, whichever block's edge is the reference.
+    for (const std::int32_t source : {std::min(source_a, source_b), std::max(source_a, source_b)})
         if (source >= 0 && of_joint_set[source] != no_index)
             return of_joint_set[source];
     return of_materials[material_a * materials + material_b];

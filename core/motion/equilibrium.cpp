@@ -7,12 +7,21 @@ namespace hdem
 {
 double kinetic_energy(const Model& model, const BlockMotion& motion, Index block)
 {
-    return 0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) + 0.5 * model.inertia[block] * motion.w * motion.w;
+    return 0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) +
+           0.5 * model.inertia[block] * motion.w * motion.w;
 }
 
 void add_equilibrium(IndexRange range, const Model& model, const State& state, Equilibrium& sums)
 {
     const Blocks& blocks = state.blocks;
+    std::vector<Vec2> applied(static_cast<std::size_t>(range.size()));
+    for (Index i = range.begin; i < range.end; ++i)
+        applied[i - range.begin] = model.mass[i] * model.gravity;
+    for (const Load& load : model.loads)
+        if (load.from < state.cycle && state.cycle <= load.until)  // acted in the cycle before
+            for (const Index i : load.blocks)
+                if (i >= range.begin && i < range.end)
+                    applied[i - range.begin] += model.mass[i] * load.acceleration + load.force;
     for (Index i = range.begin; i < range.end; ++i)
     {
         if (!blocks.is_free(i))
@@ -20,9 +29,9 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];
         sums.kinetic_energy += kinetic_energy(model, blocks.motion[i], i);
-        sums.unbalanced_force += std::hypot(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
-        Vec2 applied = model.mass[i] * model.gravity;
-        sums.applied_force += applied.norm();
+        sums.unbalanced_force += std::hypot(inertia.inverse_mass_x > 0.0 ? force.x : 0.0,
+                                            inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
+        sums.applied_force += applied[i - range.begin].norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, std::hypot(blocks.motion[i].vx, blocks.motion[i].vy));
     }

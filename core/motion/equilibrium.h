@@ -11,7 +11,7 @@ struct Equilibrium
 {
     double kinetic_energy = 0.0;    ///< [J]
     double unbalanced_force = 0.0;  ///< sum of the absolute net forces, impulses as J / dt included [N]
-    double applied_force = 0.0;     ///< sum of the absolute weights and loads [N]
+    double applied_force = 0.0;     ///< sum over blocks of the absolute sum of weight and loads of the last cycle [N]
     double free_mass = 0.0;         ///< [kg]
     double greatest_speed = 0.0;    ///< [m/s]
 
@@ -29,12 +29,12 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
 /// Displacements since the reference poses, of present free blocks.
 struct DisplacementReport
 {
-    Index counted = 0;                 ///< blocks next to the excavation that did not detach (all free blocks without an excavation)
-    double mean = 0.0;                 ///< of those [m]
-    double greatest = 0.0;             ///< of those [m]
-    double mean_all = 0.0;             ///< of all free blocks that did not detach [m]
-    double greatest_all = 0.0;         ///< [m]
-    std::vector<Index> detached;       ///< blocks that moved farther than the set distance, in the user's order
+    Index counted = 0;            ///< blocks next to the excavation that did not detach (all free blocks without an excavation)
+    double mean = 0.0;            ///< of those [m]
+    double greatest = 0.0;        ///< of those [m]
+    double mean_all = 0.0;        ///< of all free blocks that did not detach [m]
+    double greatest_all = 0.0;    ///< [m]
+    std::vector<Index> detached;  ///< blocks that moved farther than the set distance, in the user's order
 };
 [[nodiscard]] DisplacementReport report_displacements(const Model& model, const State& state);
 }  // namespace hdem

@@ -10,12 +10,16 @@ namespace hdem
 /// Start the cycle's sum of forces of the blocks in `range` with their weights.
 void apply_weights(IndexRange range, const Model& model, Blocks& blocks);
 
-/// Add the loads of the case that act in this cycle, and set the velocities they prescribe (zero again once they end).
-/// `before` receives the velocities of the loaded blocks, load by load, for add_load_work.
-void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::vector<Triple>& before, EnergyLedger& ledger);
+/// Add the loads of the case that act in this cycle. `before` receives the velocities of the loaded blocks, load by load, for add_load_work.
+void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::vector<Triple>& before);
+
+/// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
+/// spring sheared at a given velocity answers to the displacement at the end of the cycle.
+void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger);
 
 /// Work of these loads, once the velocities are updated.
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before, EnergyLedger& ledger);
+void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
+                   EnergyLedger& ledger);
 
 /// Step 4 of a cycle: velocities at t + dt/2 from the forces at t, with the damping of each block's state.
 ///
@@ -27,9 +31,12 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
 void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger);
 
 /// Step 6: poses from the new velocities (semi-implicit Euler) and from the pseudo velocities of the position correction, which are
-/// used up. A turn by w dt is made with the Cayley form, whose result is a unit vector to rounding; its angle is off by (w dt)^3 / 12.
+/// used up. A turn by w dt is made with the Cayley form, whose result is a unit vector to rounding; its angle is off by (w dt)^3 / 12. The rest
+/// of the rounding is taken out by a Newton step towards length 1.
 void update_positions(IndexRange range, double dt, Blocks& blocks, std::vector<Triple>& pseudo);
 
-/// Work that the position correction of this cycle takes, against gravity and into springs. Before impulses are added to the forces.
-void add_correction_work(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo, EnergyLedger& ledger);
+/// Work that the position correction of this cycle takes, against gravity and into normal springs (shear springs follow velocities, and do not
+/// notice it).
+void add_correction_work(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,
+                         EnergyLedger& ledger);
 }  // namespace hdem

@@ -12,39 +12,43 @@ namespace hdem
 /// and seven separate arrays cost seven lines each (measured in perf, see parallel/README.md).
 struct alignas(64) BlockMotion
 {
-    double x = 0.0;                 ///< centroid [m]
+    double x = 0.0;  ///< centroid [m]
     double y = 0.0;
-    double c = 1.0;                 ///< cosine and sine of the rotation since the start [-]
+    double c = 1.0;  ///< cosine and sine of the rotation since the start [-]
     double s = 0.0;
-    double vx = 0.0;                ///< [m/s]
+    double vx = 0.0;  ///< [m/s]
     double vy = 0.0;
-    double w = 0.0;                 ///< angular velocity, anticlockwise [rad/s]
-    double angle = 0.0;             ///< rotation since the start, not wrapped [rad]
+    double w = 0.0;      ///< angular velocity, anticlockwise [rad/s]
+    double angle = 0.0;  ///< rotation since the start, not wrapped [rad]
 };
 
 /// Which kinds of contact points act on a block: bits of BlockForce::contacts.
 enum ContactBits : std::uint32_t
 {
-    contact_force = 1,    ///< at least one in the force regime
-    contact_impulse = 2   ///< at least one in the impulse regime
+    contact_force = 1,   ///< at least one in the force regime
+    contact_impulse = 2  ///< at least one in the impulse regime
 };
 
 /// Sum of what acts on a block in this cycle.
-struct alignas(32) BlockForce
+struct BlockForce
 {
-    double x = 0.0;                 ///< [N]
+    double x = 0.0;  ///< [N]
     double y = 0.0;
-    double moment = 0.0;            ///< about the centroid [N m]
-    std::uint32_t contacts = 0;     ///< ContactBits
-    float mobilised = 0.0F;         ///< greatest share of a joint's shear strength in use at its force points, 0 to 1 [-]
+    double moment = 0.0;         ///< about the centroid [N m]
+    std::uint32_t contacts = 0;  ///< ContactBits
+    float mobilised =
+        -1.0F;         ///< greatest share of a joint's shear strength in use at its force points, 0 to 1; -1: no force point [-]
+    float t_x = 1.0F;  ///< direction of that joint [-]
+    float t_y = 0.0F;
+    float reserve = 0.0F;  ///< shear strength not in use at all its force points [N]
 };
 
 /// Inverse mass and inertia, zero where the motion is prescribed.
 struct alignas(32) BlockInertia
 {
-    double inverse_mass_x = 0.0;    ///< [1/kg]
+    double inverse_mass_x = 0.0;  ///< [1/kg]
     double inverse_mass_y = 0.0;
-    double inverse_inertia = 0.0;   ///< [1/(kg m2)]
+    double inverse_inertia = 0.0;  ///< [1/(kg m2)]
     double unused = 0.0;
 };
 
@@ -53,9 +57,9 @@ struct Blocks
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
-    std::vector<std::uint8_t> present;      ///< 0 once excavated
-    std::vector<Vec2> reference_position;   ///< displacements are counted from here [m]
-    std::vector<double> reference_angle;    ///< [rad]
+    std::vector<std::uint8_t> present;     ///< 0 once excavated
+    std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
+    std::vector<double> reference_angle;   ///< [rad]
 
     [[nodiscard]] Index size() const { return static_cast<Index>(motion.size()); }
     [[nodiscard]] bool is_free(Index block) const

@@ -1,8 +1,9 @@
 #include "core/state/state_hash.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <array>
-#include <xxhash.h>
 
 namespace hdem
 {
@@ -22,8 +23,8 @@ std::vector<Index> user_part_numbers(const Model& model)
 
 struct HashedContact
 {
-    std::int64_t low, high, sense;           ///< parts by user number; sense: the reference edge is on `low`
-    std::array<double, 4> force;
+    std::int64_t low, high, sense;  ///< parts by user number; sense: the reference edge is on `low`
+    std::array<double, 6> history;  ///< forces, rest overlaps
     std::array<std::int64_t, 2> regime;
 };
 }  // namespace
@@ -35,7 +36,8 @@ std::uint64_t state_hash(const Model& model, const State& state)
     for (const Index i : model.slot_of_user)
     {
         const BlockMotion& m = state.blocks.motion[i];
-        const std::array<double, 8> values{m.x + 0.0, m.y + 0.0, m.c + 0.0, m.s + 0.0, m.vx + 0.0, m.vy + 0.0, m.w + 0.0, m.angle + 0.0};
+        const std::array<double, 8> values{m.x + 0.0,  m.y + 0.0,  m.c + 0.0, m.s + 0.0,
+                                           m.vx + 0.0, m.vy + 0.0, m.w + 0.0, m.angle + 0.0};
         XXH3_64bits_update(hash, values.data(), sizeof values);
     }
     const std::vector<Index> number = user_part_numbers(model);
@@ -48,14 +50,15 @@ std::uint64_t state_hash(const Model& model, const State& state)
         const Index a = number[contacts.part_a[i]];
         const Index b = number[contacts.part_b[i]];
         const bool ref_is_a = model.shapes.part_block[contacts.part_a[i]] == contacts.ref[i];
-        hashed.push_back({std::min(a, b), std::max(a, b), (ref_is_a ? a : b) == std::min(a, b),
+        hashed.push_back({std::min(a, b),
+                          std::max(a, b),
+                          (ref_is_a ? a : b) == std::min(a, b),
                           {contacts.normal_force[0][i] + 0.0, contacts.normal_force[1][i] + 0.0, contacts.shear_force[0][i] + 0.0,
-                           contacts.shear_force[1][i] + 0.0},
+                           contacts.shear_force[1][i] + 0.0, contacts.rest_overlap[0][i] + 0.0, contacts.rest_overlap[1][i] + 0.0},
                           {contacts.regime[0][i], contacts.regime[1][i]}});
     }
-    std::sort(hashed.begin(), hashed.end(), [](const HashedContact& p, const HashedContact& q) {
-        return p.low != q.low ? p.low < q.low : p.high < q.high;
-    });
+    std::sort(hashed.begin(), hashed.end(),
+              [](const HashedContact& p, const HashedContact& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
     XXH3_64bits_update(hash, hashed.data(), hashed.size() * sizeof(HashedContact));
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);

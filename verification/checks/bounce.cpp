@@ -1,7 +1,8 @@
-/// Dynamic condition test, [Lee2025] sect. 4.2: Table 4.
+/// Dynamic condition test, [Lee2025] sect. 4.2: Table 4, Figs. 7 and 8.
 
 #include "verification/checks/bounce.h"
 
+#include "verification/checks/bounce_figures.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
 
@@ -56,15 +57,20 @@ constexpr std::array<PaperColumn, 3> table4{PaperColumn{"force", {4.52e-2, 4.20e
 
 void check_table4(Report& report)
 {
+    BounceFigures figures;
     for (const PaperColumn& paper : table4)
     {
         std::array<double, 4> error{};
+        std::vector<Series> velocities;
         for (std::size_t i = 0; i < steps.size(); ++i)
         {
             const CaseRun run(report, case_file,
                               {set("contact.method", std::string(paper.method)), set("time.step", steps[i]),
                                set("stage[0].cycles", std::round(duration / steps[i]))});
             error[i] = velocity_error(run.column("block.velocity_y"), steps[i]);
+            velocities.push_back(velocity_series(fmt::format("{:g} s", steps[i]), run));
+            if (i == 0)
+                figures.add_histories(run, paper.method);
             const bool is_force = std::string(paper.method) == "force";
             report.require({fmt::format("mean velocity error, {}, step {:g} s [m/s]", paper.method, steps[i]), "Table 4",
                             paper.error[i], error[i]},
@@ -73,8 +79,20 @@ void check_table4(Report& report)
         for (std::size_t i = 1; i < steps.size(); ++i)
             report.inform({fmt::format("growth of that error from 5e-05 to {:g} s, {} [-]", steps[i], paper.method), "Table 4",
                            paper.error[i] / paper.error[0], error[i] / error[0]});
+        const auto over_steps = [](const char* name, Origin origin, const std::array<double, 4>& values)
+        {
+            return Series{.name = name,
+                          .origin = origin,
+                          .x = {steps.begin(), steps.end()},
+                          .y = {values.begin(), values.end()},
+                          .dots = true};
+        };
+        figures.add_steps(paper.method, velocities, over_steps("hdem, mean error", Origin::ours, error),
+                          over_steps("Table 4, mean error", Origin::paper, paper.error));
     }
+    figures.add_to(report);
 }
+
 /// What the velocities of a run say about the bounce; the velocity after cycle c is that at (c - 1/2) dt.
 struct Bounce
 {

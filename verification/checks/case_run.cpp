@@ -1,6 +1,5 @@
 #include "verification/checks/case_run.h"
 
-#include "core/energy_ledger.h"
 #include "core/history_sampler.h"
 #include "core/observer.h"
 
@@ -59,14 +58,16 @@ class Histories final : public Observer
 class EnergyWatch final : public Observer
 {
   public:
-    explicit EnergyWatch(std::int64_t every) : every_(every) {}
+    EnergyWatch(std::vector<LedgerSample>& samples, std::int64_t every) : samples_(samples), every_(every) {}
     /// Greatest residual as a share of the greatest term of the whole run: a block at rest has no energy to compare with.
     [[nodiscard]] double worst() const { return residual_ > 0.0 ? residual_ / greatest_ : 0.0; }
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return next_multiple(now, every_); }
     void observe(const Model& model, const State& state) override
     {
-        if (state.cycle > 0)
-            add(state.ledger, stored_energy(model, state));
+        if (state.cycle == 0)
+            return;
+        samples_.push_back({.time = state.time, .sums = state.ledger, .stored = stored_energy(model, state)});
+        add(state.ledger, samples_.back().stored);
     }
 
   private:
@@ -77,20 +78,22 @@ class EnergyWatch final : public Observer
         if (off > 0.0)
             greatest_ = std::max(greatest_, off / std::abs(relative_residual(ledger, stored)));
     }
+    std::vector<LedgerSample>& samples_;
     double residual_ = 0.0;  ///< [J]
     double greatest_ = 0.0;  ///< [J]
     std::int64_t every_;
 };
 
-class EachCycle final : public Observer
+class Watching final : public Observer
 {
   public:
-    explicit EachCycle(const CaseRun::Watch& watch) : watch_(watch) {}
-    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return now + 1; }
+    Watching(const CaseRun::Watch& watch, std::int64_t every) : watch_(watch), every_(every) {}
+    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return next_multiple(now, every_); }
     void observe(const Model& model, const State& state) override { watch_(model, state); }
 
   private:
     const CaseRun::Watch& watch_;
+    std::int64_t every_;
 };
 
 std::string command_line(const std::string& case_file, const Overrides& overrides)
@@ -183,14 +186,14 @@ CaseRun::CaseRun(Report& report, const std::string& case_file, const Overrides& 
     report.add_run(*this);
 }
 
-void CaseRun::run(const Watch& watch)
+void CaseRun::run(const Watch& watch, std::int64_t watch_every)
 {
     Histories histories(model(), columns_);
-    EnergyWatch energies(std::min<std::int64_t>(model().output.row_every, 100));
-    EachCycle each(watch);
+    EnergyWatch energies(ledger_, std::min<std::int64_t>(model().output.row_every, 100));
+    Watching watching(watch, watch_every);
     std::vector<Observer*> observers{&histories, &energies};
     if (watch)
-        observers.push_back(&each);
+        observers.push_back(&watching);
     stages_ = run_stages(simulation_, observers);
     worst_residual_ = energies.worst();
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Runs a case file as `hdem run` does and keeps its histories in memory.
 
+#include "core/energy_ledger.h"
 #include "io/case_override.h"
 #include "io/load_case.h"
 #include "parallel/stages.h"
@@ -28,10 +29,18 @@ std::filesystem::path& case_folder();
 /// `case_file` with all its polygons, velocities, loads and gravity turned by `angle` about the origin [rad], as overrides.
 [[nodiscard]] Overrides turned_case(const std::string& case_file, const Overrides& overrides, double angle);
 
+/// The energy ledger at one time of a run.
+struct LedgerSample
+{
+    double time = 0.0;  ///< [s]
+    EnergyLedger sums;
+    StoredEnergy stored;
+};
+
 class CaseRun
 {
   public:
-    /// Called with the state at the start and after each cycle.
+    /// Called with the state at the start and after each cycle, or every so many.
     using Watch = std::function<void(const Model&, const State&)>;
 
     /// `case_file` relative to case_folder(). Throws InputError as `hdem run` would refuse the case.
@@ -39,7 +48,7 @@ class CaseRun
     /// Runs all stages; adds the run to the report.
     CaseRun(Report& report, const std::string& case_file, const Overrides& overrides, const Watch& watch = {});
 
-    void run(const Watch& watch = {});
+    void run(const Watch& watch = {}, std::int64_t watch_every = 1);
 
     [[nodiscard]] const Model& model() const { return simulation_.model(); }
     [[nodiscard]] const State& state() const { return simulation_.state(); }
@@ -54,6 +63,8 @@ class CaseRun
 
     /// Greatest share of the energy that the ledger could not explain.
     [[nodiscard]] double worst_residual() const { return worst_residual_; }
+    /// The ledger every 100 cycles, or as often as the case's output has rows.
+    [[nodiscard]] const std::vector<LedgerSample>& ledger() const { return ledger_; }
     [[nodiscard]] bool had_impulses() const;
     /// The shell command that repeats the run.
     [[nodiscard]] const std::string& command() const { return command_; }
@@ -64,6 +75,7 @@ class CaseRun
     std::string command_;
     std::vector<StageResult> stages_;
     std::map<std::string, std::vector<double>> columns_;
+    std::vector<LedgerSample> ledger_;
     double worst_residual_ = 0.0;
 };
 }  // namespace hdem::verification

@@ -33,6 +33,7 @@ std::vector<Check> column_checks();
 std::vector<Check> wall_checks();
 std::vector<Check> stability_checks();
 std::vector<Check> order_checks();
+std::vector<Check> ledger_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();

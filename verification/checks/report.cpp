@@ -79,6 +79,14 @@ void Report::inform(const std::string& name, const std::string& source, double m
     inform({.name = name, .source = source, .reference = std::numeric_limits<double>::quiet_NaN(), .measured = measured});
 }
 
+void Report::add_figure(Figure figure)
+{
+    for (Panel& panel : figure.panels)
+        for (Series& series : panel.series)
+            thin(series, most_points);
+    figures_.push_back(std::move(figure));
+}
+
 void Report::add_run(const CaseRun& run)
 {
     Ledger& ledger = run.had_impulses() ? with_impulses_ : without_impulses_;
@@ -92,7 +100,8 @@ void Report::close()
     const auto add = [this](const Ledger& ledger, const char* kind, double limit)
     {
         if (ledger.runs > 0)
-            require({.name = fmt::format("energy ledger, worst residual of {} runs {} impulses [-]", ledger.runs, kind),
+            require({.name = fmt::format("energy ledger, worst residual of {} run{} {} impulses [-]", ledger.runs,
+                                         ledger.runs == 1 ? "" : "s", kind),
                      .source = "energy balance",
                      .reference = limit,
                      .measured = ledger.worst},

@@ -1,5 +1,7 @@
 #pragma once
-/// What one check found: rows of a quantity, its reference, the measured value, the bar and the verdict.
+/// What one check found: rows of a quantity, its reference, the measured value, the bar and the verdict, and figures beside them.
+
+#include "verification/checks/figure.h"
 
 #include <map>
 #include <optional>
@@ -78,12 +80,16 @@ class Report
     /// A row without reference.
     void inform(const std::string& name, const std::string& source, double measured);
 
+    /// Curves are thinned.
+    void add_figure(Figure figure);
+
     /// Takes a finished run's energy residual into account and keeps its command line.
     void add_run(const CaseRun& run);
     /// Adds the rows on the energy ledger of all runs.
     void close();
 
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+    [[nodiscard]] const std::vector<Figure>& figures() const { return figures_; }
     /// `hdem run` commands that repeat the runs.
     [[nodiscard]] const std::vector<std::string>& commands() const { return commands_; }
     [[nodiscard]] bool has_missed() const;
@@ -95,6 +101,7 @@ class Report
         double worst = 0.0;
     };
     std::vector<Row> rows_;
+    std::vector<Figure> figures_;
     std::vector<std::string> commands_;
     Ledger with_impulses_;
     Ledger without_impulses_;

@@ -93,7 +93,33 @@ CaseRun run_with_release(Report& report, const Variant& variant, std::int64_t re
              set("stage[1].cycles", at(6000) - static_cast<double>(pushed_from))}};
 }
 
-void check_variant(Report& report, const Variant& variant)
+Panel energy_panel(const CaseRun& run, const char* title, std::int64_t first, std::int64_t last)
+{
+    Panel panel{.title = title, .x_label = "cycle", .y_label = "kinetic energy [J]"};
+    Series energy = sampled("hdem", run.column("block.velocity_x"), static_cast<std::size_t>(first),
+                            static_cast<std::size_t>(last));
+    for (double& v : energy.y)
+        v = 0.5 * mass * v * v;
+    panel.series.push_back(energy);
+    return panel;
+}
+
+/// Left the switch to impulses, right the whole way until some cycles after the switch back.
+void add_panels(Figure& figure, const CaseRun& run, const Variant& variant, double predicted, std::int64_t up, std::int64_t down)
+{
+    Panel near = energy_panel(run, variant.name, up - 300, up + 400);
+    near.marks = {{"springs to impulses, hdem", Origin::ours, static_cast<double>(up)},
+                  {"springs to impulses, Eq. (25)", Origin::exact, predicted}};
+    if (variant.collision_mass < mass)
+        near.marks.push_back({"springs to impulses, Fig. 9", Origin::paper, paper_cycle});
+    Panel both = energy_panel(run, variant.name, up - 500, down + 500);
+    both.marks = {{"springs to impulses, hdem", Origin::ours, static_cast<double>(up)},
+                  {"impulses to springs, hdem", Origin::ours, static_cast<double>(down)}};
+    figure.panels.push_back(near);
+    figure.panels.push_back(both);
+}
+
+void check_variant(Report& report, const Variant& variant, Figure& figure)
 {
     const double predicted = predicted_cycle(variant.collision_mass);
     const std::int64_t late = std::llround(1.05 * predicted);
@@ -108,6 +134,7 @@ void check_variant(Report& report, const Variant& variant)
 
     const CaseRun run = run_with_release(report, variant, up + 200);
     const std::int64_t down = find_switch(run, up + 200, false);
+    add_panels(figure, run, variant, predicted, up, down);
     const Jump first = find_jump(run, up, 50);
     const Jump back = find_jump(run, down, 10);
     report.inform(fmt::format("{}: kinetic energy before the switch [J]", variant.name), "sect. 4.3: 1.41", first.kinetic);
@@ -128,8 +155,15 @@ void check_variant(Report& report, const Variant& variant)
 
 void check_transition(Report& report)
 {
-    check_variant(report, {"immovable ground", "false", mass});
-    check_variant(report, {"ground's mass counted", "true", 0.5 * mass});
+    Figure figure{.id = "fig9",
+                  .title = "Kinetic energy of the sliding block at changes of regime",
+                  .source = "Fig. 9; Eq. (25): cycle at which the speed reaches the threshold",
+                  .note = "The push is reduced from 200 cycles after the switch to impulses on. The paper has a jump of 0.038 J, "
+                          "2.7 %, at its switch.",
+                  .columns = 2};
+    check_variant(report, {"immovable ground", "false", mass}, figure);
+    check_variant(report, {"ground's mass counted", "true", 0.5 * mass}, figure);
+    report.add_figure(std::move(figure));
 }
 }  // namespace
 

@@ -1,0 +1,170 @@
+#!/usr/bin/python3
+"""Quick checks of hdem_verify as a page of tools/verification_report.
+
+    verification_report_test.py HDEM_VERIFY TOOLS    the program, and the folder of verification_report
+
+Exit code 77 (skipped) without matplotlib.
+"""
+import html
+import html.parser
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+try:
+    import matplotlib    # noqa: F401
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+VERIFY, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+CHECKS = ["paper.table2", "paper.fig5", "paper.table4", "paper.transition", "closed_form.A18"]
+FIGURES = ["fig3", "fig4", "fig5", "fig7", "fig8", "fig9", "ledger_incline", "ledger_bounce"]
+VOID = {"meta", "br", "link", "img"}
+
+
+def make_page(*arguments):
+    """Exit code, and all that was said."""
+    done = subprocess.run([TOOLS / "verification_report", *map(str, arguments)], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Nesting(html.parser.HTMLParser):
+    """Every element is closed, in the order in which it was opened, and ids are unique."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.problems, self.ids = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.ids += [value for name, value in attributes if name == "id"]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.ids += [value for name, value in attributes if name == "id"]
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.problems.append(f"</{tag}> at {self.getpos()}")
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        cls.rows_file, cls.curves_file = cls.folder / "rows.json", cls.folder / "curves.json"
+        done = subprocess.run([VERIFY, *CHECKS, "--json", cls.rows_file, "--curves", cls.curves_file], capture_output=True, text=True, check=False)
+        if done.returncode not in (0, 3):
+            raise RuntimeError(done.stdout + done.stderr)
+        cls.rows, cls.curves = json.loads(cls.rows_file.read_text()), json.loads(cls.curves_file.read_text())
+        cls.page = cls.build(cls.rows, cls.curves)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    @classmethod
+    def build(cls, rows, curves):
+        rows_file, curves_file, page = cls.folder / "r.json", cls.folder / "c.json", cls.folder / "page.html"
+        rows_file.write_text(json.dumps(rows))
+        curves_file.write_text(json.dumps(curves))
+        code, said = make_page("-o", page, "--json", rows_file, "--curves", curves_file)
+        if code != 0:
+            raise RuntimeError(said)
+        return page.read_text(encoding="utf-8")
+
+    def test_every_check_and_row_is_there(self):
+        self.assertEqual({row["case"] for row in self.rows}, set(CHECKS))
+        for check in self.curves["checks"]:
+            self.assertIn(f">{check['name']}</h3>", self.page)
+        for row in self.rows:
+            self.assertIn(html.escape(row["quantity"]), self.page)
+        self.assertEqual(self.page.count('<td class="verdict">'), len(self.rows) + sum(row["pass"] is False for row in self.rows))
+
+    def test_every_figure_has_the_paper_or_a_closed_form_beside_ours(self):
+        self.assertEqual([figure["id"] for figure in self.curves["figures"]], FIGURES)
+        for figure in self.curves["figures"]:
+            self.assertIn(f'<figure id="{re.sub("_", "-", figure["id"])}">', self.page)
+            self.assertIn(html.escape(figure["title"]), self.page)
+            drawn = [drawn for panel in figure["panels"] for drawn in panel["series"] + panel["marks"]]
+            self.assertTrue({"ours"} < {one["origin"] for one in drawn}, figure["id"])
+            for series in (one for panel in figure["panels"] for one in panel["series"]):
+                self.assertLessEqual(len(series["x"]), 1000)
+                self.assertEqual(len(series["x"]), len(series["y"]))
+
+    def test_asks_the_network_for_nothing(self):
+        targets = re.findall(r"""(?:src|href|srcset|action|data)\s*=\s*["']([^"']*)""", self.page)
+        self.assertTrue(targets)
+        self.assertEqual([target for target in targets if not target.startswith("#")], [])
+        self.assertNotRegex(self.page, r"@import|url\((?!#)|<script|<link|<iframe")
+
+    def test_links_lead_somewhere_and_ids_are_unique(self):
+        nesting = Nesting()
+        nesting.feed(self.page)
+        self.assertEqual((nesting.problems, nesting.open), ([], []))
+        self.assertEqual(len(nesting.ids), len(set(nesting.ids)))
+        self.assertLessEqual(set(re.findall(r'href="#([^"]+)"', self.page)), set(nesting.ids))
+
+    def test_pictures_are_well_formed(self):
+        pictures = re.findall(r"<svg.*?</svg>", self.page, flags=re.DOTALL)
+        self.assertGreater(len(pictures), len(FIGURES))
+        for picture in pictures:
+            xml.etree.ElementTree.fromstring(picture)
+        curves = [picture for picture in pictures if 'class="curves"' in picture]
+        self.assertEqual(len(curves), len(FIGURES))
+        for picture in curves:
+            self.assertNotRegex(picture, "#0102|#0103", "a placeholder of a colour is left")
+            self.assertIn("var(--c0)", picture)
+
+    def test_a_missed_bar_is_marked(self):
+        rows = [dict(row) for row in self.rows]
+        before = self.page.count('<tr class="missed">')
+        met = next(row for row in rows if row["pass"])
+        met["pass"] = False
+        page = self.build(rows, self.curves)
+        self.assertEqual(page.count('<tr class="missed">'), before + 2, "in the summary and in its table")
+        self.assertIn("Bars that are missed", page)
+
+    def test_maps_and_missing_numbers(self):
+        square = [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]]
+        fields = [{"title": "displacement [mm]", "has_both_signs": True, "values": [1.0, -2.0]}]
+        one = {"title": "force", "parts": [square, square], "detached": [0, 1], "fields": fields}
+        figure = {"id": "map", "check": "paper.fig5", "title": "Map", "source": "-", "note": "", "columns": 1, "panels": [], "maps": [one, one]}
+        row = {"case": "paper.fig5", "quantity": "runs to its end", "source": "it did <not>", "pass": False}
+        page = self.build([row], {"figures": [figure]})
+        self.assertEqual(page.count('<svg class="map"'), 2)
+        self.assertEqual(page.count('class="gone"'), 2)
+        self.assertIn("it did &lt;not&gt;", page)
+
+    def test_rows_alone_make_a_page(self):
+        page = self.folder / "alone.html"
+        code, said = make_page("-o", page, "--json", self.rows_file)
+        self.assertEqual(code, 0, said)
+        self.assertNotIn("<figure", page.read_text())
+
+    def test_runs_the_program_itself(self):
+        page = self.folder / "run.html"
+        code, said = make_page("-o", page, "--program", VERIFY, "paper.fig5")
+        self.assertEqual(code, 0, said)
+        self.assertIn(">paper.fig5</h3>", page.read_text())
+
+    def test_errors_say_what_is_wrong(self):
+        for arguments, expected, words in ((["--json", "nowhere.json"], 1, "nowhere.json: cannot be read"), (["--curves", "c.json"], 2, "give --json too"),
+                                           (["--json", "r.json", "paper"], 2, "nothing is run"), (["--program", "nowhere"], 1, "nowhere: no such program"),
+                                           (["--program", VERIFY, "paper.table9"], 1, "exit code 2")):
+            code, said = make_page("-o", self.folder / "none.html", *arguments)
+            self.assertEqual(code, expected, said)
+            self.assertIn(words, said)
+            self.assertNotIn("Traceback", said)
+        self.assertFalse((self.folder / "none.html").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
