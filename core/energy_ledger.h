@@ -38,9 +38,10 @@ struct SpringEnergy
 ///
 /// which vanishes for a closed linear spring. It is what closing or opening between two cycles, a change of contact length and a
 /// hand-over between regimes take (or give): the ledger's contact_changes. What a change of features does to the springs is there too.
-[[nodiscard]] inline double change_energy(double last_force, double overlap, double force, double last_overlap)
+template <typename R>
+[[nodiscard]] inline R change_energy(R last_force, R overlap, R force, R last_overlap)
 {
-    return 0.5 * (last_force * overlap - force * last_overlap);
+    return R(0.5) * (last_force * overlap - force * last_overlap);
 }
 
 /// Energy that came in less what is stored or spent; what the ledger cannot explain [J].

@@ -4,18 +4,11 @@
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
-#include "parallel/openmp.h"
 
 #include <algorithm>
 
 namespace hdem
 {
-namespace
-{
-/// Contacts a thread takes at once. Below two chunks the cycle stays on one thread: sharing out costs more than it saves.
-constexpr Index contact_chunk = 2048;
-}  // namespace
-
 void rebuild_contacts(const Model& model, State& state, BroadPhase& broad)
 {
     const IndexRange parts{0, model.shapes.parts()};
@@ -37,45 +30,205 @@ void rebuild_contacts(const Model& model, State& state, BroadPhase& broad)
     ++state.broad_phase_runs;
 }
 
-void run_cycle(const Model& model, State& state, Workspace& work, BroadPhase& broad, int threads)
+namespace
 {
-    Blocks& blocks = state.blocks;
-    const IndexRange all_blocks{0, blocks.size()};
-    if (state.contacts_outdated || has_outrun_skin(all_blocks, model, blocks, state.rebuilt_at))
-        rebuild_contacts(model, state, broad);
-    Contacts& contacts = state.contacts;
-    const IndexRange all_contacts{0, contacts.size()};
-    work.loads.resize(static_cast<std::size_t>(contacts.size()));
-    work.pseudo.resize(static_cast<std::size_t>(blocks.size()));
+/// Below this many contacts a team loses more by waiting than it gains.
+constexpr Index least_contacts_a_thread = 256;
+/// Impulse points from which colours are shared out; fewer are swept by one thread, in the same order.
+constexpr Index impulses_worth_sharing = 2000;
+}  // namespace
 
-    state.feature_searches += refresh_features(all_contacts, model, blocks, contacts, state.ledger);
-    prescribe_motions(model, state.cycle, contacts, blocks, state.ledger);
-    apply_weights(all_blocks, model, blocks);
-    apply_loads(model, state.cycle, blocks, work.loaded);
-    for_ranges(all_contacts, contact_chunk, threads,  // Eqs. (1)-(10), (24)-(28)
-               [&](IndexRange range) { evaluate_contacts(range, model, state.method, blocks, contacts, work.loads); });
-    accumulate_loads(all_contacts, contacts, work.loads, blocks.force, state.ledger);
-    work.impulses.clear();
-    if (state.method != Method::force)
-        collect_impulse_points(all_contacts, model, blocks, contacts, work.impulses);
-    update_velocities(all_blocks, model, state.damping, blocks, state.ledger);  // Eqs. (11)-(14), (20)-(22)
+void CycleRunner::renew_contacts(const Model& model, State& state)
+{
+    rebuild_contacts(model, state, broad_);
+    prepare(model, state);
+}
 
-    if (!work.impulses.empty())
+void CycleRunner::prepare(const Model& model, const State& state)
+{
+    const Index blocks = state.blocks.size();
+    make_partition(state, state.method != Method::force, partition_);
+    for (ContactPart& part : partition_.contacts)
+        part.tally.stale = static_cast<Index>(std::count(state.contacts.stale.begin() + part.range.begin,
+                                                         state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
+    list_block_contacts(state.contacts, blocks, work_.block_contacts);
+    work_.loads.resize(state.contacts.stale.size());
+    work_.pseudo.resize(static_cast<std::size_t>(blocks));
+    work_.external.assign(model.loads.empty() ? 0 : static_cast<std::size_t>(blocks), {});
+    prepared_ = true;
+    prepared_for_ = state.method;
+}
+
+void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
+{
+    if (state.contacts_outdated)
+        renew_contacts(model, state);
+    else if (!prepared_ || prepared_for_ != state.method)
+        prepare(model, state);
+    const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
+    // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
+    const double moved = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
+    with_team(std::min(threads, useful),
+              [&](const Team& team)
+              {
+                  double way = moved;
+                  for (std::int64_t i = 0; i < cycles; ++i)
+                      cycle(model, state, team, way);
+              });
+}
+
+void CycleRunner::cycle(const Model& model, State& state, const Team& team, double& way)
+{
+    const double allowed = 0.5 * skin_width(model);
+    if (!(way <= allowed))
     {
-        const IndexRange all_impulses{0, static_cast<Index>(work.impulses.size())};
-        state.ledger.impulse_loss += start_impulses(all_impulses, work.impulses, blocks);
-        for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
-        {
-            state.ledger.impulse_loss += sweep_impulses(all_impulses, work.impulses, blocks);  // Eqs. (15)-(18)
-            sweep_correction(all_impulses, model, blocks, work.impulses, work.pseudo);         // Eq. (19)
-        }
-        add_correction_work(model, blocks, contacts, work.pseudo, state.ledger);
-        add_impulse_work(all_impulses, model, work.impulses, blocks, state.ledger);
-        store_impulses(all_impulses, model, work.impulses, contacts, blocks.force);  // Eqs. (29), (30)
+        team.alone(
+            [&]
+            {
+                moved_ = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
+                if (moved_ <= allowed)
+                    return;
+                renew_contacts(model, state);
+                moved_ = 0.0;
+            });
+        way = moved_;
     }
-    add_load_work(model, state.cycle, blocks, work.loaded, state.ledger);
-    update_positions(all_blocks, model.time_step, blocks, work.pseudo);
+    if (!model.loads.empty())
+        team.alone(
+            [&]
+            {
+                prescribe_motions(model, state.cycle, state.contacts, state.blocks, state.ledger);
+                apply_loads(model, state.cycle, state.blocks, work_.external, work_.loaded);
+            });
+
+    evaluate(model, state, team);
+    team.barrier();
+    Index impulses = 0;
+    if (state.method != Method::force)
+        for (const ContactPart& part : partition_.contacts)
+            impulses += part.tally.impulses;
+    if (impulses == 0)
+        move(model, state, team);
+    else
+        move_with_impulses(model, state, team, impulses);
+    team.barrier();
+
+    double farthest = 0.0;
+    for (const BlockPart& part : partition_.blocks)
+        farthest = max(farthest, part.way);
+    way += farthest;
+    if (!team.is_first())
+        return;
+    for (const BlockPart& part : partition_.blocks)
+        state.ledger.add(part.ledger);
+    if (!model.loads.empty())
+        add_load_work(model, state.cycle, state.blocks, work_.loaded, state.ledger);
     ++state.cycle;
     state.time = static_cast<double>(state.cycle) * model.time_step;
+}
+
+void CycleRunner::evaluate(const Model& model, State& state, const Team& team)
+{
+    const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
+    for (Index i = mine.begin; i < mine.end; ++i)
+    {
+        ContactPart& part = partition_.contacts[i];
+        part.ledger = {};
+        part.searched = part.tally.stale > 0 ? refresh_features(part.range, model, state.blocks, state.contacts, part.ledger) : 0;
+        part.tally = evaluate_contacts(part.range, model, state.method, state.blocks, state.contacts,
+                                       work_.loads);  // Eqs. (1)-(10), (24)-(28)
+        part.ledger.friction += part.tally.friction;
+        part.ledger.contact_changes += part.tally.changes;
+        part.impulses.clear();
+        if (part.tally.impulses > 0)
+            collect_impulse_points(part.range, model, state.blocks, state.contacts, part.impulses);
+    }
+}
+
+void CycleRunner::add_up_contacts(State& state)
+{
+    for (const ContactPart& part : partition_.contacts)
+    {
+        state.ledger.add(part.ledger);
+        state.feature_searches += part.searched;
+        contact_point_updates_ += part.tally.closed;
+    }
+}
+
+void CycleRunner::change_velocities(const Model& model, State& state, BlockPart& part)
+{
+    part.ledger = {};
+    apply_weights(part.range, model, work_.external, state.blocks);
+    sum_loads(part.range, work_.block_contacts, work_.loads, state.blocks.force);    // Eqs. (7), (8)
+    update_velocities(part.range, model, state.damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+}
+
+void CycleRunner::move(const Model& model, State& state, const Team& team)
+{
+    if (team.is_first())
+        add_up_contacts(state);
+    const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = mine.begin; i < mine.end; ++i)
+    {
+        BlockPart& part = partition_.blocks[i];
+        change_velocities(model, state, part);
+        part.way = update_positions(part.range, model, state.blocks);
+    }
+}
+
+void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, Index impulses)
+{
+    const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = mine.begin; i < mine.end; ++i)
+        change_velocities(model, state, partition_.blocks[i]);
+    team.barrier();
+    apply_impulses(model, state, team, impulses >= impulses_worth_sharing);
+    if (team.is_first())
+        add_up_contacts(state);
+    for (Index i = mine.begin; i < mine.end; ++i)
+        partition_.blocks[i].way = update_positions(partition_.blocks[i].range, model, state.blocks, work_.pseudo);
+}
+
+template <typename Stage>
+void CycleRunner::for_colours(const Team& team, bool together, const Stage& stage)
+{
+    for (const std::vector<Index>& colour : partition_.colours)
+    {
+        const IndexRange mine = together ? team.share(static_cast<Index>(colour.size()))
+                                         : IndexRange{0, static_cast<Index>(colour.size())};
+        for (Index i = mine.begin; (together || team.is_first()) && i < mine.end; ++i)
+            if (ContactPart& part = partition_.contacts[colour[i]]; !part.impulses.empty())
+                stage(part);
+        if (together)
+            team.barrier();
+    }
+}
+
+void CycleRunner::apply_impulses(const Model& model, State& state, const Team& team, bool together)
+{
+    Blocks& blocks = state.blocks;
+    for_colours(team, together, [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses(part.impulses, blocks); });
+    for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
+        for_colours(team, together,
+                    [&](ContactPart& part)
+                    {
+                        part.ledger.impulse_loss += sweep_impulses(part.impulses, blocks);  // Eqs. (15)-(18)
+                        sweep_correction(model, blocks, part.impulses, work_.pseudo);       // Eq. (19)
+                    });
+    team.barrier();
+    const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
+    const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
+    for (Index i = block_parts.begin; i < block_parts.end; ++i)
+        add_correction_gravity(partition_.blocks[i].range, model, blocks, work_.pseudo, partition_.blocks[i].ledger);
+    for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
+    {
+        ContactPart& part = partition_.contacts[i];
+        add_correction_springs(part.range, model, blocks, state.contacts, work_.pseudo, part.ledger);
+        add_impulse_work(model, part.impulses, blocks, part.ledger);
+    }
+    team.barrier();
+    for_colours(team, together,
+                [&](ContactPart& part) { store_impulses(model, part.impulses, state.contacts, blocks.force); });  // Eqs. (29), (30)
+    team.barrier();
 }
 }  // namespace hdem

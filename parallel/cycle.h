@@ -1,10 +1,12 @@
 #pragma once
-/// The stages of a cycle in their order.
+/// The stages of a cycle in their order, and which thread does what.
 
 #include "core/detection/cell_list.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
+#include "parallel/openmp.h"
+#include "parallel/partition.h"
 
 namespace hdem
 {
@@ -20,6 +22,37 @@ struct BroadPhase
 /// Find all contacts anew; those that stay keep their history.
 void rebuild_contacts(const Model& model, State& state, BroadPhase& broad);
 
-/// One cycle, in the order of core/README.md. The same bits on any number of threads.
-void run_cycle(const Model& model, State& state, Workspace& work, BroadPhase& broad, int threads = 1);
+/// Runs cycles; keeps what they need between them and nothing that would change a result.
+class CycleRunner
+{
+  public:
+    /// The stages in the order of core/README.md, `cycles` times. The same bits on any number of threads, and however a run is cut into calls.
+    void run(const Model& model, State& state, std::int64_t cycles, int threads);
+
+    /// Find the contacts anew, after blocks were taken away, fixed or freed.
+    void renew_contacts(const Model& model, State& state);
+
+    /// Closed contact points summed over all cycles.
+    [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
+
+  private:
+    void cycle(const Model& model, State& state, const Team& team, double& way);
+    void prepare(const Model& model, const State& state);
+    void evaluate(const Model& model, State& state, const Team& team);
+    void add_up_contacts(State& state);
+    void change_velocities(const Model& model, State& state, BlockPart& part);
+    void move(const Model& model, State& state, const Team& team);
+    void move_with_impulses(const Model& model, State& state, const Team& team, Index impulses);
+    void apply_impulses(const Model& model, State& state, const Team& team, bool together);
+    template <typename Stage>
+    void for_colours(const Team& team, bool together, const Stage& stage);
+
+    Workspace work_;
+    BroadPhase broad_;
+    Partition partition_;
+    double moved_ = 0.0;  ///< since contacts were found [m]
+    std::int64_t contact_point_updates_ = 0;
+    Method prepared_for_ = Method::force;
+    bool prepared_ = false;
+};
 }  // namespace hdem

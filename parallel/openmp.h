@@ -1,29 +1,68 @@
 #pragma once
-/// Work shared out over threads. Without OpenMP (HDEM_OPENMP off) everything runs on one.
+/// Threads that stay together for many cycles. Without OpenMP (HDEM_OPENMP off) there is one.
 
 #include "core/types.h"
 
-#include <algorithm>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 namespace hdem
 {
-/// Run `stage` on consecutive ranges of `chunk` that cover `all`, on up to `threads` threads. The ranges do not depend on the number of
-/// threads; a stage whose ranges do not depend on each other gives the same bits on any.
-template <typename Stage>
-void for_ranges(IndexRange all, Index chunk, int threads, const Stage& stage)
+/// One thread of a team, as it sees itself.
+class Team
 {
-    const Index count = (all.size() + chunk - 1) / chunk;
-    const auto range = [&](Index i) { return IndexRange{all.begin + i * chunk, std::min(all.end, all.begin + (i + 1) * chunk)}; };
-    if (threads <= 1 || count <= 1)
+  public:
+    Team(int member, int threads) : member_(member), threads_(threads) {}
+
+    [[nodiscard]] bool is_first() const { return member_ == 0; }
+    [[nodiscard]] int threads() const { return threads_; }
+
+    /// This member's share of `count` pieces of work, consecutive ones. Which thread does a piece never changes its result.
+    [[nodiscard]] IndexRange share(Index count) const
     {
-        for (Index i = 0; i < count; ++i)
-            stage(range(i));
+        const auto cut = [&](int i) { return static_cast<Index>(static_cast<std::int64_t>(count) * i / threads_); };
+        return {cut(member_), cut(member_ + 1)};
+    }
+
+    /// Wait for the others; what they wrote before is seen after.
+    void barrier() const
+    {
+#ifdef _OPENMP
+        if (threads_ > 1)
+        {
+#pragma omp barrier
+        }
+#endif
+    }
+
+    /// Run `work` on the first member while the others wait.
+    template <typename Work>
+    void alone(const Work& work) const
+    {
+        barrier();
+        if (is_first())
+            work();
+        barrier();
+    }
+
+  private:
+    int member_ = 0;
+    int threads_ = 1;
+};
+
+/// Run `work(team)` on each of `threads` threads.
+template <typename Work>
+void with_team(int threads, const Work& work)
+{
+#ifdef _OPENMP
+    if (threads > 1)
+    {
+#pragma omp parallel num_threads(threads)
+        work(Team(omp_get_thread_num(), omp_get_num_threads()));
         return;
     }
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(threads)
 #endif
-    for (Index i = 0; i < count; ++i)
-        stage(range(i));
+    work(Team(0, 1));
 }
 }  // namespace hdem

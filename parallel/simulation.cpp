@@ -33,10 +33,13 @@ int default_threads()
 #endif
 }
 
-Simulation::Simulation(Model model, State state, int threads) : model_(std::move(model)), state_(std::move(state)), threads_(threads)
+Simulation::Simulation(Model model, State state, int threads)
+    : model_(std::move(model)),
+      state_(std::move(state)),
+      threads_(threads)
 {
     if (state_.contacts_outdated)
-        rebuild_contacts(model_, state_, broad_);
+        runner_.renew_contacts(model_, state_);
     if (state_.cycle == 0)
         state_.ledger.initial = stored_energy(model_, state_).total();
 }
@@ -47,8 +50,9 @@ std::vector<Problem> Simulation::find_problems()
     const double limit = critical_step();
     if (model_.time_step > limit && state_.method != Method::impulse)
         problems.push_back({.key = "time.step",
-                            .text = "time: step = " + with_digits("%.4g", model_.time_step) + " s (above the stable limit 2/omega_max = " +
-                                    with_digits("%.4g", limit) + " s of the contacts). Give a smaller step, or none to use Eq. (32): " +
+                            .text = "time: step = " + with_digits("%.4g", model_.time_step) +
+                                    " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
+                                    " s of the contacts). Give a smaller step, or none to use Eq. (32): " +
                                     with_digits("%.4g", model_.paper_time_step) + " s."});
     return problems;
 }
@@ -61,7 +65,8 @@ double Simulation::critical_step()
 void Simulation::excavate(const std::string& name)
 {
     const auto at = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name);
-    const Index excavation = at == model_.excavation_names.end() ? no_index : static_cast<Index>(at - model_.excavation_names.begin());
+    const Index excavation = at == model_.excavation_names.end() ? no_index
+                                                                 : static_cast<Index>(at - model_.excavation_names.begin());
     const Index single = excavation == no_index ? model_.find_block(name) : no_index;
     std::vector<std::uint8_t> removed(static_cast<std::size_t>(model_.blocks()), 0);
     for (Index i = 0; i < model_.blocks(); ++i)
@@ -80,7 +85,7 @@ void Simulation::excavate(const std::string& name)
         const EdgeTouch touch = touch_edges(edges, view_edges(edges, state_.blocks.motion[ref], state_.blocks.motion[inc]),
                                             state_.blocks.motion[ref], state_.blocks.motion[inc]);
         const double gap = -std::max(touch.point[0].overlap, touch.point[1].overlap);
-        if (touch.length > contacts.length_floor[i] && gap < contacts.length_floor[i])
+        if (touch.length > contacts.length_floor(i) && gap < contacts.length_floor(i))
             near.push_back(removed[ref] != 0 ? inc : ref);
     }
     for (Index i = 0; i < model_.blocks(); ++i)
@@ -113,7 +118,7 @@ void Simulation::begin_stage(Index stage)
     if (!def.fix.empty() || !def.free.empty())
         state_.contacts_outdated = true;
     if (state_.contacts_outdated)
-        rebuild_contacts(model_, state_, broad_);
+        runner_.renew_contacts(model_, state_);
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);
@@ -126,11 +131,7 @@ void Simulation::begin_stage(Index stage)
 
 void Simulation::advance(std::int64_t cycles)
 {
-    for (std::int64_t i = 0; i < cycles; ++i)
-    {
-        run_cycle(model_, state_, work_, broad_, threads_);
-        contact_point_updates_ += count_contacts().closed();
-    }
+    runner_.run(model_, state_, cycles, threads_);
 }
 
 void Simulation::check_state() const
@@ -141,7 +142,8 @@ void Simulation::check_state() const
     {
         const BlockMotion& m = blocks.motion[i];
         if (!std::isfinite(m.x + m.y + m.c + m.s + m.vx + m.vy + m.w))
-            throw RunError(when + "block \"" + model_.name[i] + "\": position or velocity is not a finite number (the motion is unstable). "
+            throw RunError(when + "block \"" + model_.name[i] +
+                           "\": position or velocity is not a finite number (the motion is unstable). "
                            "Give a smaller time.step or remove very small blocks (generator.smallest_block_area).");
     }
     const Contacts& contacts = state_.contacts;
@@ -150,12 +152,14 @@ void Simulation::check_state() const
         const Index ref = contacts.ref[i];
         const Index inc = contacts.inc[i];
         const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref], blocks.motion[inc]);
+        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref],
+                                            blocks.motion[inc]);
         const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
         const double limit = model_.contact.overlap_limit * std::min(model_.size(ref), model_.size(inc));
         if (overlap > limit)
-            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\": overlap = " + with_digits("%.4g", overlap) +
-                           " m (above contact.overlap_limit: " + with_digits("%.4g", limit) + " m). Give a smaller time.step or a greater "
+            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\": overlap = " +
+                           with_digits("%.4g", overlap) + " m (above contact.overlap_limit: " + with_digits("%.4g", limit) +
+                           " m). Give a smaller time.step or a greater "
                            "joint normal_stiffness, or raise the limit if this overlap is meant.");
     }
 }

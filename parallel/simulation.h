@@ -42,16 +42,14 @@ class Simulation
     [[nodiscard]] ContactCounts count_contacts() const;
     [[nodiscard]] double critical_step();  ///< 2 / omega_max [s]
     /// Closed contact points summed over all cycles run by this object.
-    [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
+    [[nodiscard]] std::int64_t contact_point_updates() const { return runner_.contact_point_updates(); }
 
   private:
     void excavate(const std::string& name);
 
     Model model_;
     State state_;
-    Workspace work_;
-    BroadPhase broad_;
+    CycleRunner runner_;
     int threads_ = 1;
-    std::int64_t contact_point_updates_ = 0;
 };
 }  // namespace hdem

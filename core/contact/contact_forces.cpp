@@ -1,8 +1,8 @@
 #include "core/contact/contact_forces.h"
 
+#include "core/contact/contact_lanes.h"
 #include "core/contact/force_law.h"
 #include "core/contact/regime.h"
-#include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 
 namespace hdem
@@ -15,154 +15,221 @@ struct Threshold
     double scale;
     double gravity_velocity;  ///< dt |g| [m/s]
     double fixed;             ///< given velocity, or negative [m/s]
+    [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
 };
 
-/// Masses of a block in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
-/// m_c = m/2 without levers.
-inline BlockInertia threshold_inertia(const Model& model, const Blocks& blocks, Index block)
+/// Four contacts and what is known of them in this cycle.
+struct Group
 {
-    BlockInertia inertia = blocks.inertia[block];
+    const Index* ref;
+    const Index* inc;
+    BasicEdgeTouch<Pack> touch;
+    JointLanes joint;
+    Pack length;  ///< each point's share of the contact length
+    Pack length_inverse, last_length_inverse;
+    Pack w_ref, w_inc;
+    Mask closed[2];
+    Mask was_impulse[2];
+    Pack last_normal[2], last_shear[2];
+};
+
+/// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
+/// m_c = m/2 without levers.
+BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
+{
+    BasicInertia<Pack> inertia = load_inertias(blocks.inertia, at);
     if (model.contact.fixed_mass_counts)
     {
-        inertia.inverse_mass_x = model.full_inertia[block].inverse_mass_x;
-        inertia.inverse_mass_y = model.full_inertia[block].inverse_mass_y;
+        const BasicInertia<Pack> full = load_inertias(model.full_inertia, at);
+        inertia.inverse_mass_x = full.inverse_mass_x;
+        inertia.inverse_mass_y = full.inverse_mass_y;
     }
     return inertia;
 }
 
-/// Regime of a contact under the hybrid method, Eq. (24): impulse as soon as one of its closed points is faster than the threshold.
-inline bool is_fast(const EdgeTouch& touch, const CoulombSlip& joint, double length, double length_floor, const BlockInertia& ref,
-                    const BlockInertia& inc, const double last_normal[2], const double last_shear[2], const Threshold& threshold)
+/// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
+Mask are_fast(const Group& g, Pack speed_squared, const Model& model, const Blocks& blocks, const Threshold& threshold)
 {
-    double elastic = 0.0;
-    double speed = 0.0;
+    // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
+    const Pack margin = 1.0 + 1e-9;
+    if (threshold.fixed >= 0.0)
+        return speed_squared > Pack(threshold.fixed * threshold.fixed) * margin;
+    const BasicInertia<Pack> ref = threshold_inertias(model, blocks, g.ref);
+    const BasicInertia<Pack> inc = threshold_inertias(model, blocks, g.inc);
+    Pack elastic = 0.0;
     for (int k = 0; k < 2; ++k)
     {
-        const TouchPoint& p = touch.point[k];
-        const double mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -touch.ey, touch.ex);
-        const double mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, touch.ex, touch.ey);
-        elastic += elastic_velocity_squared(last_normal[k], joint.normal_stiffness * length, mass_n, last_shear[k],
-                                            joint.shear_stiffness * length, mass_s);
-        const double squared = p.v_t * p.v_t + p.v_m * p.v_m;
-        speed = std::max(speed, is_closed(touch.length, p.overlap, length_floor) ? squared : 0.0);
+        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        const Pack mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -g.touch.ey, g.touch.ex);
+        const Pack mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, g.touch.ex, g.touch.ey);
+        // Springs that an impulse has emptied have stored nothing.
+        const Pack normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
+        const Pack shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
+        elastic += elastic_velocity_squared(normal, g.joint.law.normal_stiffness * g.length, mass_n, shear,
+                                            g.joint.law.shear_stiffness * g.length, mass_s);
     }
-    const double u_th = threshold.fixed >= 0.0 ? threshold.fixed
-                                               : threshold_velocity(threshold.scale, threshold.gravity_velocity, elastic);
-    // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
-    return speed > u_th * u_th * (1.0 + 1e-9);
-}
-
-inline bool has_moved(const Contacts& contacts, Index i, const EdgeView& v)
-{
-    const auto off = [](double now, float seen) { return std::abs(static_cast<float>(now) - seen); };
-    const float d0 = std::max(off(v.t0, contacts.seen0[i]), off(v.m0, contacts.seen1[i]));
-    const float d1 = std::max(off(v.t1, contacts.seen2[i]), off(v.m1, contacts.seen3[i]));
-    return !(std::max(d0, d1) <= contacts.moved_limit[i]);
+    const Pack u_th = threshold_velocity(Pack(threshold.scale), Pack(threshold.gravity_velocity), elastic);
+    return speed_squared > u_th * u_th * margin;
 }
 
 template <Method method>
-void evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contacts& contacts, ContactLoads& loads)
+Mask are_impulsive(const Group& g, const Model& model, const Blocks& blocks, const Threshold& threshold)
+{
+    const Mask none{};
+    if constexpr (method != Method::hybrid)
+        return method == Method::impulse ? !none : none;
+    Pack speed = 0.0;
+    for (int k = 0; k < 2; ++k)
+    {
+        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
+    }
+    // The elastic part only adds: at rest nothing more needs to be known.
+    const double least = threshold.least();
+    return any(speed > Pack(least * least)) ? are_fast(g, speed, model, blocks, threshold) : none;
+}
+
+/// Incident vertices that have left the place at which the features were found.
+Mask::V have_moved(const ContactLanes& l, const BasicEdgeView<Pack>& v)
+{
+    const auto off = [](Pack now, const std::array<float, lanes>& seen)
+    {
+        FloatLanes then;
+        std::memcpy(&then, seen.data(), sizeof then);
+        const FloatLanes d = to_float(now) - then;
+        return d > -d ? d : -d;
+    };
+    const FloatLanes o0 = off(v.t0, l.seen[0]), o1 = off(v.m0, l.seen[1]), o2 = off(v.t1, l.seen[2]), o3 = off(v.m1, l.seen[3]);
+    const FloatLanes a = o0 > o1 ? o0 : o1, b = o2 > o3 ? o2 : o3;
+    FloatLanes limit;
+    std::memcpy(&limit, l.moved_limit.data(), sizeof limit);
+    return __builtin_convertvector(!((a <= limit) & (b <= limit)), Mask::V);
+}
+
+/// Sums of what the points of a contact give, and of their energies.
+struct Sums
+{
+    Pack f_t = 0.0, f_m = 0.0, moment_ref = 0.0,
+         moment_inc = 0.0;            ///< on inc, along and across the edge; moments about the centroids
+    Pack used = 0.0, strength = 0.0;  ///< shear force and shear strength of force points
+    Pack friction = 0.0, changes = 0.0;
+};
+
+template <Method method>
+void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l, std::uint8_t* regime, Sums& sums)
+{
+    const BasicTouchPoint<Pack>& p = g.touch.point[k];
+    const Pack spring_normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
+    const Pack spring_shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
+    const Pack last_rest = load_lane(l.rest_overlap[k]);
+    const Pack rest = method == Method::force ? Pack(0.0)
+                                              : rest_overlap(g.was_impulse[k], p.overlap, last_rest, g.last_normal[k],
+                                                             g.joint.normal_compliance * g.length_inverse);
+    const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
+    const Pack curved = Pack(0.5) * dt * turning.t;
+    const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
+    const BasicPointForce<Pack> f = spring_force(g.joint.law, g.length, p.overlap - rest, v_t, dt, g.last_shear[k]);
+    const Mask spring = g.closed[k] & !impulsive;
+    const Mask held = g.closed[k] & impulsive;  // the history of an impulse point stays until its impulses of this cycle are known
+    const Pack normal = select(spring, f.normal, 0.0);
+    const Pack shear = select(spring, f.shear, 0.0);
+    const Mask slips = spring & !(f.excess == Pack(0.0));
+    store_bytes((spring.v & 1) + (slips.v & 1) + (held.v & 3), regime);
+
+    // Energies of this step; u is the stretch of the normal spring.
+    const Pack u = p.overlap - select(g.was_impulse[k], rest, last_rest);
+    // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
+    const Pack strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
+    const Pack plastic = -v_t * dt - (shear - spring_shear) * (g.joint.shear_compliance * g.length_inverse);
+    const Pack slipped = Pack(0.5) * (spring_shear + shear) * plastic;
+    const Mask stays = spring & (spring_normal + abs(spring_shear) > Pack(0.0));
+    sums.friction += select(stays, slipped, 0.0);
+    sums.changes += select(stays, 0.0, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
+                    Pack(0.5) * spring_normal * strayed + Pack(0.5) * (spring_shear - shear) * curved * dt +
+                    Pack(0.5) * spring_shear * spring_shear * (g.last_length_inverse - g.length_inverse) * g.joint.shear_compliance;
+    store_lane(l.overlap[k], p.overlap);
+    store_lane(l.rest_overlap[k], select(spring, rest, 0.0));
+    store_lane(l.normal_force[k], select(held, g.last_normal[k], normal));
+    store_lane(l.shear_force[k], select(held, g.last_shear[k], shear));
+
+    sums.used += abs(shear);
+    sums.strength += select(spring, f.strength, 0.0);
+    sums.f_t += shear;
+    sums.f_m -= normal;
+    sums.moment_inc -= p.inc_t * normal + p.inc_m * shear;
+    sums.moment_ref += p.ref_t * normal + p.ref_m * shear;
+}
+
+template <Method method>
+ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contacts& contacts, ContactLoads& loads)
 {
     const double dt = model.time_step;
     const Threshold threshold{model.threshold_scale, dt * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0)};
-    for (Index i = range.begin; i < range.end; ++i)
+    LawLanes laws(model.joints.laws);
+    Pack friction = 0.0, changes = 0.0;
+    Mask::V closed{}, impulses{}, stale{};
+    for (Index i = range.begin; i < range.end; i += lanes)
     {
-        const Index ref = contacts.ref[i];
-        const Index inc = contacts.inc[i];
-        const EdgePair edges = contacts.edges(i);
-        const EdgeView view = view_edges(edges, blocks.motion[ref], blocks.motion[inc]);
-        const EdgeTouch touch = touch_edges(edges, view, blocks.motion[ref], blocks.motion[inc]);
-        const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
-        const double length = point_length(touch.length, contacts.length_floor[i]);
-        contacts.stale[i] = has_moved(contacts, i, view) ? 1 : 0;
-
-        bool impulsive = method == Method::impulse;
-        if constexpr (method == Method::hybrid)
-        {
-            double last_normal[2], last_shear[2];
-            for (int k = 0; k < 2; ++k)
-            {
-                // Springs that an impulse has emptied have stored nothing.
-                const double stored = contacts.regime[k][i] == static_cast<std::uint8_t>(Regime::impulse) ? 0.0 : 1.0;
-                last_normal[k] = stored * contacts.normal_force[k][i];
-                last_shear[k] = stored * contacts.shear_force[k][i];
-            }
-            impulsive = is_fast(touch, joint, length, contacts.length_floor[i], threshold_inertia(model, blocks, ref),
-                                threshold_inertia(model, blocks, inc), last_normal, last_shear, threshold);
-        }
-
-        double f_t = 0.0, f_m = 0.0, moment_ref = 0.0, moment_inc = 0.0, friction = 0.0, changes = 0.0, mobilised = -1.0,
-               reserve = 0.0;
+        ContactLanes& l = contacts.lane[i / lanes];
+        Group g{.ref = &contacts.ref[i], .inc = &contacts.inc[i]};
+        const BasicEdgePair<Pack> edges = load_edges(l);
+        const BasicMotion<Pack> ref = load_motions(blocks.motion, g.ref);
+        const BasicMotion<Pack> inc = load_motions(blocks.motion, g.inc);
+        const BasicEdgeView<Pack> view = view_edges(edges, ref, inc);
+        g.touch = touch_edges(edges, view, ref, inc);
+        g.joint = laws.load(&contacts.law[i]);
+        const Pack floor = load_lane(l.length_floor);
+        g.length = point_length(g.touch.length, floor);
+        const Mask::V moved = have_moved(l, view);
+        store_bytes(moved & 1, &contacts.stale[i]);
+        stale -= moved;
         for (int k = 0; k < 2; ++k)
         {
-            const TouchPoint& p = touch.point[k];
-            double& normal = contacts.normal_force[k][i];
-            double& shear = contacts.shear_force[k][i];
-            const bool closed = is_closed(touch.length, p.overlap, contacts.length_floor[i]);
-            const bool was_impulse = contacts.regime[k][i] == static_cast<std::uint8_t>(Regime::impulse);
-            const double spring_normal = was_impulse ? 0.0 : normal;
-            const double spring_shear = was_impulse ? 0.0 : shear;
-            double& rest = contacts.rest_overlap[k][i];
-            const double last_rest = rest;
-            rest = method == Method::force ? 0.0
-                                           : rest_overlap(was_impulse, p.overlap, rest, normal, joint.normal_stiffness * length);
-            const TurningRate turning(p, blocks.motion[ref].w, blocks.motion[inc].w);
-            const double curved = 0.5 * dt * turning.t;
-            const double v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-            const PointForce f = spring_force(joint, length, p.overlap - rest, v_t, dt, shear);
-            const Regime spring_regime = f.slip > 0.0 ? Regime::slip : Regime::stick;
-            contacts.regime[k][i] = static_cast<std::uint8_t>(closed ? (impulsive ? Regime::impulse : spring_regime)
-                                                                     : Regime::open);
-            // The history of an impulse point stays until its impulses of this cycle are known.
-            const double on = closed && !impulsive ? 1.0 : 0.0;
-            const double keep = closed && impulsive ? 1.0 : 0.0;
-            // Energies of this step; u is the stretch of the normal spring, e of the shear spring.
-            double& last_overlap = contacts.overlap[k][i];
-            const double u = p.overlap - (was_impulse ? rest : last_rest);
-            // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
-            const double strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - last_overlap);
-            last_overlap = p.overlap;
-            const double shear_stiffness = joint.shear_stiffness * length;
-            const double plastic = -v_t * dt - (on * f.shear - spring_shear) / shear_stiffness;
-            const double slipped = 0.5 * (spring_shear + on * f.shear) * plastic;
-            const bool stays = closed && !impulsive && spring_normal + std::abs(spring_shear) > 0.0;
-            friction += stays ? slipped : 0.0;
-            changes += (stays ? 0.0 : slipped) + change_energy(spring_normal, u, on * f.normal, u - p.v_m * dt) +
-                       0.5 * spring_normal * strayed + 0.5 * (spring_shear - on * f.shear) * curved * dt +
-                       0.5 * spring_shear * spring_shear / joint.shear_stiffness * (1.0 / contacts.last_length[i] - 1.0 / length);
-            rest *= on;
-            mobilised = std::max(mobilised, on * (1.0 + f.mobilised) - 1.0);
-            reserve += on * f.reserve;
-            normal = on * f.normal + keep * normal;
-            shear = on * f.shear + keep * shear;
-            f_t += on * f.shear;
-            f_m -= on * f.normal;
-            moment_inc -= on * (p.inc_t * f.normal + p.inc_m * f.shear);
-            moment_ref += on * (p.ref_t * f.normal + p.ref_m * f.shear);
+            g.closed[k] = is_closed(g.touch.length, g.touch.point[k].overlap, floor);
+            g.was_impulse[k] = {load_regimes(&contacts.regime[k][i]) == static_cast<std::int64_t>(Regime::impulse)};
+            g.last_normal[k] = load_lane(l.normal_force[k]);
+            g.last_shear[k] = load_lane(l.shear_force[k]);
+            closed -= g.closed[k].v;
         }
-        contacts.last_length[i] = length;
-        loads.x[i] = touch.ex * f_t - touch.ey * f_m;
-        loads.y[i] = touch.ey * f_t + touch.ex * f_m;
-        loads.moment_ref[i] = moment_ref;
-        loads.moment_inc[i] = moment_inc;
-        loads.friction[i] = friction;
-        loads.changes[i] = changes;
-        loads.mobilised[i] = static_cast<float>(mobilised);
-        loads.reserve[i] = static_cast<float>(reserve);
-        loads.t_x[i] = static_cast<float>(touch.ex);
-        loads.t_y[i] = static_cast<float>(touch.ey);
-    }
-}
+        const Mask impulsive = are_impulsive<method>(g, model, blocks, threshold);
+        impulses -= (g.closed[0].v & impulsive.v) + (g.closed[1].v & impulsive.v);
 
-inline std::uint32_t contact_bits(std::uint8_t regime)
-{
-    constexpr std::uint32_t bits[] = {0, contact_force, contact_force, contact_impulse};
-    return bits[regime];
+        const Pack last_length = load_lane(l.last_length);
+        const Pack both = Pack(1.0) / (g.length * last_length);  // one division for the two inverses
+        g.length_inverse = both * last_length;
+        g.last_length_inverse = both * g.length;
+        g.w_ref = ref.w;
+        g.w_inc = inc.w;
+        Sums sums;
+        for (int k = 0; k < 2; ++k)
+            evaluate_point<method>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+        store_lane(l.last_length, g.length);
+        friction += sums.friction;
+        changes += sums.changes;
+        const Pack x = g.touch.ex * sums.f_t - g.touch.ey * sums.f_m;
+        const Pack y = g.touch.ey * sums.f_t + g.touch.ex * sums.f_m;
+        const Pack reserve = sums.strength - sums.used;
+        std::array<Index, lanes> side_ref, side_inc;
+        for (int j = 0; j < lanes; ++j)
+        {
+            side_ref[j] = contacts.swapped[i + j];
+            side_inc[j] = 1 - side_ref[j];
+        }
+        store_loads(-x, -y, sums.moment_ref, reserve, side_ref, &loads.load[2 * i]);
+        store_loads(x, y, sums.moment_inc, reserve, side_inc, &loads.load[2 * i]);
+        const Mask springs = (g.closed[0] | g.closed[1]) & !impulsive;
+        const Pack mobilised = select(sums.strength > Pack(0.0), sums.used / sums.strength, 1.0);
+        const Mask::V bits = (springs.v & std::int64_t{contact_force}) +
+                             ((g.closed[0].v | g.closed[1].v) & impulsive.v & std::int64_t{contact_impulse});
+        store_use(select(springs, mobilised, -1.0), g.touch.ex, g.touch.ey, bits, &loads.use[i]);
+    }
+    const auto count = [](Mask::V v) { return static_cast<Index>(v[0] + v[1] + v[2] + v[3]); };
+    return {sum(friction), sum(changes), count(closed), count(impulses), count(stale)};
 }
 }  // namespace
 
-void evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
-                       ContactLoads& loads)
+ContactTally evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
+                               ContactLoads& loads)
 {
     switch (method)
     {
@@ -173,37 +240,51 @@ void evaluate_contacts(IndexRange range, const Model& model, Method method, cons
     case Method::hybrid:
         return evaluate<Method::hybrid>(range, model, blocks, contacts, loads);
     }
+    return {};
 }
 
-void accumulate_loads(IndexRange range, const Contacts& contacts, const ContactLoads& loads, std::vector<BlockForce>& force,
-                      EnergyLedger& ledger)
+void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list)
 {
-    const auto joint_at = [&](BlockForce& block, Index i)
+    list.begin.assign(static_cast<std::size_t>(blocks) + 1, 0);
+    list.entry.resize(2 * static_cast<std::size_t>(contacts.size()));
+    for (Index i = 0; i < contacts.size(); ++i)
     {
-        block.contacts |= contact_bits(contacts.regime[0][i]) | contact_bits(contacts.regime[1][i]);
-        block.reserve += loads.reserve[i];
-        if (loads.mobilised[i] <= block.mobilised)
-            return;
-        block.mobilised = loads.mobilised[i];
-        block.t_x = loads.t_x[i];
-        block.t_y = loads.t_y[i];
-    };
-    for (Index i = range.begin; i < range.end; ++i)
+        ++list.begin[contacts.ref[i] + 1];
+        ++list.begin[contacts.inc[i] + 1];
+    }
+    for (Index b = 0; b < blocks; ++b)
+        list.begin[b + 1] += list.begin[b];
+    std::vector<Index> at(list.begin.begin(), list.begin.end() - 1);
+    for (Index i = 0; i < contacts.size(); ++i)
     {
-        ledger.friction += loads.friction[i];
-        ledger.contact_changes += loads.changes[i];
-        if (contacts.regime[0][i] == 0 && contacts.regime[1][i] == 0)
-            continue;
-        BlockForce& ref = force[contacts.ref[i]];
-        BlockForce& inc = force[contacts.inc[i]];
-        ref.x -= loads.x[i];
-        ref.y -= loads.y[i];
-        ref.moment += loads.moment_ref[i];
-        joint_at(ref, i);
-        inc.x += loads.x[i];
-        inc.y += loads.y[i];
-        inc.moment += loads.moment_inc[i];
-        joint_at(inc, i);
+        const Index swapped = contacts.swapped[i];
+        list.entry[at[contacts.ref[i]]++] = 2 * i + swapped;
+        list.entry[at[contacts.inc[i]]++] = 2 * i + 1 - swapped;
+    }
+}
+
+void sum_loads(IndexRange range, const BlockContacts& list, const ContactLoads& loads, std::vector<BlockForce>& force)
+{
+    for (Index b = range.begin; b < range.end; ++b)
+    {
+        BlockForce& f = force[b];
+        for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
+        {
+            const Index entry = list.entry[e];
+            const BlockLoad& load = loads.load[entry];
+            const JointUse& use = loads.use[entry / 2];
+            f.x += load.x;
+            f.y += load.y;
+            f.moment += load.moment;
+            f.reserve += static_cast<float>(load.reserve);
+            f.contacts |= use.contacts;
+            if (use.mobilised > f.mobilised)
+            {
+                f.mobilised = use.mobilised;
+                f.t_x = use.t_x;
+                f.t_y = use.t_y;
+            }
+        }
     }
 }
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #pragma once
-/// The contact stage of a cycle: overlaps, regime and force of a range of contacts.
+/// The contact stage of a cycle: overlaps, regime and force of a range of contacts, and their sums per block.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -9,13 +9,18 @@ namespace hdem
 {
 /// Reads:  motion and inertia of the blocks; features and history of the contacts in `range`.
 /// Writes: history (forces and regimes) and staleness of these contacts, their entries in `loads`.
-/// Contacts do not depend on each other: any split into ranges gives the same bits.
+/// Contacts do not depend on each other: any split into ranges gives the same bits. A range begins at a multiple of `lanes`; it ends at one,
+/// or with the last contact.
 ///
 /// Steps 1-3 of a cycle: overlap, length and relative velocity from the stored features (Eq. 3), regime (Eqs. 24-28),
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
-void evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts, ContactLoads& loads);
+ContactTally evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
+                               ContactLoads& loads);
 
-/// Add the loads of `range` to the blocks, in the order of the contacts.
-/// Reads: loads, regimes. Writes: force of the blocks that the contacts of `range` touch; adds to `ledger`.
-void accumulate_loads(IndexRange range, const Contacts& contacts, const ContactLoads& loads, std::vector<BlockForce>& force, EnergyLedger& ledger);
+/// List the contacts of each block, in their order.
+void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list);
+
+/// Add the loads of its contacts to each block of `range`, in the order of the contacts.
+/// Reads: loads. Writes: force of these blocks.
+void sum_loads(IndexRange range, const BlockContacts& list, const ContactLoads& loads, std::vector<BlockForce>& force);
 }  // namespace hdem

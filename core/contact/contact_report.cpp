@@ -29,8 +29,8 @@ void add(MeanStress& stress, const Vec2& arm, const Vec2& force, double area)
 bool is_closed_contact(const State& state, Index contact)
 {
     const Contacts& contacts = state.contacts;
-    return (contacts.regime[0][contact] != 0 || contacts.regime[1][contact] != 0) && state.blocks.present[contacts.ref[contact]] != 0 &&
-           state.blocks.present[contacts.inc[contact]] != 0;
+    return (contacts.regime[0][contact] != 0 || contacts.regime[1][contact] != 0) &&
+           state.blocks.present[contacts.ref[contact]] != 0 && state.blocks.present[contacts.inc[contact]] != 0;
 }
 
 ContactReport report_contact(const State& state, Index contact)
@@ -43,15 +43,15 @@ ContactReport report_contact(const State& state, Index contact)
     report.second = contacts.inc[contact];
     report.normal = -turned_left(along);
     report.length = std::max(touch.length, 0.0);
-    report.bearing_length = 2.0 * point_length(touch.length, contacts.length_floor[contact]);
+    report.bearing_length = 2.0 * point_length(touch.length, contacts.length_floor(contact));
     const BlockMotion& ref = state.blocks.motion[report.first];
     double overlap = -std::numeric_limits<double>::infinity();
     for (int k = 0; k < 2; ++k)
     {
         const TouchPoint& p = touch.point[k];
         report.point[k] = Vec2(ref.x, ref.y) + p.ref_t * along + p.ref_m * turned_left(along);
-        report.normal_force += contacts.normal_force[k][contact];
-        report.shear_force += contacts.shear_force[k][contact];
+        report.normal_force += contacts.normal_force(k, contact);
+        report.shear_force += contacts.shear_force(k, contact);
         const auto regime = static_cast<Regime>(contacts.regime[k][contact]);
         report.regime = std::max(report.regime, regime);
         report.closed_points += regime != Regime::open ? 1 : 0;
@@ -84,7 +84,7 @@ std::vector<MeanStress> mean_stresses(const Model& model, const State& state)
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
-            const Vec2 on_inc = contacts.shear_force[k][i] * t - contacts.normal_force[k][i] * m;
+            const Vec2 on_inc = contacts.shear_force(k, i) * t - contacts.normal_force(k, i) * m;
             add(stresses[inc], p.inc_t * t + p.inc_m * m, on_inc, model.area[inc]);
             add(stresses[ref], p.ref_t * t + p.ref_m * m, -on_inc, model.area[ref]);
         }

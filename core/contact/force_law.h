@@ -3,20 +3,18 @@
 
 #include "core/joint/coulomb_slip.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace hdem
 {
 /// Force on the incident block: `normal` pushes it out of the reference block, `shear` acts along t.
-struct PointForce
+template <typename R>
+struct BasicPointForce
 {
-    double normal = 0.0;     ///< F_N >= 0 [N]
-    double shear = 0.0;      ///< F_S [N]
-    double slip = 0.0;       ///< plastic shear displacement of this cycle, >= 0 [m]
-    double mobilised = 0.0;  ///< |F_S| as a share of the shear strength, 0 to 1; 1 without any strength [-]
-    double reserve = 0.0;    ///< shear strength not in use [N]
+    R normal = 0.0;    ///< F_N >= 0 [N]
+    R shear = 0.0;     ///< F_S [N]
+    R excess = 0.0;    ///< what slip has taken off the shear force; over K_S L it is the plastic displacement of this cycle [N]
+    R strength = 0.0;  ///< shear strength F_max [N]
 };
+using PointForce = BasicPointForce<double>;
 
 /// Linear normal and shear springs, limited by Coulomb slip.
 ///
@@ -31,20 +29,20 @@ struct PointForce
 /// three times that of a continuous joint.
 /// @pre  length > 0
 /// @see  verification/unit/core/contact/force_law_test.cpp
-[[nodiscard]] inline PointForce spring_force(const CoulombSlip& joint, double length, double overlap, double v_t, double dt,
-                                             double last_shear)
+template <typename R>
+[[nodiscard]] inline BasicPointForce<R> spring_force(const BasicCoulombSlip<R>& joint, R length, R overlap, R v_t, R dt,
+                                                     R last_shear)
 {
-    PointForce f;
-    f.normal = joint.normal_stiffness * length * std::max(overlap, 0.0);
-    const double stiffness = joint.shear_stiffness * length;
-    const double trial = last_shear - stiffness * v_t * dt;
-    const double strength = shear_strength(joint, f.normal, length);
-    f.shear = slip_limited(trial, strength);
-    f.slip = std::abs(trial - f.shear) / stiffness;
-    f.reserve = strength - std::abs(f.shear);
-    f.mobilised = strength > 0.0 ? std::abs(f.shear) / strength : 1.0;
+    BasicPointForce<R> f;
+    f.normal = joint.normal_stiffness * length * max(overlap, R(0.0));
+    const R stiffness = joint.shear_stiffness * length;
+    const R trial = last_shear - stiffness * v_t * dt;
+    f.strength = shear_strength(joint, f.normal, length);
+    f.shear = slip_limited(trial, f.strength);
+    f.excess = trial - f.shear;
     return f;
 }
+
 /// Overlap at which a point's normal spring is empty [m], >= 0.
 ///
 /// 0 for a point that has closed in the force regime. A point handed over from the impulse regime may overlap by more than its last
@@ -53,9 +51,11 @@ struct PointForce
 /// move apart.
 ///
 ///   u_0 = max(0, u - F / (K_N L)) at the hand-over;  u_0 <- min(u_0, u) afterwards
-[[nodiscard]] inline double rest_overlap(bool handed_over, double overlap, double last_rest, double last_normal, double stiffness)
+///
+///   compliance  1 / (K_N L) [m/N]
+template <typename R, typename M>
+[[nodiscard]] inline R rest_overlap(M handed_over, R overlap, R last_rest, R last_normal, R compliance)
 {
-    const double rest = handed_over ? overlap - last_normal / stiffness : std::min(last_rest, overlap);
-    return std::max(rest, 0.0);
+    return max(select(handed_over, overlap - last_normal * compliance, min(last_rest, overlap)), R(0.0));
 }
 }  // namespace hdem

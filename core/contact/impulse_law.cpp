@@ -81,11 +81,11 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.mass_shear = mass(inverse_collision_mass(ref, at.ref_m, inc, at.inc_m, touch.ex, touch.ey));
     p.target = -joint.restitution * std::max(at.v_m, 0.0);
     p.friction = joint.friction_coefficient;
-    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor[contact]) * model.time_step;
-    const double spring = joint.normal_stiffness * point_length(touch.length, contacts.length_floor[contact]);
-    p.excess_overlap = at.overlap - contacts.normal_force[end][contact] / spring - model.contact.allowed_overlap;
-    p.impulse_normal = contacts.normal_force[end][contact] * model.time_step;
-    p.impulse_shear = slip_limited(contacts.shear_force[end][contact] * model.time_step,
+    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * model.time_step;
+    const double spring = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
+    p.excess_overlap = at.overlap - contacts.normal_force(end, contact) / spring - model.contact.allowed_overlap;
+    p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;
+    p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * model.time_step,
                                    p.impulse_normal * p.friction + p.cohesive_impulse);
     return p;
 }
@@ -150,9 +150,9 @@ double solve_shear(ImpulsePoint& p, Blocks& blocks)
     return push(p, p.impulse_shear - last, 0.0, blocks);
 }
 
-bool are_pair(const std::vector<ImpulsePoint>& points, Index i, Index end)
+bool are_pair(const std::vector<ImpulsePoint>& points, std::size_t i)
 {
-    return i + 1 < end && points[i + 1].contact == points[i].contact && points[i].mass_normal > 0.0;
+    return i + 1 < points.size() && points[i + 1].contact == points[i].contact && points[i].mass_normal > 0.0;
 }
 }  // namespace
 
@@ -176,15 +176,15 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
     }
 }
 
-double start_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks)
+double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
 {
     double loss = 0.0;
-    for (Index i = range.begin; i < range.end; ++i)
-        loss += push(points[i], points[i].impulse_shear, -points[i].impulse_normal, blocks);
+    for (ImpulsePoint& p : points)
+        loss += push(p, p.impulse_shear, -p.impulse_normal, blocks);
     return loss;
 }
 
-double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks)
+double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
 {
     double loss = 0.0;
     const auto change_normal = [&](ImpulsePoint& p, double impulse)
@@ -193,10 +193,10 @@ double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Block
         p.impulse_normal = impulse;
         loss += push(p, 0.0, -change, blocks);
     };
-    for (Index i = range.begin; i < range.end; ++i)
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
         ImpulsePoint& p = points[i];
-        const bool pair = are_pair(points, i, range.end);
+        const bool pair = are_pair(points, i);
         if (pair)
         {
             const auto [first, second] = pair_normal(p, points[i + 1], blocks);
@@ -212,12 +212,10 @@ double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Block
     return loss;
 }
 
-void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points,
-                      std::vector<Triple>& pseudo)
+void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo)
 {
-    for (Index i = range.begin; i < range.end; ++i)
+    for (ImpulsePoint& p : points)
     {
-        ImpulsePoint& p = points[i];
         if (p.excess_overlap <= 0.0)
             continue;
         Triple& ref = pseudo[p.ref];
@@ -238,8 +236,7 @@ void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks
     }
 }
 
-void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
-                      EnergyLedger& ledger)
+void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
 {
     const double half_step = 0.5 * model.time_step;
     const auto book = [&](Index block, double x, double y, double w)
@@ -256,23 +253,20 @@ void add_impulse_work(IndexRange range, const Model& model, const std::vector<Im
         ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
         ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
     };
-    for (Index i = range.begin; i < range.end; ++i)
+    for (const ImpulsePoint& p : points)
     {
-        const ImpulsePoint& p = points[i];
         const Kick kick(p, p.impulse_shear, -p.impulse_normal);
         book(p.ref, -kick.x, -kick.y, -kick.w_ref);
         book(p.inc, kick.x, kick.y, kick.w_inc);
     }
 }
 
-void store_impulses(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,
-                    std::vector<BlockForce>& force)
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts, std::vector<BlockForce>& force)
 {
-    for (Index i = range.begin; i < range.end; ++i)
+    for (const ImpulsePoint& p : points)
     {
-        const ImpulsePoint& p = points[i];
-        contacts.normal_force[p.end][p.contact] = p.impulse_normal / model.time_step;
-        contacts.shear_force[p.end][p.contact] = p.impulse_shear / model.time_step;
+        contacts.normal_force(p.end, p.contact) = p.impulse_normal / model.time_step;
+        contacts.shear_force(p.end, p.contact) = p.impulse_shear / model.time_step;
         const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
         force[p.ref].x -= kick.x;
         force[p.ref].y -= kick.y;

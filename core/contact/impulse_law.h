@@ -22,7 +22,7 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 /// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
 /// springs' share between two points is handed over as it is.
 /// @return energy lost, as for sweep_impulses [J]
-double start_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks);
+double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
 
 /// One sweep over `range` of the points, one contact after another: each brings its own approach velocities to their targets and its
 /// sliding velocities to zero, within what the joint carries. The normal impulses of a contact's two points are solved together.
@@ -35,21 +35,19 @@ double start_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Block
 /// resting face's load to one of its ends.
 /// Two contacts of a range must not share a block with contacts of a range handled at the same time.
 /// @return energy lost: the work of the impulses, taken with the mean of the velocities before and after each [J]
-double sweep_impulses(IndexRange range, std::vector<ImpulsePoint>& points, Blocks& blocks);
+double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
 
 /// One sweep of the position correction: pseudo velocities, added to positions but never to velocities, take the overlap
 /// back. As a real velocity, Eq. (19) to the letter, it would feed energy into every bounce (Table 4 is destroyed).
 ///
 ///   P <- max(0, P + m_cN (pv_m + share * (overlap - allowed) / dt))                 after [Lee2025] Eq. (19)
-void sweep_correction(IndexRange range, const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points,
-                      std::vector<Triple>& pseudo);
+void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo);
 
 /// Forces of the cycle work along the velocity that the impulses leave, not only along the one they found: book the difference, half a step of
 /// each force times the change of velocity, as work of gravity and as impulse loss. Before impulses are added to the forces.
-void add_impulse_work(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
-                      EnergyLedger& ledger);
+void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger);
 
 /// Impulses count as forces J / dt, Eqs. (29), (30): store them as the points' history and add them to the blocks' sums.
-void store_impulses(IndexRange range, const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,
                     std::vector<BlockForce>& force);
 }  // namespace hdem

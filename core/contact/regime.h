@@ -14,8 +14,9 @@ namespace hdem
 ///   n     unit vector (n_x, n_y) [-]      lever_*  u x n of each block [m]
 ///
 /// A block whose motion is prescribed counts as infinitely heavy in that component.
-[[nodiscard]] inline double inverse_collision_mass(const BlockInertia& a, double lever_a, const BlockInertia& b, double lever_b,
-                                                   double n_x, double n_y)
+template <typename R>
+[[nodiscard]] inline R inverse_collision_mass(const BasicInertia<R>& a, R lever_a, const BasicInertia<R>& b, R lever_b, R n_x,
+                                              R n_y)
 {
     return (a.inverse_mass_x + b.inverse_mass_x) * n_x * n_x + (a.inverse_mass_y + b.inverse_mass_y) * n_y * n_y +
            a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b;
@@ -33,17 +34,21 @@ namespace hdem
 /// Differs from the paper's wording: u_N is not the geometric overlap. A first touch has stored nothing, and with the
 /// overlap v dt in its place u_elastic grows with the impact speed itself, so that no impact would ever be one.
 /// In terms of forces K u^2 = F^2 / K.
-[[nodiscard]] inline double elastic_velocity_squared(double last_normal, double normal_stiffness, double inverse_mass_normal,
-                                                     double last_shear, double shear_stiffness, double inverse_mass_shear)
+template <typename R>
+[[nodiscard]] inline R elastic_velocity_squared(R last_normal, R normal_stiffness, R inverse_mass_normal, R last_shear,
+                                                R shear_stiffness, R inverse_mass_shear)
 {
-    return last_normal * last_normal / normal_stiffness * inverse_mass_normal + last_shear * last_shear / shear_stiffness * inverse_mass_shear;
+    return last_normal * last_normal / normal_stiffness * inverse_mass_normal +
+           last_shear * last_shear / shear_stiffness * inverse_mass_shear;
 }
 
 /// Threshold velocity of a contact: above it the impulse law holds [m/s].
 ///
 ///   u_th = C_scale (dt |g| + u_elastic)                              [Lee2025] Eqs. (25), (26)
-[[nodiscard]] inline double threshold_velocity(double scale, double gravity_velocity, double elastic_squared)
+template <typename R>
+[[nodiscard]] inline R threshold_velocity(R scale, R gravity_velocity, R elastic_squared)
 {
-    return scale * (gravity_velocity + std::sqrt(elastic_squared));
+    using std::sqrt;
+    return scale * (gravity_velocity + sqrt(elastic_squared));
 }
 }  // namespace hdem

@@ -4,6 +4,8 @@
 #include "core/energy_ledger.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace hdem
 {
@@ -11,8 +13,8 @@ namespace
 {
 double energy_of(const Model& model, const Blocks& blocks, const Contact& contact)
 {
-    const bool loaded = contact.point[0].normal_force > 0.0 || contact.point[1].normal_force > 0.0 || contact.point[0].shear_force != 0.0 ||
-                        contact.point[1].shear_force != 0.0;
+    const bool loaded = contact.point[0].normal_force > 0.0 || contact.point[1].normal_force > 0.0 ||
+                        contact.point[0].shear_force != 0.0 || contact.point[1].shear_force != 0.0;
     return loaded ? spring_energy(model, blocks, contact).total() : 0.0;
 }
 
@@ -54,20 +56,19 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
     }
 }
 
-bool has_outrun_skin(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at)
+double greatest_move(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at)
 {
-    // Two blocks may each use up half of the skin; boxes and contacts are widened by the whole of it between them.
-    const double allowed = 0.5 * skin_width(model);
+    double greatest = 0.0;
     for (Index i = range.begin; i < range.end; ++i)
     {
         const BlockMotion& now = blocks.motion[i];
         const BlockMotion& then = rebuilt_at[i];
         const double turned = std::abs(now.angle - then.angle) * model.radius[i];
         const double moved = std::hypot(now.x - then.x, now.y - then.y);
-        if (!(moved + turned <= allowed) && blocks.present[i] != 0)
-            return true;
+        if (blocks.present[i] != 0 && !(moved + turned <= greatest))
+            greatest = std::isfinite(moved + turned) ? moved + turned : std::numeric_limits<double>::infinity();
     }
-    return false;
+    return greatest;
 }
 
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,

@@ -13,8 +13,10 @@ namespace hdem
 /// Boxes of the parts in `range` at the blocks' poses, widened by half the skin; empty for excavated blocks.
 void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes);
 
-/// True when some block of `range` has moved (turning counts with its radius) more than half of the skin since the rebuild.
-[[nodiscard]] bool has_outrun_skin(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at);
+/// Greatest way that a block of `range` has moved since the rebuild (turning counts with its radius) [m]. Contacts must be found anew once it
+/// exceeds half of the skin: two blocks may each use up half of it.
+[[nodiscard]] double greatest_move(IndexRange range, const Model& model, const Blocks& blocks,
+                                   const std::vector<BlockMotion>& rebuilt_at);
 
 /// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than the skin are left out,
 /// contacts that `old` already has (same parts, ascending) keep their features and history. Appends to `out` in key order.

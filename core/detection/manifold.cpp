@@ -33,7 +33,7 @@ struct RelativePose
 /// Result of scanning one part's edges against the other's vertices.
 struct Scan
 {
-    double distance = -infinity;       ///< greatest over all edges
+    double distance = -infinity;  ///< greatest over all edges
     double external_distance = -infinity;
     Index edge = no_index;             ///< external edge that reaches it
     double kept_distance = -infinity;  ///< of the edge asked for
@@ -205,6 +205,7 @@ double find_features(const Model& model, const std::vector<BlockMotion>& motion,
         const Contact old = contact;
         contact.ref = ref_is_a ? block_a : block_b;
         contact.inc = ref_is_a ? block_b : block_a;
+        contact.swapped = !ref_is_a;
         contact.ref_edge = ref_edge;
         contact.inc_edge = inc_edge;
         contact.edges = make_edges(shapes, ref_edge, inc_part, inc_edge);

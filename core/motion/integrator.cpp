@@ -7,12 +7,13 @@
 
 namespace hdem
 {
-void apply_weights(IndexRange range, const Model& model, Blocks& blocks)
+void apply_weights(IndexRange range, const Model& model, const std::vector<Triple>& external, Blocks& blocks)
 {
     for (Index i = range.begin; i < range.end; ++i)
     {
         const double mass = blocks.present[i] != 0 ? model.mass[i] : 0.0;
-        blocks.force[i] = {.x = mass * model.gravity.x(), .y = mass * model.gravity.y()};
+        const Triple more = external.empty() ? Triple{} : external[i];
+        blocks.force[i] = {.x = mass * model.gravity.x() + more.x, .y = mass * model.gravity.y() + more.y, .moment = more.w};
     }
 }
 
@@ -91,6 +92,24 @@ struct SpringPower
     double shear = 0.0;
 };
 
+/// One step of a pose.
+inline void step(BlockMotion& motion, double vx, double vy, double w, double dt)
+{
+    motion.x += vx * dt;
+    motion.y += vy * dt;
+    const double turn = w * dt;
+    motion.angle += turn;
+    const double q = 0.5 * turn;
+    const double scale = 1.0 / (1.0 + q * q);
+    const double cos_turn = (1.0 - q * q) * scale;
+    const double sin_turn = 2.0 * q * scale;
+    const double c = motion.c * cos_turn - motion.s * sin_turn;
+    const double s = motion.s * cos_turn + motion.c * sin_turn;
+    const double unit = 1.5 - 0.5 * (c * c + s * s);
+    motion.c = c * unit;
+    motion.s = s * unit;
+}
+
 SpringPower spring_power(IndexRange range, const Contacts& contacts, const Blocks& blocks, const std::vector<Triple>& velocity)
 {
     SpringPower power;
@@ -104,8 +123,8 @@ SpringPower spring_power(IndexRange range, const Contacts& contacts, const Block
         {
             if (!is_spring(contacts.regime[k][i]))
                 continue;
-            power.normal -= contacts.normal_force[k][i] * touch.point[k].v_m;
-            power.shear += contacts.shear_force[k][i] * touch.point[k].v_t;
+            power.normal -= contacts.normal_force(k, i) * touch.point[k].v_m;
+            power.shear += contacts.shear_force(k, i) * touch.point[k].v_t;
         }
     }
     return power;
@@ -135,9 +154,13 @@ inline double advance(double velocity, const Component& c, double global, double
 }
 }  // namespace
 
-void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::vector<Triple>& before)
+void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
+                 std::vector<Triple>& before)
 {
     before.clear();
+    for (const Load& load : model.loads)
+        for (const Index i : load.blocks)
+            external[i] = {};
     for (const Load& load : model.loads)
     {
         if (!acts(load, cycle))
@@ -146,9 +169,9 @@ void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::ve
         {
             if (blocks.present[i] == 0)
                 continue;
-            blocks.force[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
-            blocks.force[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
-            blocks.force[i].moment += load.moment;
+            external[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
+            external[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
+            external[i].w += load.moment;
             const BlockMotion& motion = blocks.motion[i];
             before.push_back({motion.vx, motion.vy, motion.w});
         }
@@ -211,47 +234,52 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
     }
 }
 
-void update_positions(IndexRange range, double dt, Blocks& blocks, std::vector<Triple>& pseudo)
+double update_positions(IndexRange range, const Model& model, Blocks& blocks)
 {
+    double fastest = 0.0, rim = 0.0;
     for (Index i = range.begin; i < range.end; ++i)
     {
         BlockMotion& motion = blocks.motion[i];
-        Triple& p = pseudo[i];
-        motion.x += (motion.vx + p.x) * dt;
-        motion.y += (motion.vy + p.y) * dt;
-        const double turn = (motion.w + p.w) * dt;
-        motion.angle += turn;
-        const double q = 0.5 * turn;
-        const double scale = 1.0 / (1.0 + q * q);
-        const double cos_turn = (1.0 - q * q) * scale;
-        const double sin_turn = 2.0 * q * scale;
-        const double c = motion.c * cos_turn - motion.s * sin_turn;
-        const double s = motion.s * cos_turn + motion.c * sin_turn;
-        const double unit = 1.5 - 0.5 * (c * c + s * s);
-        motion.c = c * unit;
-        motion.s = s * unit;
-        p = {};
+        fastest = max(fastest, motion.vx * motion.vx + motion.vy * motion.vy);
+        rim = max(rim, std::abs(motion.w) * model.radius[i]);
+        step(motion, motion.vx, motion.vy, motion.w, model.time_step);
     }
+    return (std::sqrt(fastest) + rim) * model.time_step;
 }
 
-void add_correction_work(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,
-                         EnergyLedger& ledger)
+double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>& pseudo)
+{
+    double fastest = 0.0, rim = 0.0;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        BlockMotion& motion = blocks.motion[i];
+        const double vx = motion.vx + pseudo[i].x;
+        const double vy = motion.vy + pseudo[i].y;
+        const double w = motion.w + pseudo[i].w;
+        fastest = max(fastest, vx * vx + vy * vy);
+        rim = max(rim, std::abs(w) * model.radius[i]);
+        step(motion, vx, vy, w, model.time_step);
+        pseudo[i] = {};
+    }
+    return (std::sqrt(fastest) + rim) * model.time_step;
+}
+
+void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger)
 {
     double gravity = 0.0;
-    bool any = false;
-    for (Index i = 0; i < blocks.size(); ++i)
-    {
-        if (!is_moved(pseudo[i]) || blocks.present[i] == 0)
-            continue;
-        any = true;
-        gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * model.time_step;
-    }
+    for (Index i = range.begin; i < range.end; ++i)
+        if (is_moved(pseudo[i]) && blocks.present[i] != 0)
+            gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * model.time_step;
     ledger.gravity_work += gravity;
     ledger.position_correction -= gravity;
-    if (!any)
-        return;
+}
+
+void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                            const std::vector<Triple>& pseudo, EnergyLedger& ledger)
+{
     // The contacts will find overlaps that no velocity explains, and book their work as if it had come from nowhere.
-    const double work = -spring_power({0, contacts.size()}, contacts, blocks, pseudo).normal * model.time_step;
+    const double work = -spring_power(range, contacts, blocks, pseudo).normal * model.time_step;
     ledger.position_correction += work;
     ledger.contact_changes += work;
 }

@@ -7,11 +7,13 @@
 
 namespace hdem
 {
-/// Start the cycle's sum of forces of the blocks in `range` with their weights.
-void apply_weights(IndexRange range, const Model& model, Blocks& blocks);
+/// Start the cycle's sum of forces of the blocks in `range` with their weights and `external` forces (none: empty).
+void apply_weights(IndexRange range, const Model& model, const std::vector<Triple>& external, Blocks& blocks);
 
-/// Add the loads of the case that act in this cycle. `before` receives the velocities of the loaded blocks, load by load, for add_load_work.
-void apply_loads(const Model& model, std::int64_t cycle, Blocks& blocks, std::vector<Triple>& before);
+/// Forces of the case's loads that act in this cycle, in `external`, one entry a block. `before` receives the velocities of the loaded blocks, load
+/// by load, for add_load_work.
+void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
+                 std::vector<Triple>& before);
 
 /// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
 /// spring sheared at a given velocity answers to the displacement at the end of the cycle.
@@ -30,13 +32,18 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
 /// damping to `ledger`, each force times the mean of the velocities before and after.
 void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger);
 
-/// Step 6: poses from the new velocities (semi-implicit Euler) and from the pseudo velocities of the position correction, which are
-/// used up. A turn by w dt is made with the Cayley form, whose result is a unit vector to rounding; its angle is off by (w dt)^3 / 12. The rest
-/// of the rounding is taken out by a Newton step towards length 1.
-void update_positions(IndexRange range, double dt, Blocks& blocks, std::vector<Triple>& pseudo);
+/// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
+/// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.
+/// @return bound on how far any point of these blocks has moved [m]
+double update_positions(IndexRange range, const Model& model, Blocks& blocks);
 
-/// Work that the position correction of this cycle takes, against gravity and into normal springs (shear springs follow velocities, and do not
-/// notice it).
-void add_correction_work(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,
-                         EnergyLedger& ledger);
+/// The same with the pseudo velocities of the position correction added; they are used up.
+double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>& pseudo);
+
+/// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of
+/// contacts (shear springs follow velocities, and do not notice it).
+void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger);
+void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                            const std::vector<Triple>& pseudo, EnergyLedger& ledger);
 }  // namespace hdem

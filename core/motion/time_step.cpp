@@ -18,19 +18,21 @@ namespace
 using Vec3 = Eigen::Vector3d;
 
 /// K u of the contacts: each closed point a spring along its normal and one along its edge.
-void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Vec3>& u, std::vector<Vec3>& force)
+void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Vec3>& u,
+                   std::vector<Vec3>& force)
 {
     for (Index i = 0; i < contacts.size(); ++i)
     {
         const Index ref = contacts.ref[i];
         const Index inc = contacts.inc[i];
         const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref], blocks.motion[inc]);
+        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref],
+                                            blocks.motion[inc]);
         const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
-        const double length = point_length(touch.length, contacts.length_floor[i]);
+        const double length = point_length(touch.length, contacts.length_floor(i));
         for (const TouchPoint& p : touch.point)
         {
-            if (!is_closed(touch.length, p.overlap, contacts.length_floor[i]))
+            if (!is_closed(touch.length, p.overlap, contacts.length_floor(i)))
                 continue;
             // Rows of the two springs: how fast each stretches by a motion of inc, of ref.
             const Vec3 shear_inc(touch.ex, touch.ey, -p.inc_m);

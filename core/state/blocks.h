@@ -1,6 +1,7 @@
 #pragma once
 /// Blocks: what changes from cycle to cycle. One entry per block, in the model's order.
 
+#include "core/simd.h"
 #include "core/types.h"
 
 #include <cstdint>
@@ -10,17 +11,19 @@ namespace hdem
 {
 /// Pose at the cycle's start and velocity half a step before it. One cache line a block: a contact reads two of them,
 /// and seven separate arrays cost seven lines each (measured in perf, see parallel/README.md).
-struct alignas(64) BlockMotion
+template <typename R>
+struct alignas(64) BasicMotion
 {
-    double x = 0.0;  ///< centroid [m]
-    double y = 0.0;
-    double c = 1.0;  ///< cosine and sine of the rotation since the start [-]
-    double s = 0.0;
-    double vx = 0.0;  ///< [m/s]
-    double vy = 0.0;
-    double w = 0.0;      ///< angular velocity, anticlockwise [rad/s]
-    double angle = 0.0;  ///< rotation since the start, not wrapped [rad]
+    R x = 0.0;  ///< centroid [m]
+    R y = 0.0;
+    R c = 1.0;  ///< cosine and sine of the rotation since the start [-]
+    R s = 0.0;
+    R vx = 0.0;  ///< [m/s]
+    R vy = 0.0;
+    R w = 0.0;      ///< angular velocity, anticlockwise [rad/s]
+    R angle = 0.0;  ///< rotation since the start, not wrapped [rad]
 };
+using BlockMotion = BasicMotion<double>;
 
 /// Which kinds of contact points act on a block: bits of BlockForce::contacts.
 enum ContactBits : std::uint32_t
@@ -44,13 +47,15 @@ struct BlockForce
 };
 
 /// Inverse mass and inertia, zero where the motion is prescribed.
-struct alignas(32) BlockInertia
+template <typename R>
+struct alignas(32) BasicInertia
 {
-    double inverse_mass_x = 0.0;  ///< [1/kg]
-    double inverse_mass_y = 0.0;
-    double inverse_inertia = 0.0;  ///< [1/(kg m2)]
-    double unused = 0.0;
+    R inverse_mass_x = 0.0;  ///< [1/kg]
+    R inverse_mass_y = 0.0;
+    R inverse_inertia = 0.0;  ///< [1/(kg m2)]
+    R unused = 0.0;
 };
+using BlockInertia = BasicInertia<double>;
 
 struct Blocks
 {

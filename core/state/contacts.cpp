@@ -1,29 +1,43 @@
 #include "core/state/contacts.h"
 
+#include <limits>
+
 namespace hdem
 {
 void Contacts::resize(Index n)
 {
-    const auto size = static_cast<std::size_t>(n);
+    size_ = n;
+    const auto groups = static_cast<std::size_t>((n + lanes - 1) / lanes);
+    const std::size_t size = groups * lanes;
     for (auto* column : {&part_a, &part_b, &ref, &inc, &ref_edge, &inc_edge, &law})
         column->resize(size);
-    for (auto* column : {&length_floor, &last_length, &tx, &ty, &start_t, &start_m, &length, &p0x, &p0y, &p1x, &p1y})
-        column->resize(size);
-    for (auto* column : {&seen0, &seen1, &seen2, &seen3, &moved_limit})
-        column->resize(size);
     stale.resize(size);
-    for (int k = 0; k < 2; ++k)
-    {
-        normal_force[k].resize(size);
-        shear_force[k].resize(size);
-        overlap[k].resize(size);
-        rest_overlap[k].resize(size);
-        regime[k].resize(size);
-    }
+    swapped.resize(size);
+    for (auto& column : regime)
+        column.resize(size);
+    lane.resize(groups);
+    const Contact none{.ref = 0,
+                       .inc = 0,
+                       .moved_limit = std::numeric_limits<float>::infinity(),
+                       .length_floor = 1.0,
+                       .last_length = 1.0,
+                       .edges = {},
+                       .point = {}};
+    for (auto i = static_cast<std::size_t>(n); i < size; ++i)
+        put(static_cast<Index>(i), none);
+}
+
+EdgePair Contacts::edges(Index i) const
+{
+    const ContactLanes& l = lane[i / lanes];
+    const Index k = i % lanes;
+    return {l.tx[k], l.ty[k], l.start_t[k], l.start_m[k], l.length[k], l.p0x[k], l.p0y[k], l.p1x[k], l.p1y[k]};
 }
 
 Contact Contacts::get(Index i) const
 {
+    const ContactLanes& l = lane[i / lanes];
+    const Index at = i % lanes;
     Contact contact{.part_a = part_a[i],
                     .part_b = part_b[i],
                     .ref = ref[i],
@@ -31,19 +45,23 @@ Contact Contacts::get(Index i) const
                     .ref_edge = ref_edge[i],
                     .inc_edge = inc_edge[i],
                     .law = law[i],
-                    .moved_limit = moved_limit[i],
-                    .seen = {seen0[i], seen1[i], seen2[i], seen3[i]},
-                    .length_floor = length_floor[i],
-                    .last_length = last_length[i],
+                    .swapped = swapped[i] != 0,
+                    .moved_limit = l.moved_limit[at],
+                    .seen = {l.seen[0][at], l.seen[1][at], l.seen[2][at], l.seen[3][at]},
+                    .length_floor = l.length_floor[at],
+                    .last_length = l.last_length[at],
                     .edges = edges(i),
                     .point = {}};
     for (int k = 0; k < 2; ++k)
-        contact.point[k] = {normal_force[k][i], shear_force[k][i], rest_overlap[k][i], static_cast<Regime>(regime[k][i]), overlap[k][i]};
+        contact.point[k] = {l.normal_force[k][at], l.shear_force[k][at], l.rest_overlap[k][at], static_cast<Regime>(regime[k][i]),
+                            l.overlap[k][at]};
     return contact;
 }
 
 void Contacts::put(Index i, const Contact& contact)
 {
+    ContactLanes& l = lane[i / lanes];
+    const Index at = i % lanes;
     part_a[i] = contact.part_a;
     part_b[i] = contact.part_b;
     ref[i] = contact.ref;
@@ -51,29 +69,29 @@ void Contacts::put(Index i, const Contact& contact)
     ref_edge[i] = contact.ref_edge;
     inc_edge[i] = contact.inc_edge;
     law[i] = contact.law;
-    moved_limit[i] = contact.moved_limit;
-    seen0[i] = contact.seen[0];
-    seen1[i] = contact.seen[1];
-    seen2[i] = contact.seen[2];
-    seen3[i] = contact.seen[3];
-    length_floor[i] = contact.length_floor;
-    last_length[i] = contact.last_length;
-    tx[i] = contact.edges.tx;
-    ty[i] = contact.edges.ty;
-    start_t[i] = contact.edges.start_t;
-    start_m[i] = contact.edges.start_m;
-    length[i] = contact.edges.length;
-    p0x[i] = contact.edges.p0x;
-    p0y[i] = contact.edges.p0y;
-    p1x[i] = contact.edges.p1x;
-    p1y[i] = contact.edges.p1y;
     stale[i] = 0;
+    swapped[i] = contact.swapped ? 1 : 0;
+    l.moved_limit[at] = contact.moved_limit;
+    for (int k = 0; k < 4; ++k)
+        l.seen[k][at] = contact.seen[k];
+    l.length_floor[at] = contact.length_floor;
+    l.last_length[at] = contact.last_length;
+    const EdgePair& e = contact.edges;
+    l.tx[at] = e.tx;
+    l.ty[at] = e.ty;
+    l.start_t[at] = e.start_t;
+    l.start_m[at] = e.start_m;
+    l.length[at] = e.length;
+    l.p0x[at] = e.p0x;
+    l.p0y[at] = e.p0y;
+    l.p1x[at] = e.p1x;
+    l.p1y[at] = e.p1y;
     for (int k = 0; k < 2; ++k)
     {
-        normal_force[k][i] = contact.point[k].normal_force;
-        shear_force[k][i] = contact.point[k].shear_force;
-        overlap[k][i] = contact.point[k].overlap;
-        rest_overlap[k][i] = contact.point[k].rest_overlap;
+        l.normal_force[k][at] = contact.point[k].normal_force;
+        l.shear_force[k][at] = contact.point[k].shear_force;
+        l.overlap[k][at] = contact.point[k].overlap;
+        l.rest_overlap[k][at] = contact.point[k].rest_overlap;
         regime[k][i] = static_cast<std::uint8_t>(contact.point[k].regime);
     }
 }

@@ -53,8 +53,8 @@ std::uint64_t state_hash(const Model& model, const State& state)
         hashed.push_back({std::min(a, b),
                           std::max(a, b),
                           (ref_is_a ? a : b) == std::min(a, b),
-                          {contacts.normal_force[0][i] + 0.0, contacts.normal_force[1][i] + 0.0, contacts.shear_force[0][i] + 0.0,
-                           contacts.shear_force[1][i] + 0.0, contacts.rest_overlap[0][i] + 0.0, contacts.rest_overlap[1][i] + 0.0},
+                          {contacts.normal_force(0, i) + 0.0, contacts.normal_force(1, i) + 0.0, contacts.shear_force(0, i) + 0.0,
+                           contacts.shear_force(1, i) + 0.0, contacts.rest_overlap(0, i) + 0.0, contacts.rest_overlap(1, i) + 0.0},
                           {contacts.regime[0][i], contacts.regime[1][i]}});
     }
     std::sort(hashed.begin(), hashed.end(),

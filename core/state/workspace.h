@@ -3,35 +3,56 @@
 
 #include "core/types.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace hdem
 {
-/// What one contact gives its two blocks in this cycle, one entry per contact.
+/// What one contact gives one of its blocks in this cycle.
+struct alignas(32) BlockLoad
+{
+    double x = 0.0;  ///< [N]
+    double y = 0.0;
+    double moment = 0.0;   ///< about the block's centroid [N m]
+    double reserve = 0.0;  ///< shear strength not in use at the contact's force points [N]
+};
+
+/// How far a contact's shear strength is used, for the damping of its blocks.
+struct JointUse
+{
+    float mobilised = -1.0F;  ///< share in use at its force points; -1: none [-]
+    float t_x = 1.0F;         ///< direction along the edge [-]
+    float t_y = 0.0F;
+    std::uint32_t contacts = 0;  ///< ContactBits
+};
+
 struct ContactLoads
 {
-    std::vector<double> x;  ///< force on inc [N]; ref receives the opposite
-    std::vector<double> y;
-    std::vector<double> moment_ref;  ///< about the centroid of ref [N m]
-    std::vector<double> moment_inc;
-    std::vector<float> mobilised;  ///< greatest share of the shear strength in use at its force points [-]
-    std::vector<float> reserve;    ///< shear strength not in use at its force points [N]
-    std::vector<float> t_x, t_y;   ///< direction along the edge [-]
-    std::vector<double> friction;  ///< energy spent by slip in this cycle [J]
-    std::vector<double> changes;   ///< EnergyLedger::contact_changes of this cycle [J]
-    void resize(std::size_t n)
+    std::vector<BlockLoad> load;  ///< two a contact: on the block of part_a, on that of part_b
+    std::vector<JointUse> use;    ///< one a contact
+
+    void resize(std::size_t contacts)
     {
-        x.resize(n);
-        y.resize(n);
-        moment_ref.resize(n);
-        moment_inc.resize(n);
-        friction.resize(n);
-        changes.resize(n);
-        mobilised.resize(n);
-        reserve.resize(n);
-        t_x.resize(n);
-        t_y.resize(n);
+        load.resize(2 * contacts);
+        use.resize(contacts);
     }
+};
+
+/// Sums over a range of contacts in one cycle.
+struct ContactTally
+{
+    double friction = 0.0;  ///< energy spent by slip [J]
+    double changes = 0.0;   ///< EnergyLedger::contact_changes [J]
+    Index closed = 0;       ///< closed points
+    Index impulses = 0;     ///< of these, in the impulse regime
+    Index stale = 0;        ///< contacts whose features are to be searched anew
+};
+
+/// Which contacts a block has: `entry` holds 2 contact + side (0: the block of part_a, 1: of part_b) from begin[block] to begin[block + 1], ascending.
+struct BlockContacts
+{
+    std::vector<Index> begin;
+    std::vector<Index> entry;
 };
 
 /// One contact point in the impulse regime during one cycle.
@@ -65,8 +86,9 @@ struct Triple
 struct Workspace
 {
     ContactLoads loads;
-    std::vector<ImpulsePoint> impulses;
-    std::vector<Triple> pseudo;  ///< pseudo velocities of the position correction, per block, zero between cycles
-    std::vector<Triple> loaded;  ///< velocities of loaded blocks before the step
+    BlockContacts block_contacts;
+    std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
+    std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
+    std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step
 };
 }  // namespace hdem

@@ -23,7 +23,7 @@ endif()
 target_compile_options(hdem_flags INTERFACE
     ${HDEM_NUMERIC_FLAGS} ${HDEM_SANITIZE_FLAGS}
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    -Wno-missing-field-initializers    # {.density = 2700.0} leaves the rest at its defaults, which is what they are for
+    -Wno-missing-field-initializers -Wno-psabi    # {.density = 2700.0} leaves the rest at its defaults, which is what they are for
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>    # g++ 12 finds overlaps in std::string's operator+ that cannot be
     $<$<BOOL:${HDEM_WERROR}>:-Werror>)
 target_link_options(hdem_flags INTERFACE ${HDEM_SANITIZE_FLAGS})

@@ -121,9 +121,11 @@ struct BlockPair
         for (BlockForce& force : state.blocks.force)
             force = {};
         const IndexRange all{0, state.contacts.size()};
-        loads.resize(static_cast<std::size_t>(all.end));
+        loads.resize(state.contacts.stale.size());
         evaluate_contacts(all, model, method, state.blocks, state.contacts, loads);
-        accumulate_loads(all, state.contacts, loads, state.blocks.force, state.ledger);
+        BlockContacts list;
+        list_block_contacts(state.contacts, state.blocks.size(), list);
+        sum_loads({0, state.blocks.size()}, list, loads, state.blocks.force);
     }
 
     [[nodiscard]] Vec2 force(Index block) const { return {state.blocks.force[block].x, state.blocks.force[block].y}; }

@@ -50,8 +50,8 @@ inline double elastic_energy(const Model& model, const State& state)
                 continue;
             const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
             const double length = 0.5 * report_contact(state, i).bearing_length;
-            const double normal = contacts.normal_force[k][i];
-            const double shear = contacts.shear_force[k][i];
+            const double normal = contacts.normal_force(k, i);
+            const double shear = contacts.shear_force(k, i);
             energy += 0.5 * normal * normal / (joint.normal_stiffness * length) +
                       0.5 * shear * shear / (joint.shear_stiffness * length);
         }

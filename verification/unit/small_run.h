@@ -100,8 +100,8 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
 }
 
 /// One [[history]]; blocks: one name, or two for the contacts between them.
-inline HistoryDef history(const std::string& name, const std::vector<std::string>& blocks, const std::vector<std::string>& quantities,
-                          std::int64_t every = 1)
+inline HistoryDef history(const std::string& name, const std::vector<std::string>& blocks,
+                          const std::vector<std::string>& quantities, std::int64_t every = 1)
 {
     HistoryDef def;
     def.name = name;
@@ -157,8 +157,8 @@ inline void load_contact(SmallRun& run, Index contact, double normal, double she
 {
     for (int k = 0; k < 2; ++k)
     {
-        run.state.contacts.normal_force[k][contact] = 0.5 * normal;
-        run.state.contacts.shear_force[k][contact] = 0.5 * shear;
+        run.state.contacts.normal_force(k, contact) = 0.5 * normal;
+        run.state.contacts.shear_force(k, contact) = 0.5 * shear;
         run.state.contacts.regime[k][contact] = static_cast<std::uint8_t>(regime);
     }
 }

@@ -205,7 +205,7 @@ TEST(ImpulseFace, KeepsItsLoadOnBothEndsWhenTheBlockCannotTurn)
     const Contacts& contacts = run.simulation.state().contacts;
     ASSERT_EQ(contacts.size(), 1);
     for (int k = 0; k < 2; ++k)
-        EXPECT_NEAR(contacts.normal_force[k][0], 0.5 * 2700.0 * 9.81, 1e-9);
+        EXPECT_NEAR(contacts.normal_force(k, 0), 0.5 * 2700.0 * 9.81, 1e-9);
 }
 
 TEST(PositionCorrection, TakesTheOverlapBackWithoutKineticEnergy)

@@ -97,7 +97,7 @@ TEST(Skin, IsOutrunAfterHalfOfItByMovingOrTurning)
     const std::vector<BlockMotion> then = pair.state.blocks.motion;
     const double half = 0.5 * skin_width(pair.model);
     const IndexRange all{0, pair.state.blocks.size()};
-    const auto outrun = [&] { return has_outrun_skin(all, pair.model, pair.state.blocks, then); };
+    const auto outrun = [&] { return greatest_move(all, pair.model, pair.state.blocks, then) > 0.5 * skin_width(pair.model); };
     EXPECT_FALSE(outrun());
     pair.motion(pair.a).x += 0.99 * half;
     EXPECT_FALSE(outrun());

@@ -26,7 +26,7 @@ TEST(ShearStrength, IsCohesionAloneWithoutNormalForce)
 RC_GTEST_PROP(SlipLimit, KeepsTheSignAndNeverExceedsTheStrength, (int trial, int limit))
 {
     const double strength = std::abs(static_cast<double>(limit));
-    const double force = slip_limited(trial, strength);
+    const double force = slip_limited<double>(trial, strength);
     RC_ASSERT(std::abs(force) <= strength);
     RC_ASSERT(force * trial >= 0.0);
     RC_ASSERT(std::abs(static_cast<double>(trial)) > strength || force == static_cast<double>(trial));

@@ -47,10 +47,10 @@ TEST(StateHash, SeesTheLastBitOfEveryForceAndTheRegimeOfClosedPoints)
         for (int k = 0; k < 2; ++k)
         {
             State changed = run.state();
-            flip_last_bit(changed.contacts.normal_force[k][i]);
+            flip_last_bit(changed.contacts.normal_force(k, i));
             EXPECT_NE(state_hash(run.model(), changed), hash);
             changed = run.state();
-            flip_last_bit(changed.contacts.shear_force[k][i]);
+            flip_last_bit(changed.contacts.shear_force(k, i));
             EXPECT_NE(state_hash(run.model(), changed), hash);
             changed = run.state();
             changed.contacts.regime[k][i] ^= 1u;

@@ -1,0 +1,21 @@
+#pragma once
+/// A scene brought to rest, ready to be timed.
+
+#include "parallel/simulation.h"
+#include "verification/scenes/scenes.h"
+
+#include <memory>
+#include <string>
+
+namespace hdem::perf
+{
+/// `scene`: wall, voronoi or joints, of about `blocks` blocks. Throws std::invalid_argument for another name.
+[[nodiscard]] CaseDef make_scene(const std::string& scene, Index blocks, Method method);
+
+/// The scene generated and settled under the force method with local damping, then switched to `method`. Kept for the next call, so that
+/// interleaved repetitions on other thread counts do not generate it again.
+[[nodiscard]] Simulation settled_run(const std::string& scene, Index blocks, Method method, int threads);
+
+/// Bytes this process has in memory now.
+[[nodiscard]] std::int64_t resident_bytes();
+}  // namespace hdem::perf
