@@ -12,9 +12,9 @@ namespace hdem
 {
 namespace
 {
-constexpr std::size_t memory_step = 4U << 20U;       // [bytes] by which the file in memory grows
-constexpr std::uint64_t chunk_bytes = 1U << 20U;     // fits the library's chunk cache
-constexpr unsigned deflate_level = 1;                // higher levels cost much time for little
+constexpr std::size_t memory_step = 4U << 20U;    // [bytes] by which the file in memory grows
+constexpr std::uint64_t chunk_bytes = 1U << 20U;  // fits the library's chunk cache
+constexpr unsigned deflate_level = 1;             // higher levels cost much time for little
 
 /// The bytes of a file that exists in memory only; they are left here when HDF5 closes it.
 ///
@@ -23,6 +23,7 @@ constexpr unsigned deflate_level = 1;                // higher levels cost much 
 struct MemoryFile
 {
     std::unique_ptr<void, decltype(&std::free)> bytes{nullptr, &std::free};
+    std::size_t size = 0;
 };
 
 void* image_malloc(std::size_t size, H5FD_file_image_op_t, void*)
@@ -35,9 +36,15 @@ void* image_copy(void* to, const void* from, std::size_t size, H5FD_file_image_o
     return std::memcpy(to, from, size);
 }
 
-void* image_realloc(void* bytes, std::size_t size, H5FD_file_image_op_t, void*)
+/// The library leaves gaps between what it writes: they are zero, and the same content gives the same bytes.
+void* image_realloc(void* bytes, std::size_t size, H5FD_file_image_op_t, void* memory)
 {
-    return std::realloc(bytes, size);
+    std::size_t& had = static_cast<MemoryFile*>(memory)->size;
+    void* const grown = std::realloc(bytes, size);
+    if (grown != nullptr && size > had)
+        std::memset(static_cast<char*>(grown) + had, 0, size - had);
+    had = grown != nullptr ? size : had;
+    return grown;
 }
 
 herr_t image_free(void* bytes, H5FD_file_image_op_t operation, void* memory)
@@ -65,7 +72,8 @@ Hdf5Handle open_in_memory(const std::string& name, MemoryFile& memory)
     H5FD_file_image_callbacks_t callbacks{image_malloc, image_copy, image_realloc, image_free, same_memory, keep_memory, &memory};
     H5Pset_fapl_core(access.id(), memory_step, false);
     H5Pset_file_image_callbacks(access.id(), &callbacks);
-    H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // checksums of metadata, compact links; readable since HDF5 1.8
+    H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18,
+                         H5F_LIBVER_LATEST);  // checksums of metadata, compact links; readable since HDF5 1.8
     return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose};
 }
 
@@ -79,7 +87,8 @@ Hdf5Handle link_properties()
 Hdf5Handle space_of(const Shape& shape)
 {
     const std::vector<hsize_t> extents(shape.begin(), shape.end());
-    return {shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), extents.data(), nullptr), H5Sclose};
+    return {shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), extents.data(), nullptr),
+            H5Sclose};
 }
 
 /// Chunks of whole rows; none for a dataset without elements, which cannot have any.
@@ -117,25 +126,28 @@ constexpr std::size_t longest_text = 1U << 30U;
 
 struct Hdf5Writer::Handles
 {
-    MemoryFile memory;      // outlives the file, which closes into it
+    MemoryFile memory;  // outlives the file, which closes into it
     Hdf5Handle file;
     Hdf5Handle links;
 
-    void write(const std::filesystem::path& name, const std::string& path, const void* values, std::uint64_t count, std::size_t size,
-               hid_t in_memory, hid_t in_file, const Shape& shape, Packing packing) const
+    void write(const std::filesystem::path& name, const std::string& path, const void* values, std::uint64_t count,
+               std::size_t size, hid_t in_memory, hid_t in_file, const Shape& shape, Packing packing) const
     {
         const Hdf5Handle space = space_of(shape);
         const Hdf5Handle storage = storage_of(shape, count, size, packing);
-        const Hdf5Handle dataset(H5Dcreate2(file.id(), path.c_str(), in_file, space.id(), links.id(), storage.id(), H5P_DEFAULT), H5Dclose);
+        const Hdf5Handle dataset(H5Dcreate2(file.id(), path.c_str(), in_file, space.id(), links.id(), storage.id(), H5P_DEFAULT),
+                                 H5Dclose);
         if (dataset.id() < 0 || (count > 0 && H5Dwrite(dataset.id(), in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail_hdf5(name, path, "written", hdf5_reason());
     }
 
-    void set(const std::filesystem::path& name, const std::string& object, const std::string& attribute, const void* values, hid_t in_memory,
-             hid_t in_file, const Shape& shape) const
+    void set(const std::filesystem::path& name, const std::string& object, const std::string& attribute, const void* values,
+             hid_t in_memory, hid_t in_file, const Shape& shape) const
     {
         const Hdf5Handle space = space_of(shape);
-        const Hdf5Handle id(H5Acreate_by_name(file.id(), object.c_str(), attribute.c_str(), in_file, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        const Hdf5Handle id(H5Acreate_by_name(file.id(), object.c_str(), attribute.c_str(), in_file, space.id(), H5P_DEFAULT,
+                                              H5P_DEFAULT, H5P_DEFAULT),
+                            H5Aclose);
         if (id.id() < 0 || H5Awrite(id.id(), in_memory, values) < 0)
             fail_hdf5(name, object + "@" + attribute, "written", hdf5_reason());
     }
@@ -160,7 +172,8 @@ void Hdf5Writer::make_group(const std::string& path)
         fail_hdf5(name_, path, "made", hdf5_reason());
 }
 
-void Hdf5Writer::write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type, const Shape& shape, Packing packing)
+void Hdf5Writer::write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type,
+                                const Shape& shape, Packing packing)
 {
     std::uint64_t product = 1;
     for (const std::uint64_t extent : shape)
@@ -184,7 +197,8 @@ void Hdf5Writer::write_texts(const std::string& path, const std::vector<std::str
     handles_->write(name_, path, bytes.data(), texts.size(), size, type.id(), type.id(), {texts.size()}, Packing::deflated);
 }
 
-void Hdf5Writer::set_elements(const std::string& object, const std::string& name, const void* values, ElementType type, const Shape& shape)
+void Hdf5Writer::set_elements(const std::string& object, const std::string& name, const void* values, ElementType type,
+                              const Shape& shape)
 {
     handles_->set(name_, object, name, values, native_type(type), stored_type(type), shape);
 }

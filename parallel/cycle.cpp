@@ -158,9 +158,8 @@ void CycleRunner::add_up_contacts(State& state)
 void CycleRunner::change_velocities(const Model& model, State& state, BlockPart& part)
 {
     part.ledger = {};
-    apply_weights(part.range, model, work_.external, state.blocks);
-    sum_loads(part.range, work_.block_contacts, work_.loads, state.blocks.force);    // Eqs. (7), (8)
-    update_velocities(part.range, model, state.damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+    sum_forces(part.range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
+    update_velocities(part.range, model, state.damping, state.blocks, part.ledger);                  // Eqs. (11)-(14), (20)-(22)
 }
 
 void CycleRunner::move(const Model& model, State& state, const Team& team)
@@ -186,7 +185,7 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     if (team.is_first())
         add_up_contacts(state);
     for (Index i = mine.begin; i < mine.end; ++i)
-        partition_.blocks[i].way = update_positions(partition_.blocks[i].range, model, state.blocks, work_.pseudo);
+        partition_.blocks[i].way = update_positions(partition_.blocks[i].range, model, state.blocks, &work_.pseudo);
 }
 
 template <typename Stage>

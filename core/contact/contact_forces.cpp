@@ -24,7 +24,7 @@ struct Group
     const Index* ref;
     const Index* inc;
     BasicEdgeTouch<Pack> touch;
-    JointLanes joint;
+    const JointLanes* joint;
     Pack length;  ///< each point's share of the contact length
     Pack length_inverse, last_length_inverse;
     Pack w_ref, w_inc;
@@ -65,8 +65,8 @@ Mask are_fast(const Group& g, Pack speed_squared, const Model& model, const Bloc
         // Springs that an impulse has emptied have stored nothing.
         const Pack normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
         const Pack shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
-        elastic += elastic_velocity_squared(normal, g.joint.law.normal_stiffness * g.length, mass_n, shear,
-                                            g.joint.law.shear_stiffness * g.length, mass_s);
+        elastic += elastic_velocity_squared(normal, g.joint->law.normal_stiffness * g.length, mass_n, shear,
+                                            g.joint->law.shear_stiffness * g.length, mass_s);
     }
     const Pack u_th = threshold_velocity(Pack(threshold.scale), Pack(threshold.gravity_velocity), elastic);
     return speed_squared > u_th * u_th * margin;
@@ -116,7 +116,8 @@ struct Sums
 };
 
 template <Method method>
-void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l, std::uint8_t* regime, Sums& sums)
+[[gnu::always_inline]] inline void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
+                                                  std::uint8_t* regime, Sums& sums)
 {
     const BasicTouchPoint<Pack>& p = g.touch.point[k];
     const Pack spring_normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
@@ -124,11 +125,11 @@ void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes
     const Pack last_rest = load_lane(l.rest_overlap[k]);
     const Pack rest = method == Method::force ? Pack(0.0)
                                               : rest_overlap(g.was_impulse[k], p.overlap, last_rest, g.last_normal[k],
-                                                             g.joint.normal_compliance * g.length_inverse);
+                                                             g.joint->normal_compliance * g.length_inverse);
     const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
     const Pack curved = Pack(0.5) * dt * turning.t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-    const BasicPointForce<Pack> f = spring_force(g.joint.law, g.length, p.overlap - rest, v_t, dt, g.last_shear[k]);
+    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, p.overlap - rest, v_t, dt, g.last_shear[k]);
     const Mask spring = g.closed[k] & !impulsive;
     const Mask held = g.closed[k] & impulsive;  // the history of an impulse point stays until its impulses of this cycle are known
     const Pack normal = select(spring, f.normal, 0.0);
@@ -140,13 +141,14 @@ void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes
     const Pack u = p.overlap - select(g.was_impulse[k], rest, last_rest);
     // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
     const Pack strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
-    const Pack plastic = -v_t * dt - (shear - spring_shear) * (g.joint.shear_compliance * g.length_inverse);
+    const Pack plastic = -v_t * dt - (shear - spring_shear) * (g.joint->shear_compliance * g.length_inverse);
     const Pack slipped = Pack(0.5) * (spring_shear + shear) * plastic;
     const Mask stays = spring & (spring_normal + abs(spring_shear) > Pack(0.0));
     sums.friction += select(stays, slipped, 0.0);
     sums.changes += select(stays, 0.0, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
                     Pack(0.5) * spring_normal * strayed + Pack(0.5) * (spring_shear - shear) * curved * dt +
-                    Pack(0.5) * spring_shear * spring_shear * (g.last_length_inverse - g.length_inverse) * g.joint.shear_compliance;
+                    Pack(0.5) * spring_shear * spring_shear * (g.last_length_inverse - g.length_inverse) *
+                        g.joint->shear_compliance;
     store_lane(l.overlap[k], p.overlap);
     store_lane(l.rest_overlap[k], select(spring, rest, 0.0));
     store_lane(l.normal_force[k], select(held, g.last_normal[k], normal));
@@ -171,13 +173,13 @@ ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks
     for (Index i = range.begin; i < range.end; i += lanes)
     {
         ContactLanes& l = contacts.lane[i / lanes];
-        Group g{.ref = &contacts.ref[i], .inc = &contacts.inc[i]};
+        const Index* const at_ref = &contacts.ref[i];
+        const Index* const at_inc = &contacts.inc[i];
         const BasicEdgePair<Pack> edges = load_edges(l);
-        const BasicMotion<Pack> ref = load_motions(blocks.motion, g.ref);
-        const BasicMotion<Pack> inc = load_motions(blocks.motion, g.inc);
+        const BasicMotion<Pack> ref = load_motions(blocks.motion, at_ref);
+        const BasicMotion<Pack> inc = load_motions(blocks.motion, at_inc);
         const BasicEdgeView<Pack> view = view_edges(edges, ref, inc);
-        g.touch = touch_edges(edges, view, ref, inc);
-        g.joint = laws.load(&contacts.law[i]);
+        Group g{.ref = at_ref, .inc = at_inc, .touch = touch_edges(edges, view, ref, inc), .joint = &laws.load(&contacts.law[i])};
         const Pack floor = load_lane(l.length_floor);
         g.length = point_length(g.touch.length, floor);
         const Mask::V moved = have_moved(l, view);
@@ -263,28 +265,34 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     }
 }
 
-void sum_loads(IndexRange range, const BlockContacts& list, const ContactLoads& loads, std::vector<BlockForce>& force)
+void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
+                const std::vector<Triple>& external, Blocks& blocks)
 {
+    const Vec2 g = model.gravity;
     for (Index b = range.begin; b < range.end; ++b)
     {
-        BlockForce& f = force[b];
+        const double mass = blocks.present[b] != 0 ? model.mass[b] : 0.0;
+        Pack sum(Pack::V{mass * g.x(), mass * g.y(), 0.0, 0.0});
+        if (!external.empty())
+            sum += Pack(Pack::V{external[b].x, external[b].y, external[b].w, 0.0});
+        BlockForce force;
+        Index most = no_index;
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
         {
             const Index entry = list.entry[e];
-            const BlockLoad& load = loads.load[entry];
+            sum += Pack::load(&loads.load[entry].x);
             const JointUse& use = loads.use[entry / 2];
-            f.x += load.x;
-            f.y += load.y;
-            f.moment += load.moment;
-            f.reserve += static_cast<float>(load.reserve);
-            f.contacts |= use.contacts;
-            if (use.mobilised > f.mobilised)
-            {
-                f.mobilised = use.mobilised;
-                f.t_x = use.t_x;
-                f.t_y = use.t_y;
-            }
+            force.contacts |= use.contacts;
+            most = use.mobilised > force.mobilised ? entry / 2 : most;
+            force.mobilised = std::max(force.mobilised, use.mobilised);
         }
+        sum.store(&force.x);
+        if (most != no_index)
+        {
+            force.t_x = loads.use[most].t_x;
+            force.t_y = loads.use[most].t_y;
+        }
+        blocks.force[b] = force;
     }
 }
 }  // namespace hdem

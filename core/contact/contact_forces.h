@@ -20,7 +20,8 @@ ContactTally evaluate_contacts(IndexRange range, const Model& model, Method meth
 /// List the contacts of each block, in their order.
 void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list);
 
-/// Add the loads of its contacts to each block of `range`, in the order of the contacts.
+/// What acts on each block of `range`: its weight, `external` forces (none: empty), then the loads of its contacts in their order, Eqs. (7), (8).
 /// Reads: loads. Writes: force of these blocks.
-void sum_loads(IndexRange range, const BlockContacts& list, const ContactLoads& loads, std::vector<BlockForce>& force);
+void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
+                const std::vector<Triple>& external, Blocks& blocks);
 }  // namespace hdem

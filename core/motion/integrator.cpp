@@ -1,22 +1,13 @@
 #include "core/motion/integrator.h"
 
 #include "core/detection/edge_touch.h"
+#include "core/motion/block_lanes.h"
 #include "core/motion/damping.h"
 
 #include <utility>
 
 namespace hdem
 {
-void apply_weights(IndexRange range, const Model& model, const std::vector<Triple>& external, Blocks& blocks)
-{
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        const double mass = blocks.present[i] != 0 ? model.mass[i] : 0.0;
-        const Triple more = external.empty() ? Triple{} : external[i];
-        blocks.force[i] = {.x = mass * model.gravity.x() + more.x, .y = mass * model.gravity.y() + more.y, .moment = more.w};
-    }
-}
-
 namespace
 {
 bool acts(const Load& load, std::int64_t cycle)
@@ -92,24 +83,6 @@ struct SpringPower
     double shear = 0.0;
 };
 
-/// One step of a pose.
-inline void step(BlockMotion& motion, double vx, double vy, double w, double dt)
-{
-    motion.x += vx * dt;
-    motion.y += vy * dt;
-    const double turn = w * dt;
-    motion.angle += turn;
-    const double q = 0.5 * turn;
-    const double scale = 1.0 / (1.0 + q * q);
-    const double cos_turn = (1.0 - q * q) * scale;
-    const double sin_turn = 2.0 * q * scale;
-    const double c = motion.c * cos_turn - motion.s * sin_turn;
-    const double s = motion.s * cos_turn + motion.c * sin_turn;
-    const double unit = 1.5 - 0.5 * (c * c + s * s);
-    motion.c = c * unit;
-    motion.s = s * unit;
-}
-
 SpringPower spring_power(IndexRange range, const Contacts& contacts, const Blocks& blocks, const std::vector<Triple>& velocity)
 {
     SpringPower power;
@@ -130,27 +103,67 @@ SpringPower spring_power(IndexRange range, const Contacts& contacts, const Block
     return power;
 }
 
-/// One component of a block's motion over one step.
+/// One component of the motion of four blocks over one step.
 struct Component
 {
-    double force;    ///< net, before damping
-    double damped;   ///< after local damping
-    double inverse;  ///< inverse mass or inertia, 0 where the motion is prescribed
-    double weight;   ///< gravity's share of the force
+    Pack force;    ///< net, before damping
+    Pack damped;   ///< after local damping
+    Pack inverse;  ///< inverse mass or inertia, 0 where the motion is prescribed
+    Pack weight;   ///< gravity's share of the force
+};
+
+/// Works of a range of blocks.
+struct Works
+{
+    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0;
+
+    void add_to(EnergyLedger& ledger) const
+    {
+        ledger.gravity_work += sum(gravity);
+        ledger.load_work -= sum(holding);
+        ledger.local_damping += sum(local);
+        ledger.global_damping += sum(global);
+    }
 };
 
 /// New velocity; books the works of this component.
-inline double advance(double velocity, const Component& c, double global, double dt, EnergyLedger& ledger)
+inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, Pack dt, Works& works)
 {
-    const bool is_free = c.inverse > 0.0;
-    const double kept = is_free ? velocity * (1.0 - global * dt) : velocity;
-    const double next = kept + c.damped * c.inverse * dt;
-    const double way = 0.5 * (velocity + next) * dt;
-    ledger.gravity_work += c.weight * way;
-    ledger.load_work -= is_free ? 0.0 : c.force * way;  // what holds a prescribed motion
-    ledger.local_damping += is_free ? (c.force - c.damped) * way : 0.0;
-    ledger.global_damping += is_free ? global * velocity / c.inverse * way : 0.0;
+    const Pack zero = 0.0;
+    const Mask is_free = c.inverse > zero;
+    const Pack kept = has_global ? select(is_free, velocity * (Pack(1.0) - global * dt), velocity) : velocity;
+    const Pack next = kept + c.damped * c.inverse * dt;
+    const Pack way = Pack(0.5) * (velocity + next) * dt;
+    works.gravity += c.weight * way;
+    works.holding += select(is_free, zero, c.force * way);  // what holds a prescribed motion
+    works.local += select(is_free, (c.force - c.damped) * way, zero);
+    if (has_global)
+        works.global += select(is_free, global * velocity / c.inverse * way, zero);
     return next;
+}
+
+/// Pose of four blocks after one step with the given velocities; columns a to d: x, y, cosine, sine.
+inline void step(Columns& pose, Pack& angle, Pack vx, Pack vy, Pack w, Pack dt)
+{
+    pose.a += vx * dt;
+    pose.b += vy * dt;
+    const Pack turn = w * dt;
+    angle += turn;
+    const Pack one = 1.0;
+    const Pack q = Pack(0.5) * turn;
+    const Pack scale = one / (one + q * q);
+    const Pack cos_turn = (one - q * q) * scale;
+    const Pack sin_turn = Pack(2.0) * q * scale;
+    const Pack c = pose.c * cos_turn - pose.d * sin_turn;
+    const Pack s = pose.d * cos_turn + pose.c * sin_turn;
+    const Pack unit = Pack(1.5) - Pack(0.5) * (c * c + s * s);
+    pose.c = c * unit;
+    pose.d = s * unit;
+}
+
+double greatest(Pack p)
+{
+    return max(max(p.v[0], p.v[1]), max(p.v[2], p.v[3]));
 }
 }  // namespace
 
@@ -216,52 +229,54 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
 
 void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger)
 {
-    const double dt = model.time_step;
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        const BlockForce& force = blocks.force[i];
-        const BlockInertia& inertia = blocks.inertia[i];
-        BlockMotion& motion = blocks.motion[i];
-        const BlockDamping damping = conditional_damping(force, preset, model.damping);
-        const double mass = blocks.present[i] != 0 ? model.mass[i] : 0.0;
-        const Vec2 damped = locally_damped(force, inertia, motion.vx, motion.vy, damping);
-        const double damped_moment = locally_damped(force.moment, motion.w, damping.local_rotation);
-        motion.vx = advance(motion.vx, {force.x, damped.x(), inertia.inverse_mass_x, mass * model.gravity.x()}, damping.global, dt,
-                            ledger);
-        motion.vy = advance(motion.vy, {force.y, damped.y(), inertia.inverse_mass_y, mass * model.gravity.y()}, damping.global, dt,
-                            ledger);
-        motion.w = advance(motion.w, {force.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, dt, ledger);
-    }
+    const Pack dt = model.time_step;
+    const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
+    const bool has_global = model.damping.global_damping_ratio * model.damping.average_frequency != 0.0;
+    Works works;
+    for_groups(
+        range,
+        [&](Index i, Index count)
+        {
+            const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
+            const BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
+            Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
+            const Pack mass = load_some(&model.mass[i], count);
+            const BasicBlockDamping<Pack> damping = conditional_damping(acting, preset, model.damping);
+            const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, damping);
+            const Pack damped_moment = locally_damped(acting.moment, v.c, damping.local_rotation);
+            v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, dt, works);
+            v.b = advance(v.b, {acting.y, damped.y, inertia.inverse_mass_y, mass * g_y}, damping.global, has_global, dt, works);
+            v.c = advance(v.c, {acting.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, has_global, dt, works);
+            v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
+        });
+    works.add_to(ledger);
 }
 
-double update_positions(IndexRange range, const Model& model, Blocks& blocks)
+double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo)
 {
-    double fastest = 0.0, rim = 0.0;
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        BlockMotion& motion = blocks.motion[i];
-        fastest = max(fastest, motion.vx * motion.vx + motion.vy * motion.vy);
-        rim = max(rim, std::abs(motion.w) * model.radius[i]);
-        step(motion, motion.vx, motion.vy, motion.w, model.time_step);
-    }
-    return (std::sqrt(fastest) + rim) * model.time_step;
-}
-
-double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>& pseudo)
-{
-    double fastest = 0.0, rim = 0.0;
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        BlockMotion& motion = blocks.motion[i];
-        const double vx = motion.vx + pseudo[i].x;
-        const double vy = motion.vy + pseudo[i].y;
-        const double w = motion.w + pseudo[i].w;
-        fastest = max(fastest, vx * vx + vy * vy);
-        rim = max(rim, std::abs(w) * model.radius[i]);
-        step(motion, vx, vy, w, model.time_step);
-        pseudo[i] = {};
-    }
-    return (std::sqrt(fastest) + rim) * model.time_step;
+    const Pack dt = model.time_step;
+    Pack fastest = 0.0, rim = 0.0;
+    for_groups(range,
+               [&](Index i, Index count)
+               {
+                   Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
+                   Columns pose(&blocks.motion[i].x, row_stride<BlockMotion>, count);
+                   Pack vx = v.a, vy = v.b, w = v.c;
+                   for (Index k = 0; pseudo != nullptr && k < count; ++k)
+                   {
+                       Triple& p = (*pseudo)[i + k];
+                       vx.v[k] += p.x;
+                       vy.v[k] += p.y;
+                       w.v[k] += p.w;
+                       p = {};
+                   }
+                   fastest = max(fastest, vx * vx + vy * vy);
+                   rim = max(rim, abs(w) * load_some(&model.radius[i], count));
+                   step(pose, v.d, vx, vy, w, dt);
+                   pose.store(&blocks.motion[i].x, row_stride<BlockMotion>, count);
+                   v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
+               });
+    return (std::sqrt(greatest(fastest)) + greatest(rim)) * model.time_step;
 }
 
 void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,

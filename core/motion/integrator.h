@@ -7,9 +7,6 @@
 
 namespace hdem
 {
-/// Start the cycle's sum of forces of the blocks in `range` with their weights and `external` forces (none: empty).
-void apply_weights(IndexRange range, const Model& model, const std::vector<Triple>& external, Blocks& blocks);
-
 /// Forces of the case's loads that act in this cycle, in `external`, one entry a block. `before` receives the velocities of the loaded blocks, load
 /// by load, for add_load_work.
 void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
@@ -35,10 +32,9 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
 /// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.
 /// @return bound on how far any point of these blocks has moved [m]
-double update_positions(IndexRange range, const Model& model, Blocks& blocks);
-
-/// The same with the pseudo velocities of the position correction added; they are used up.
-double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>& pseudo);
+///
+/// `pseudo`: velocities of the position correction to be added, one entry a block; used up. Or none.
+double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo = nullptr);
 
 /// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of
 /// contacts (shear springs follow velocities, and do not notice it).

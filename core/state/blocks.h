@@ -33,17 +33,16 @@ enum ContactBits : std::uint32_t
 };
 
 /// Sum of what acts on a block in this cycle.
-struct BlockForce
+struct alignas(64) BlockForce
 {
     double x = 0.0;  ///< [N]
     double y = 0.0;
-    double moment = 0.0;         ///< about the centroid [N m]
-    std::uint32_t contacts = 0;  ///< ContactBits
-    float mobilised =
-        -1.0F;         ///< greatest share of a joint's shear strength in use at its force points, 0 to 1; -1: no force point [-]
-    float t_x = 1.0F;  ///< direction of that joint [-]
+    double moment = 0.0;      ///< about the centroid [N m]
+    double reserve = 0.0;     ///< shear strength not in use at all its force points [N]
+    float mobilised = -1.0F;  ///< greatest share of a joint's shear strength in use at its force points; -1: no force point [-]
+    float t_x = 1.0F;         ///< direction of that joint [-]
     float t_y = 0.0F;
-    float reserve = 0.0F;  ///< shear strength not in use at all its force points [N]
+    std::uint32_t contacts = 0;  ///< ContactBits
 };
 
 /// Inverse mass and inertia, zero where the motion is prescribed.

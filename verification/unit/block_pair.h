@@ -118,14 +118,14 @@ struct BlockPair
     /// Contact forces at the present poses, without weights; forces on each block are in state.blocks.force.
     void evaluate(Method method = Method::force)
     {
-        for (BlockForce& force : state.blocks.force)
-            force = {};
         const IndexRange all{0, state.contacts.size()};
         loads.resize(state.contacts.stale.size());
         evaluate_contacts(all, model, method, state.blocks, state.contacts, loads);
         BlockContacts list;
         list_block_contacts(state.contacts, state.blocks.size(), list);
-        sum_loads({0, state.blocks.size()}, list, loads, state.blocks.force);
+        Model weightless = model;
+        weightless.gravity = {0.0, 0.0};
+        sum_forces({0, state.blocks.size()}, weightless, list, loads, {}, state.blocks);
     }
 
     [[nodiscard]] Vec2 force(Index block) const { return {state.blocks.force[block].x, state.blocks.force[block].y}; }

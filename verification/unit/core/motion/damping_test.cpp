@@ -20,24 +20,27 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
     };
     const auto paper = DampingPreset::paper, dynamic = DampingPreset::dynamic, automatic = DampingPreset::automatic;
     for (const Row& row : std::initializer_list<Row>{
-             {0, 0.0F, paper, 0.0, 0.0},
-             {0, 0.0F, automatic, 0.0, 0.0},
-             {contact_force, 0.0F, paper, 0.8, 0.0},
-             {contact_force, 0.0F, automatic, 0.8, 0.0},
+             {0, 0.0, paper, 0.0, 0.0},
+             {0, 0.0, automatic, 0.0, 0.0},
+             {contact_force, 0.0, paper, 0.8, 0.0},
+             {contact_force, 0.0, automatic, 0.8, 0.0},
              {contact_force, 0.25F, automatic, 0.8, 0.0},
              {contact_force, 0.25F, paper, 0.8, 0.0},
-             {contact_force, 0.0F, dynamic, 0.0, 0.0},
+             {contact_force, 0.0, dynamic, 0.0, 0.0},
              {contact_force, 1.0F, paper, 0.8, 0.0},
              {contact_force, 1.0F, automatic, 0.8, 0.0},
              {contact_force, 1.0F, dynamic, 0.0, 0.0},
-             {contact_impulse, 0.0F, paper, 0.0, 10.0},
-             {contact_impulse, 0.0F, automatic, 0.0, 10.0},
-             {contact_impulse, 0.0F, dynamic, 0.0, 10.0},
+             {contact_impulse, 0.0, paper, 0.0, 10.0},
+             {contact_impulse, 0.0, automatic, 0.0, 10.0},
+             {contact_impulse, 0.0, dynamic, 0.0, 10.0},
              {contact_impulse | contact_force, 0.5F, paper, 0.0, 10.0},
              {contact_impulse | contact_force, 1.0F, automatic, 0.0, 10.0},
          })
     {
-        const BlockDamping damping = conditional_damping({.contacts = row.contacts, .mobilised = row.mobilised}, row.preset, def);
+        const BlockDamping damping = conditional_damping(Acting{.mobilised = row.mobilised,
+                                                                .springs = (row.contacts & contact_force) != 0,
+                                                                .impulses = (row.contacts & contact_impulse) != 0},
+                                                         row.preset, def);
         EXPECT_DOUBLE_EQ(damping.local, row.local) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
         EXPECT_DOUBLE_EQ(damping.global, row.global) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
     }
@@ -46,11 +49,10 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
 TEST(ConditionalDamping, LeavesTurningAloneAsAJointIsMobilised)
 {
     const DampingDef def{.local = 0.8};
-    EXPECT_NEAR(conditional_damping({.contacts = contact_force, .mobilised = 0.25F}, DampingPreset::automatic, def).local_rotation,
-                0.6, 1e-15);
-    EXPECT_EQ(conditional_damping({.contacts = contact_force, .mobilised = 1.0F}, DampingPreset::automatic, def).local_rotation,
-              0.0);
-    EXPECT_EQ(conditional_damping({.contacts = contact_force, .mobilised = 1.0F}, DampingPreset::paper, def).local_rotation, 0.8);
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.6,
+                1e-15);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::paper, def).local_rotation, 0.8);
 }
 
 /// A block that slides along (0.6, 0.8) at the limit moves freely along the joint, and is damped across it.
@@ -58,29 +60,27 @@ TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
 {
     const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
     const BlockDamping damping{.local = 0.8, .along_joint = true};
-    const float t_x = 0.6F, t_y = 0.8F;
-    const auto damped = [&](float reserve)
+    const double t_x = 0.6, t_y = 0.8;
+    const auto damped = [&](double reserve)
     {
-        const BlockForce force{
-            .x = 10.0 * t_x - 5.0 * t_y, .y = 10.0 * t_y + 5.0 * t_x, .t_x = t_x, .t_y = t_y, .reserve = reserve};
-        const Vec2 f = locally_damped(force, inertia, 2.0 * t_x - 1.0 * t_y, 2.0 * t_y + 1.0 * t_x,
-                                      damping);  // 2 m/s along, 1 m/s across
-        return Vec2(t_x * f.x() + t_y * f.y(), t_x * f.y() - t_y * f.x());
+        const Acting force{.x = 10.0 * t_x - 5.0 * t_y, .y = 10.0 * t_y + 5.0 * t_x, .reserve = reserve, .t_x = t_x, .t_y = t_y};
+        // 2 m/s along, 1 m/s across
+        const DampedForce<double> f = damp_translation(force, inertia, 2.0 * t_x - 1.0 * t_y, 2.0 * t_y + 1.0 * t_x, damping);
+        return Vec2(t_x * f.x + t_y * f.y, t_x * f.y - t_y * f.x);
     };
-    const double single = 1e-6;  // the joint's direction is kept in single precision
-    EXPECT_NEAR(damped(0.0F).x(), 10.0, single);
-    EXPECT_NEAR(damped(3.0F).x(), 7.0, single);
-    EXPECT_NEAR(damped(100.0F).x(), 2.0, single);
-    for (const float reserve : {0.0F, 3.0F, 100.0F})
-        EXPECT_NEAR(damped(reserve).y(), 1.0, single);
+    EXPECT_NEAR(damped(0.0).x(), 10.0, 1e-12);
+    EXPECT_NEAR(damped(3.0).x(), 7.0, 1e-12);
+    EXPECT_NEAR(damped(100.0).x(), 2.0, 1e-12);
+    for (const double reserve : {0.0, 3.0, 100.0})
+        EXPECT_NEAR(damped(reserve).y(), 1.0, 1e-12);
 }
 
 /// What can move along one axis only is damped along it.
 TEST(LocalDamping, LeavesAFixedComponentAlone)
 {
     const BlockInertia inertia{.inverse_mass_y = 1.0};
-    const BlockForce force{.x = 7.0, .y = 10.0, .t_x = 0.6F, .t_y = 0.8F, .reserve = 3.0F};
-    EXPECT_DOUBLE_EQ(locally_damped(force, inertia, 0.0, 1.0, {.local = 0.8, .along_joint = true}).y(), 7.0);
+    const Acting force{.x = 7.0, .y = 10.0, .reserve = 3.0, .t_x = 0.6, .t_y = 0.8};
+    EXPECT_DOUBLE_EQ(damp_translation(force, inertia, 0.0, 1.0, {.local = 0.8, .along_joint = true}).y, 7.0);
 }
 
 RC_GTEST_PROP(LocalDamping, TakesPowerAndLeavesABlockAtRestAlone, (int f, int v))
