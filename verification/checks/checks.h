@@ -32,6 +32,7 @@ std::vector<Check> sliding_checks();
 std::vector<Check> column_checks();
 std::vector<Check> wall_checks();
 std::vector<Check> stability_checks();
+std::vector<Check> cyclic_shear_checks();
 std::vector<Check> order_checks();
 std::vector<Check> ledger_checks();
 
