@@ -141,10 +141,12 @@ void close(Log& log, const RunSummary& s, const fs::path& folder)
                          1e3 * s.mean_displacement_all, 1e3 * s.max_displacement_all));
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ", fmt::join(s.detached_blocks, ", ")));
     const EnergyLedger& e = s.energy;
-    log.line(fmt::format("energy [J]: gravity {:.4g}, loads {:.4g} -> friction {:.4g}, local damping {:.4g}, global damping {:.4g}, impulses {:.4g}, "
-                         "contact changes {:.4g}, removed {:.4g}, stored {:.4g}; residual {:.2g} ({:.1e} of the largest)",
-                         e.gravity_work, e.load_work, e.friction, e.local_damping, e.global_damping, e.impulse_loss, e.contact_changes, e.removed,
-                         s.stored.total(), residual(e, s.stored), relative_residual(e, s.stored)));
+    log.line(fmt::format("energy [J]: at the start {:.4g}, gravity {:.4g}, loads {:.4g}, position correction {:.4g} -> friction {:.4g}, "
+                         "local damping {:.4g}, global damping {:.4g}, impulses {:.4g}, contact changes {:.4g}, removed {:.4g}, stored {:.4g}; "
+                         "residual {:.2g} ({:.1e} of the largest)",
+                         e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
+                         e.impulse_loss, e.contact_changes, e.removed, s.stored.total(), residual(e, s.stored),
+                         relative_residual(e, s.stored)));
     log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s", duration_text(s.wall_seconds),
                          static_cast<double>(s.cycles) / std::max(s.wall_seconds, 1e-9), 1e-6 * s.contact_point_updates_per_second));
     log.line(fmt::format("state hash {:016x}", s.state_hash));

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""What `hdem run` says of the energy at its end: on the screen, in run.log and in summary.json.
+
+    run_test.py HDEM    the program
+"""
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HDEM = Path(sys.argv[1]).resolve()
+
+# A block slides to rest and is pushed, another falls on the ground, a third is removed: no term of the ledger but global damping stays zero.
+CASE = """
+title = "Energy of a small run"
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_angle_deg = 30.0
+[time]
+step = 1e-4
+[contact]
+threshold_scale = 1
+[[block]]
+name = "ground"
+polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]
+fixed = true
+[[block]]
+name = "sledge"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+velocity = [1, 0]
+[[block]]
+name = "ball"
+polygon = [[4, 0.1], [5, 0.1], [5, 1.1], [4, 1.1]]
+[[block]]
+name = "prop"
+polygon = [[6, 0], [7, 0], [7, 1], [6, 1]]
+[[load]]
+blocks = ["sledge"]
+acceleration = [1, 0]
+until_cycle = 1000
+[[stage]]
+cycles = 2500
+[[stage]]
+excavate = ["prop"]
+cycles = 2500
+"""
+
+# As run.log names a term: as summary.json does, and its sign in the balance.
+TERMS = {"at the start": ("initial", 1), "gravity": ("gravity_work", 1), "loads": ("load_work", 1), "position correction": ("position_correction", 1),
+         "friction": ("friction", -1), "local damping": ("local_damping", -1), "global damping": ("global_damping", -1),
+         "impulses": ("impulse_loss", -1), "contact changes": ("contact_changes", -1), "removed": ("removed", -1)}
+NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
+
+
+class EnergyAtTheEnd(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "small.toml").write_text(CASE, encoding="utf-8")
+            done = subprocess.run([HDEM, "run", "small.toml", "-o", "out"], cwd=folder, check=True, capture_output=True, text=True)
+            cls.screen = done.stdout
+            cls.log = (Path(folder) / "out/run.log").read_text(encoding="utf-8")
+            cls.energy = json.loads((Path(folder) / "out/summary.json").read_text(encoding="utf-8"))["energy"]
+
+    def line(self, text):
+        lines = [line for line in text.splitlines() if line.startswith("energy [J]:")]
+        self.assertEqual(len(lines), 1, text)
+        return lines[0]
+
+    def value(self, name):
+        found = re.search(rf"[:,>;] {name} {NUMBER}", self.line(self.log))
+        self.assertIsNotNone(found, f"{name}: not in \"{self.line(self.log)}\"")
+        return float(found.group(1))
+
+    def stored(self):
+        return sum(self.energy[name] for name in ("kinetic", "elastic_normal", "elastic_shear"))
+
+    def test_screen_and_log_say_the_same(self):
+        self.assertEqual(self.line(self.screen), self.line(self.log))
+
+    def test_every_term_is_there(self):
+        for name, (key, _) in TERMS.items():
+            self.assertAlmostEqual(self.value(name), self.energy[key], delta=1e-3 * abs(self.energy[key]), msg=name)
+            if key != "global_damping":
+                self.assertNotEqual(self.energy[key], 0.0, f"{key}: the case should use it")
+        self.assertAlmostEqual(self.value("stored"), self.stored(), delta=1e-3 * self.stored())
+
+    def test_terms_add_up_to_the_residual(self):
+        balance = sum(sign * self.energy[key] for key, sign in TERMS.values()) - self.stored()
+        self.assertAlmostEqual(balance, self.energy["residual"], delta=1e-9 * self.energy["gravity_work"])
+        self.assertAlmostEqual(self.value("residual"), self.energy["residual"], delta=0.06 * abs(self.energy["residual"]))
+        self.assertLess(abs(self.energy["relative_residual"]), 1e-4)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
