@@ -27,6 +27,17 @@ TEST(JointTable, GivesTheJointSetsLawBeforeTheMaterials)
     EXPECT_EQ(joints.find(edge_outline, 1, 0, 0), 1);
 }
 
+/// Which block's edge is the reference is chance: the law must not depend on it.
+TEST(JointTable, GivesTheFirstOfTwoSetsLawsInEitherOrder)
+{
+    JointTable joints = table();
+    joints.of_joint_set = {no_index, 1, 2};
+    EXPECT_EQ(joints.find(1, 2, 0, 0), 1);
+    EXPECT_EQ(joints.find(2, 1, 0, 0), 1);
+    EXPECT_EQ(joints.find(0, 2, 0, 0), 2) << "a set without a law of its own";
+    EXPECT_EQ(joints.find(2, 0, 0, 0), 2);
+}
+
 TEST(JointTable, GivesTheMaterialPairsLawInEitherOrder)
 {
     const JointTable joints = table();

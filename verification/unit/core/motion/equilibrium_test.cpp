@@ -2,6 +2,8 @@
 #include "parallel/stages.h"
 #include "verification/unit/case_run.h"
 
+#include <cmath>
+
 namespace hdem
 {
 namespace
@@ -19,6 +21,24 @@ TEST(KineticEnergy, CountsTranslationAndRotationOfFreeBlocks)
     EXPECT_NEAR(sums.free_mass, 5400.0, 1e-9);
     EXPECT_NEAR(sums.greatest_speed, 5.0, 1e-15);
     EXPECT_NEAR(sums.kinetic_energy_at(5e-4), 0.5 * 5400.0 * 25e-8, 1e-15);
+}
+
+/// Weight and loads of a block add up before their size is taken; a load counts as long as it acts.
+TEST(AppliedForce, IsWeightAndLoadsOfFreeBlocks)
+{
+    CaseDef scene = scenes::stack(2);
+    LoadDef load{.blocks = {"block1"}, .acceleration = {3.0, 0.0}, .force = {0.0, 487.0}};  // against 26487 N of weight
+    load.interval.from_cycle = 1;
+    load.interval.until_cycle = 3;
+    scene.loads.push_back(load);
+    CaseRun run(scene);
+    const double weight = 2700.0 * 9.81;
+    const double loaded = std::hypot(3.0 * 2700.0, weight - 487.0);
+    for (const double expected : {2.0 * weight, weight + loaded, weight + loaded, 2.0 * weight})
+    {
+        run.advance(1);
+        EXPECT_NEAR(run.simulation.equilibrium().applied_force, expected, 1e-9) << "cycle " << run.state().cycle;
+    }
 }
 
 TEST(UnbalancedForceRatio, IsOneInFreeFallAndNothingAtRest)
