@@ -145,7 +145,7 @@ SectionSpec contact_section()
 {
     KeySpec scale = spec({.name = "threshold_scale",
                           .effect = "C_scale of Eq. (25): a contact faster than C_scale × (gravity's and the springs' velocity) is "
-                                    "impulse-based. `\"model\"`: Eq. (28), model area / block area.",
+                                    "impulse-based. `\"model\"`: Eq. (28), area of the smallest rectangle around the model / mean block area.",
                           .range = positive,
                           .choices = {"model"}},
                          ValueType::number_or_text);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace hdem
 {
@@ -75,10 +76,12 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.inc_m = at.inc_m;
     const BlockInertia& ref = blocks.inertia[p.ref];
     const BlockInertia& inc = blocks.inertia[p.inc];
-    // A pair of which neither can move along an axis gets no impulse along it.
-    const auto mass = [](double inverse) { return inverse > 0.0 ? 1.0 / inverse : 0.0; };
-    p.mass_normal = mass(inverse_collision_mass(ref, at.ref_t, inc, at.inc_t, -touch.ey, touch.ex));
-    p.mass_shear = mass(inverse_collision_mass(ref, at.ref_m, inc, at.inc_m, touch.ex, touch.ey));
+    // Where neither block can be moved along an axis, no impulse can bring it to rest. Across the joint there is none then; along it friction
+    // resists with all that it has.
+    const auto mass = [](double inverse, double unmovable) { return inverse > 0.0 ? 1.0 / inverse : unmovable; };
+    p.mass_normal = mass(inverse_collision_mass(ref, at.ref_t, inc, at.inc_t, -touch.ey, touch.ex), 0.0);
+    p.mass_shear = mass(inverse_collision_mass(ref, at.ref_m, inc, at.inc_m, touch.ex, touch.ey),
+                        std::numeric_limits<double>::max());
     p.target = -joint.restitution * std::max(at.v_m, 0.0);
     p.friction = joint.friction_coefficient;
     p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * model.time_step;

@@ -1,6 +1,7 @@
 #include "core/rock/build_model.h"
 
 #include "core/geometry/polygon.h"
+#include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
 #include "core/motion/time_step.h"
 #include "core/rock/resolve_names.h"
@@ -41,6 +42,22 @@ Box bounding_box_of(const std::vector<RockBlock>& blocks)
             box = {box.low.cwiseMin(b.low), box.high.cwiseMax(b.high)};
         }
     return box;
+}
+
+/// Eq. (28): model area over the area of a block, here the mean one. The model's width and height are those of the smallest
+/// rectangle around it: along the axes of x and y a turned model would have another threshold.
+double size_ratio(const std::vector<RockBlock>& blocks, const Model& model)
+{
+    SmallestRectangle around;
+    for (const RockBlock& block : blocks)
+        for (const ConvexPart& part : block.parts)
+        {
+            std::vector<Vec2> points = part.vertices;
+            for (Vec2& point : points)
+                point -= model.origin;
+            around.add(points);
+        }
+    return around.area() / (model.mean_size * model.mean_size);
 }
 
 /// Users' numbers of the blocks in their order along the curve.
@@ -237,9 +254,7 @@ Setup build_model(const CaseDef& def)
     const double smallest = smallest_free_mass(model, setup.state.blocks);
     model.paper_time_step = paper_time_step(smallest, greatest_stiffness(model.joints), def.time.fraction);
     model.time_step = def.time.step.value_or(model.paper_time_step);
-    const Vec2 extent = box.high - box.low;
-    // Eq. (28): model area over the area of a block, here the mean one.
-    model.threshold_scale = def.contact.threshold_scale.value_or(extent.x() * extent.y() / (model.mean_size * model.mean_size));
+    model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock.blocks, model);
 
     std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);
     if (!std::isfinite(smallest))
