@@ -115,47 +115,60 @@ struct Sums
     Pack friction = 0.0, changes = 0.0;
 };
 
-template <Method method>
+/// Do impulses play a part at four contacts, in this cycle or the last?
+enum class Impulses
+{
+    none,  ///< springs only, none with a rest overlap: so rests most rock under the hybrid method, at the price of the force method
+    maybe
+};
+
+template <Impulses impulses>
 [[gnu::always_inline]] inline void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
                                                   std::uint8_t* regime, Sums& sums)
 {
+    constexpr bool none = impulses == Impulses::none;
+    const Pack zero = 0.0;
     const BasicTouchPoint<Pack>& p = g.touch.point[k];
-    const Pack spring_normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
-    const Pack spring_shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
-    const Pack last_rest = load_lane(l.rest_overlap[k]);
-    const Pack rest = method == Method::force ? Pack(0.0)
-                                              : rest_overlap(g.was_impulse[k], p.overlap, last_rest, g.last_normal[k],
-                                                             g.joint->normal_compliance * g.length_inverse);
+    const Pack spring_normal = none ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
+    const Pack spring_shear = none ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
+    const Pack last_rest = none ? zero : load_lane(l.rest_overlap[k]);
+    const Pack rest = none ? zero
+                           : rest_overlap(g.was_impulse[k], p.overlap, last_rest, g.last_normal[k],
+                                          g.joint->normal_compliance * g.length_inverse);
     const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
     const Pack curved = Pack(0.5) * dt * turning.t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, p.overlap - rest, v_t, dt, g.last_shear[k]);
-    const Mask spring = g.closed[k] & !impulsive;
-    const Mask held = g.closed[k] & impulsive;  // the history of an impulse point stays until its impulses of this cycle are known
-    const Pack normal = select(spring, f.normal, 0.0);
-    const Pack shear = select(spring, f.shear, 0.0);
-    const Mask slips = spring & !(f.excess == Pack(0.0));
-    store_bytes((spring.v & 1) + (slips.v & 1) + (held.v & 3), regime);
+    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt,
+                                                 g.last_shear[k]);
+    const Mask spring = none ? g.closed[k] : g.closed[k] & !impulsive;
+    const Pack normal = select(spring, f.normal, zero);
+    const Pack shear = select(spring, f.shear, zero);
+    const Mask slips = spring & !(f.excess == zero);
+    // The history of an impulse point stays until its impulses of this cycle are known.
+    const Mask held = g.closed[k] & impulsive;
+    store_bytes((spring.v & 1) + (slips.v & 1) + (none ? Mask::V{} : held.v & 3), regime);
 
     // Energies of this step; u is the stretch of the normal spring.
-    const Pack u = p.overlap - select(g.was_impulse[k], rest, last_rest);
+    const Pack u = none ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
     // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
     const Pack strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
     const Pack plastic = -v_t * dt - (shear - spring_shear) * (g.joint->shear_compliance * g.length_inverse);
     const Pack slipped = Pack(0.5) * (spring_shear + shear) * plastic;
-    const Mask stays = spring & (spring_normal + abs(spring_shear) > Pack(0.0));
-    sums.friction += select(stays, slipped, 0.0);
-    sums.changes += select(stays, 0.0, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
+    const Mask stays = spring & (spring_normal + abs(spring_shear) > zero);
+    sums.friction += select(stays, slipped, zero);
+    sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
                     Pack(0.5) * spring_normal * strayed + Pack(0.5) * (spring_shear - shear) * curved * dt +
                     Pack(0.5) * spring_shear * spring_shear * (g.last_length_inverse - g.length_inverse) *
                         g.joint->shear_compliance;
     store_lane(l.overlap[k], p.overlap);
-    store_lane(l.rest_overlap[k], select(spring, rest, 0.0));
-    store_lane(l.normal_force[k], select(held, g.last_normal[k], normal));
-    store_lane(l.shear_force[k], select(held, g.last_shear[k], shear));
+    if constexpr (!none)
+        if (!none)
+            store_lane(l.rest_overlap[k], select(spring, rest, zero));
+    store_lane(l.normal_force[k], none ? normal : select(held, g.last_normal[k], normal));
+    store_lane(l.shear_force[k], none ? shear : select(held, g.last_shear[k], shear));
 
     sums.used += abs(shear);
-    sums.strength += select(spring, f.strength, 0.0);
+    sums.strength += select(spring, f.strength, zero);
     sums.f_t += shear;
     sums.f_m -= normal;
     sums.moment_inc -= p.inc_t * normal + p.inc_m * shear;
@@ -203,8 +216,14 @@ ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks
         g.w_ref = ref.w;
         g.w_inc = inc.w;
         Sums sums;
-        for (int k = 0; k < 2; ++k)
-            evaluate_point<method>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+        const Mask past = g.was_impulse[0] | g.was_impulse[1] |
+                          load_lane(l.rest_overlap[0]) + load_lane(l.rest_overlap[1]) > Pack(0.0);
+        if (!any(past | impulsive))
+            for (int k = 0; k < 2; ++k)
+                evaluate_point<Impulses::none>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+        else
+            for (int k = 0; k < 2; ++k)
+                evaluate_point<Impulses::maybe>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
         store_lane(l.last_length, g.length);
         friction += sums.friction;
         changes += sums.changes;
