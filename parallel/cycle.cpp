@@ -9,27 +9,6 @@
 
 namespace hdem
 {
-void rebuild_contacts(const Model& model, State& state, BroadPhase& broad)
-{
-    const IndexRange parts{0, model.shapes.parts()};
-    broad.boxes.resize(static_cast<std::size_t>(parts.end));
-    compute_boxes(parts, model, state.blocks, broad.boxes);
-    broad.cells.build(broad.boxes);
-    broad.pairs.clear();
-    broad.cells.find_pairs(parts, broad.pairs);
-    std::sort(broad.pairs.begin(), broad.pairs.end());
-    broad.tracked.clear();
-    track_contacts({0, static_cast<Index>(broad.pairs.size())}, broad.pairs, model, state.blocks, state.contacts, broad.tracked,
-                   state.ledger);
-    const auto n = static_cast<Index>(broad.tracked.size());
-    state.contacts.resize(n);
-    for (Index i = 0; i < n; ++i)
-        state.contacts.put(i, broad.tracked[i]);
-    state.rebuilt_at = state.blocks.motion;
-    state.contacts_outdated = false;
-    ++state.broad_phase_runs;
-}
-
 namespace
 {
 /// Below this many contacts a team loses more by waiting than it gains.
@@ -38,10 +17,15 @@ constexpr Index least_contacts_a_thread = 256;
 constexpr Index impulses_worth_sharing = 2000;
 }  // namespace
 
-void CycleRunner::renew_contacts(const Model& model, State& state)
+void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
 {
-    rebuild_contacts(model, state, broad_);
-    prepare(model, state);
+    with_team(threads, [&](const Team& team) { renew_contacts(model, state, team); });
+}
+
+void CycleRunner::renew_contacts(const Model& model, State& state, const Team& team)
+{
+    rebuild_.run(model, state, team);
+    team.alone([&] { prepare(model, state); });
 }
 
 void CycleRunner::prepare(const Model& model, const State& state)
@@ -62,7 +46,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
 void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
     if (state.contacts_outdated)
-        renew_contacts(model, state);
+        renew_contacts(model, state, threads);
     else if (!prepared_ || prepared_for_ != state.method)
         prepare(model, state);
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
@@ -82,16 +66,13 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
     const double allowed = 0.5 * skin_width(model);
     if (!(way <= allowed))
     {
-        team.alone(
-            [&]
-            {
-                moved_ = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
-                if (moved_ <= allowed)
-                    return;
-                renew_contacts(model, state);
-                moved_ = 0.0;
-            });
+        team.alone([&] { moved_ = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
         way = moved_;
+        if (!(way <= allowed))
+        {
+            renew_contacts(model, state, team);
+            way = 0.0;
+        }
     }
     if (!model.loads.empty())
         team.alone(

@@ -1,27 +1,15 @@
 #pragma once
 /// The stages of a cycle in their order, and which thread does what.
 
-#include "core/detection/cell_list.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
+#include "parallel/contact_rebuild.h"
 #include "parallel/openmp.h"
 #include "parallel/partition.h"
 
 namespace hdem
 {
-/// Scratch of the broad phase.
-struct BroadPhase
-{
-    CellList cells;
-    std::vector<Box> boxes;
-    std::vector<std::uint64_t> pairs;
-    std::vector<Contact> tracked;
-};
-
-/// Find all contacts anew; those that stay keep their history.
-void rebuild_contacts(const Model& model, State& state, BroadPhase& broad);
-
 /// Runs cycles; keeps what they need between them and nothing that would change a result.
 class CycleRunner
 {
@@ -30,12 +18,13 @@ class CycleRunner
     void run(const Model& model, State& state, std::int64_t cycles, int threads);
 
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
-    void renew_contacts(const Model& model, State& state);
+    void renew_contacts(const Model& model, State& state, int threads);
 
     /// Closed contact points summed over all cycles.
     [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
 
   private:
+    void renew_contacts(const Model& model, State& state, const Team& team);
     void cycle(const Model& model, State& state, const Team& team, double& way);
     void prepare(const Model& model, const State& state);
     void evaluate(const Model& model, State& state, const Team& team);
@@ -48,7 +37,7 @@ class CycleRunner
     void for_colours(const Team& team, bool together, const Stage& stage);
 
     Workspace work_;
-    BroadPhase broad_;
+    ContactRebuild rebuild_;
     Partition partition_;
     double moved_ = 0.0;  ///< since contacts were found [m]
     std::int64_t contact_point_updates_ = 0;

@@ -39,7 +39,7 @@ Simulation::Simulation(Model model, State state, int threads)
       threads_(threads)
 {
     if (state_.contacts_outdated)
-        runner_.renew_contacts(model_, state_);
+        runner_.renew_contacts(model_, state_, threads_);
     if (state_.cycle == 0)
         state_.ledger.initial = stored_energy(model_, state_).total();
 }
@@ -118,7 +118,7 @@ void Simulation::begin_stage(Index stage)
     if (!def.fix.empty() || !def.free.empty())
         state_.contacts_outdated = true;
     if (state_.contacts_outdated)
-        runner_.renew_contacts(model_, state_);
+        runner_.renew_contacts(model_, state_, threads_);
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);

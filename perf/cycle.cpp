@@ -13,6 +13,8 @@ namespace
 {
 void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks, Method method, int threads)
 {
+    static_cast<void>(settled_run(scene, blocks, method, threads));  // generated before memory is looked at
+    const std::int64_t resident = resident_bytes();
     Simulation run = settled_run(scene, blocks, method, threads);
     const auto cycles = std::max<std::int64_t>(5, 4'000'000 / blocks);
     run.advance(cycles / 5 + 1);
@@ -29,6 +31,8 @@ void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks,
                                                                 benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     bench.counters["contact_points"] = static_cast<double>(run.count_contacts().closed());
     bench.counters["blocks"] = static_cast<double>(run.model().blocks());
+    if (blocks >= 100'000)  // below, freed memory is used again, and pages are too coarse a measure
+        bench.counters["bytes_per_block"] = static_cast<double>(resident_bytes() - resident) / run.model().blocks();
     bench.counters["broad_phases"] = static_cast<double>(run.state().broad_phase_runs);
     bench.counters["feature_searches"] = static_cast<double>(run.state().feature_searches);
     // A counter is a double: 53 bits of the hash, which all runs of a name must share.

@@ -2,6 +2,7 @@
 
 #include "core/rock/build_model.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -97,6 +98,7 @@ Simulation settled_run(const std::string& scene, Index blocks, Method method, in
 
 std::int64_t resident_bytes()
 {
+    malloc_trim(0);
     std::ifstream statm("/proc/self/statm");
     std::int64_t total = 0, resident = 0;
     statm >> total >> resident;

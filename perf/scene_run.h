@@ -16,6 +16,6 @@ namespace hdem::perf
 /// interleaved repetitions on other thread counts do not generate it again.
 [[nodiscard]] Simulation settled_run(const std::string& scene, Index blocks, Method method, int threads);
 
-/// Bytes this process has in memory now.
+/// Bytes this process has in memory now, without what it has freed.
 [[nodiscard]] std::int64_t resident_bytes();
 }  // namespace hdem::perf

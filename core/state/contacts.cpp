@@ -27,6 +27,16 @@ void Contacts::resize(Index n)
         put(static_cast<Index>(i), none);
 }
 
+void Contacts::reserve(Index n)
+{
+    const auto groups = static_cast<std::size_t>((n + lanes - 1) / lanes);
+    for (auto* column : {&part_a, &part_b, &ref, &inc, &ref_edge, &inc_edge, &law})
+        column->reserve(groups * lanes);
+    for (auto* column : {&stale, &swapped, &regime[0], &regime[1]})
+        column->reserve(groups * lanes);
+    lane.reserve(groups);
+}
+
 EdgePair Contacts::edges(Index i) const
 {
     const ContactLanes& l = lane[i / lanes];

@@ -96,6 +96,7 @@ class Contacts
 
     [[nodiscard]] Index size() const { return size_; }
     void resize(Index n);
+    void reserve(Index n);
     [[nodiscard]] Contact get(Index i) const;
     void put(Index i, const Contact& contact);
     [[nodiscard]] EdgePair edges(Index i) const;

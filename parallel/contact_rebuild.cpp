@@ -1,0 +1,113 @@
+#include "parallel/contact_rebuild.h"
+
+#include "core/detection/contact_tracking.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+constexpr Index parts_a_chunk = 512;
+/// Chunks whose contacts wait at the same time to be put into the list: a contact by itself takes more memory than in the list.
+constexpr Index chunks_a_round = 64;
+
+bool holds(IndexRange range, Index i)
+{
+    return range.begin <= i && i < range.end;
+}
+}  // namespace
+
+void ContactRebuild::run(const Model& model, State& state, const Team& team)
+{
+    team.alone([&] { begin(model); });
+    const auto count = static_cast<Index>(chunks_.size());
+    const auto for_chunks = [&](IndexRange chunks, const auto& stage)
+    {
+        const IndexRange mine = team.share(chunks.size());
+        for (Index i = chunks.begin + mine.begin; i < chunks.begin + mine.end; ++i)
+            stage(chunks_[i]);
+        team.barrier();
+    };
+    for_chunks({0, count}, [&](const Chunk& chunk) { compute_boxes(chunk.parts, model, state.blocks, boxes_); });
+    team.alone([&] { cells_.build(boxes_); });
+    for_chunks({0, count}, [&](Chunk& chunk) { find_pairs(chunk); });
+    for_chunks({0, count}, [&](Chunk& chunk) { sort_pairs(chunk); });
+    for (Index i = 0; i < count; i += chunks_a_round)
+    {
+        const IndexRange round{i, std::min(count, i + chunks_a_round)};
+        for_chunks(round,
+                   [&](Chunk& chunk)
+                   {
+                       track_contacts({0, static_cast<Index>(chunk.pairs.size())}, chunk.pairs, model, state.blocks, state.contacts,
+                                      chunk.contacts, chunk.ledger);
+                   });
+        team.alone([&] { place(round); });
+        for_chunks(round,
+                   [&](Chunk& chunk)
+                   {
+                       for (Index k = 0; k < static_cast<Index>(chunk.contacts.size()); ++k)
+                           list_.put(chunk.first + k, chunk.contacts[k]);
+                       chunk.contacts = {};
+                   });
+    }
+    team.alone([&] { finish(state); });
+}
+
+void ContactRebuild::begin(const Model& model)
+{
+    const Index parts = model.shapes.parts();
+    boxes_.resize(static_cast<std::size_t>(parts));
+    chunks_.resize(static_cast<std::size_t>((parts + parts_a_chunk - 1) / parts_a_chunk));
+    for (Index i = 0; i < static_cast<Index>(chunks_.size()); ++i)
+        chunks_[i].parts = {i * parts_a_chunk, std::min(parts, (i + 1) * parts_a_chunk)};
+}
+
+void ContactRebuild::find_pairs(Chunk& chunk) const
+{
+    cells_.find_pairs(chunk.parts, chunk.pairs);
+    const auto own = std::partition(chunk.pairs.begin(), chunk.pairs.end(),
+                                    [&](std::uint64_t pair) { return holds(chunk.parts, first_of(pair)); });
+    chunk.foreign.assign(own, chunk.pairs.end());
+    chunk.pairs.erase(own, chunk.pairs.end());
+}
+
+void ContactRebuild::sort_pairs(Chunk& chunk) const
+{
+    for (const Chunk& other : chunks_)
+        for (const std::uint64_t pair : other.foreign)
+            if (holds(chunk.parts, first_of(pair)))
+                chunk.pairs.push_back(pair);
+    std::sort(chunk.pairs.begin(), chunk.pairs.end());
+}
+
+void ContactRebuild::place(IndexRange round)
+{
+    if (round.begin == 0)
+    {
+        std::size_t pairs = 0;
+        for (const Chunk& chunk : chunks_)
+            pairs += chunk.pairs.size();
+        list_.reserve(static_cast<Index>(pairs));
+    }
+    Index size = list_.size();
+    for (Index i = round.begin; i < round.end; ++i)
+    {
+        chunks_[i].first = size;
+        size += static_cast<Index>(chunks_[i].contacts.size());
+    }
+    list_.resize(size);
+}
+
+void ContactRebuild::finish(State& state)
+{
+    for (const Chunk& chunk : chunks_)
+        state.ledger.add(chunk.ledger);
+    state.contacts = std::move(list_);
+    state.rebuilt_at = state.blocks.motion;
+    state.contacts_outdated = false;
+    ++state.broad_phase_runs;
+    *this = {};  // rare enough to give the memory back
+}
+}  // namespace hdem
