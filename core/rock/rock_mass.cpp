@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace hdem
@@ -131,6 +132,8 @@ RockBlock finished(CutBlock& from, const CaseDef& def, const Domain& domain)
     for (CutPolygon& part : from.parts)
     {
         ConvexPart out{std::move(part.vertices), {}};
+        out.vertices.shrink_to_fit();
+        out.source.reserve(part.edges.size());
         for (const EdgeTag& edge : part.edges)
         {
             out.source.push_back(edge.source);
@@ -145,31 +148,38 @@ RockBlock finished(CutBlock& from, const CaseDef& def, const Domain& domain)
 /// Blocks in order of their excavation (none first), then from the bottom up by their centroids, then from the left; names count them.
 void add_generated(const CaseDef& def, const Domain& domain, CutMass& mass, RockMass& rock)
 {
-    rock.blocks.reserve(mass.blocks.size() + def.blocks.size());
-    std::vector<std::pair<Vec2, RockBlock>> blocks;
+    struct Place
+    {
+        Index excavation;
+        Vec2 centroid;
+        std::size_t block;
+    };
+    std::vector<RockBlock> blocks;
+    std::vector<Place> places;
     blocks.reserve(mass.blocks.size());
+    places.reserve(mass.blocks.size());
     for (CutBlock& from : mass.blocks)
     {
         if (from.parts.size() > 1)
         {
             merge_convex_parts(from.parts);
         }
-        RockBlock block = finished(from, def, domain);
-        const Vec2 centroid = moments(block).centroid;
-        blocks.emplace_back(centroid, std::move(block));
+        places.push_back({from.excavation, {}, blocks.size()});
+        blocks.push_back(finished(from, def, domain));
+        places.back().centroid = moments(blocks.back()).centroid;
+        from = {};  // a million of them need not wait
     }
-    std::stable_sort(blocks.begin(), blocks.end(),
-                     [](const auto& a, const auto& b)
-                     {
-                         if (a.second.excavation != b.second.excavation)
-                         {
-                             return a.second.excavation < b.second.excavation;
-                         }
-                         return a.first.y() != b.first.y() ? a.first.y() < b.first.y() : a.first.x() < b.first.x();
-                     });
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b)
+              {
+                  return std::tie(a.excavation, a.centroid.y(), a.centroid.x(), a.block) <
+                         std::tie(b.excavation, b.centroid.y(), b.centroid.x(), b.block);
+              });
+    rock.blocks.reserve(mass.blocks.size() + def.blocks.size());
     std::vector<std::size_t> inside(def.excavations.size(), 0);
-    for (auto& [centroid, block] : blocks)
+    for (const Place& place : places)
     {
+        RockBlock& block = blocks[place.block];
         if (block.excavation == no_index)
         {
             block.name = "b" + std::to_string(rock.blocks.size() + 1);
