@@ -21,6 +21,7 @@ class Observer
 
     /// First cycle after `now` that it wants to see; `never` for none. The end of a stage is always shown.
     [[nodiscard]] virtual std::int64_t next_cycle(std::int64_t now) const = 0;
+    /// A stage has begun, or goes on after a restart.
     virtual void begin_stage(const Model& /*model*/, const State& /*state*/) {}
     /// A cycle it asked for, the state before the first one, or the end of a stage.
     virtual void observe(const Model& model, const State& state) = 0;

@@ -59,18 +59,35 @@ class Temporary
         }
     }
 
-    void rename()
+    void rename(const std::filesystem::path& previous)
     {
         if (::fsync(descriptor_) != 0)
             fail();
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
-        if (closed != 0 || ::rename(name_.c_str(), target_.c_str()) != 0)  // NFS reports a full disk at close
+        if (closed != 0)
+            fail();
+        if (!previous.empty())
+            keep_target_as(previous);
+        if (::rename(name_.c_str(), target_.c_str()) != 0)  // NFS reports a full disk at close
             fail();
         renamed_ = true;
     }
 
   private:
+    /// A second name for the target, so that the first one never misses; some file systems have no second names.
+    void keep_target_as(const std::filesystem::path& previous) const
+    {
+        const std::string second = previous.string() + ".tmp";
+        ::unlink(second.c_str());
+        const bool linked = ::link(target_.c_str(), second.c_str()) == 0;
+        if (!linked && errno == ENOENT)
+            return;  // there is no target yet
+        if (::rename(linked ? second.c_str() : target_.c_str(), previous.c_str()) != 0)
+            fail();
+        ::unlink(second.c_str());  // still there when both are names of one file
+    }
+
     [[noreturn]] void fail() const
     {
         const int error = errno;
@@ -93,7 +110,7 @@ void sync_folder(const std::filesystem::path& folder)
 }
 }  // namespace
 
-void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes)
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::filesystem::path& previous)
 {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code error;
@@ -104,7 +121,7 @@ void write_atomically(const std::filesystem::path& file, std::span<const std::by
     name += ".tmp";
     Temporary temporary(file, name);
     temporary.write(bytes);
-    temporary.rename();
+    temporary.rename(previous);
     sync_folder(folder);
 }
 

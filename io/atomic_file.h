@@ -9,7 +9,8 @@ namespace hdem
 {
 /// Write `bytes` to FILE.tmp, fsync, rename to FILE, fsync the folder: whoever opens FILE sees the old content or the new,
 /// never a part. Makes the folder when it is missing.
+/// With `previous`, an old FILE is kept under that name; one of the two is there at any moment.
 /// Throws RunError with the file, the system's reason (disk full, no permission) and what may help; FILE is then as it was.
-void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::filesystem::path& previous = {});
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 }  // namespace hdem

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <optional>
+#include <sstream>
 
 namespace hdem
 {
@@ -179,6 +181,17 @@ class Reader
     throw InputError(std::vector<Problem>{{Problem::Severity::error, "", text}});
 }
 
+/// The whole of it, or one byte more than `most`.
+std::string read_all(std::istream& in, std::size_t most)
+{
+    std::string text;
+    std::string piece(1U << 16U, '\0');
+    while (text.size() <= most && (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0))
+        text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
+    text.resize(std::min(text.size(), most + 1));
+    return text;
+}
+
 std::string read_text(const std::filesystem::path& file)
 {
     std::error_code ignored;
@@ -188,30 +201,46 @@ std::string read_text(const std::filesystem::path& file)
     if (!in)
         fail(fmt::format("{}: case: ({}). Check the name and the rights of the file.", file.string(),
                          std::filesystem::exists(file, ignored) ? "cannot be opened" : "does not exist"));
-    std::string text;
-    std::string piece(1U << 16U, '\0');
-    while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)
-    {
-        text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
-        if (text.size() > largest_case_file)
-            fail(fmt::format("{}: case: (larger than {} bytes). Put many blocks into a blocks_file.", file.string(),
-                             largest_case_file));
-    }
+    std::string text = read_all(in, largest_case_file);
+    if (text.size() > largest_case_file)
+        fail(fmt::format("{}: case: (larger than {} bytes). Put many blocks into a blocks_file.", file.string(), largest_case_file));
     return text;
 }
 
-/// Appends the blocks of the blocks_file. Problems inside it are located already.
-void add_blocks_file(CaseDef& def, const std::filesystem::path& case_file, CaseSource& source, CaseProblems& problems,
-                     std::vector<Problem>& located)
+/// A file that the case names: from the disk, or from `stored`.
+std::optional<std::string> named_file(const std::string& name, const std::filesystem::path& case_file, const NamedFiles* stored)
 {
-    const auto file = case_file.parent_path() / def.blocks_file;
+    if (stored != nullptr)
+    {
+        const auto found = stored->find(name);
+        return found == stored->end() ? std::nullopt : std::optional(found->second);
+    }
+    const auto file = case_file.parent_path() / name;
     std::error_code ignored;
     std::ifstream in(file, std::ios::binary);
     if (!in || std::filesystem::is_directory(file, ignored))
+        return std::nullopt;
+    return read_all(in, largest_named_file);
+}
+
+/// Appends the blocks of the blocks_file. Problems inside it are located already.
+void add_blocks_file(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
+                     std::vector<Problem>& located)
+{
+    CaseDef& def = read.def;
+    CaseSource& source = read.source;
+    const auto file = case_file.parent_path() / def.blocks_file;
+    std::optional<std::string> text = named_file(def.blocks_file, case_file, stored);
+    if (!text)
         return problems.add("blocks_file", "case", fmt::format("blocks_file = \"{}\"", printable(def.blocks_file)),
                             fmt::format("{} cannot be opened", printable(file.string(), 200)),
                             "A relative name starts at the folder of the case file.");
+    if (text->size() > largest_named_file)
+        return problems.add("blocks_file", "case", fmt::format("blocks_file = \"{}\"", printable(def.blocks_file)),
+                            fmt::format("larger than {} bytes", largest_named_file), "Make the model smaller.");
+    std::istringstream in(*text);
     auto [blocks, found] = read_polygons(in, file.string(), def.blocks.size());
+    read.files.emplace(def.blocks_file, std::move(*text));
     located.insert(located.end(), found.begin(), found.end());
     const int number = source.add_source(file.string());
     for (auto& [block, line] : blocks)
@@ -222,7 +251,8 @@ void add_blocks_file(CaseDef& def, const std::filesystem::path& case_file, CaseS
 }
 }  // namespace
 
-CaseFile read_case_text(std::string text, const std::filesystem::path& file, std::span<const Override> overrides)
+CaseFile read_case_text(std::string text, const std::filesystem::path& file, std::span<const Override> overrides,
+                        const NamedFiles* files)
 {
     CaseFile result;
     result.source = CaseSource(file.string(), std::move(text));
@@ -239,7 +269,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     CaseProblems problems;
     Reader(result.def, source, problems).read(document);
     if (!result.def.blocks_file.empty())
-        add_blocks_file(result.def, file, source, problems, located);
+        add_blocks_file(result, file, files, problems, located);
     check_rock_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
 

@@ -138,6 +138,11 @@ Hdf5Reader::Hdf5Reader(std::filesystem::path file) : name_(std::move(file)), han
 Hdf5Reader::~Hdf5Reader() = default;
 Hdf5Reader::Hdf5Reader(Hdf5Reader&&) noexcept = default;
 
+void Hdf5Reader::fail(const std::string& object, const std::string& reason) const
+{
+    handles_->fail(object, reason);
+}
+
 bool Hdf5Reader::has(const std::string& path) const
 {
     return handles_->is_here(path);

@@ -21,6 +21,9 @@ class Hdf5Reader
     Hdf5Reader(Hdf5Reader&&) noexcept;
     Hdf5Reader& operator=(Hdf5Reader&&) = delete;
 
+    /// For what its reader finds wrong with `object`: throws RunError.
+    [[noreturn]] void fail(const std::string& object, const std::string& reason) const;
+
     /// A group or dataset reached by hard links.
     [[nodiscard]] bool has(const std::string& path) const;
     /// Names in a group, in alphabetical order.

@@ -216,7 +216,7 @@ void Hdf5Writer::link(const std::string& path, const std::string& file, const st
         fail_hdf5(name_, path, "made", hdf5_reason());
 }
 
-void Hdf5Writer::commit()
+void Hdf5Writer::commit(const std::filesystem::path& previous)
 {
     if (H5Fflush(handles_->file.id(), H5F_SCOPE_GLOBAL) < 0)
         fail_hdf5(name_, "/", "finished", hdf5_reason());
@@ -226,7 +226,7 @@ void Hdf5Writer::commit()
     handles_->file = {};
     if (handles_->memory.bytes == nullptr)
         fail_hdf5(name_, "/", "finished", hdf5_reason());
-    write_atomically(name_, std::span(static_cast<const std::byte*>(handles_->memory.bytes.get()), static_cast<std::size_t>(size)));
+    write_atomically(name_, std::span(static_cast<const std::byte*>(handles_->memory.bytes.get()), static_cast<std::size_t>(size)), previous);
     handles_->memory.bytes.reset();
 }
 }  // namespace hdem

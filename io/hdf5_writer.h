@@ -71,7 +71,8 @@ class Hdf5Writer
     /// `path` stands for `object` of another file; a relative file name starts at this file's folder.
     void link(const std::string& path, const std::string& file, const std::string& object);
 
-    void commit();
+    /// @param previous name that an older file is kept under; "": it is replaced
+    void commit(const std::filesystem::path& previous = {});
 
   private:
     void write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type, const Shape& shape, Packing packing);

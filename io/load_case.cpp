@@ -2,10 +2,11 @@
 
 namespace hdem
 {
-LoadedCase load_case(const std::filesystem::path& file, std::span<const Override> overrides)
+namespace
 {
-    LoadedCase loaded;
-    loaded.file = read_case_file(file, overrides);
+LoadedCase built(CaseFile file)
+{
+    LoadedCase loaded{.file = std::move(file), .setup = {}, .warnings = {}};
     try
     {
         loaded.setup = build_model(loaded.file.def);
@@ -18,5 +19,16 @@ LoadedCase load_case(const std::filesystem::path& file, std::span<const Override
     for (Problem& problem : loaded.file.source.located(std::move(loaded.setup.warnings)))
         loaded.warnings.push_back(std::move(problem));
     return loaded;
+}
+}  // namespace
+
+LoadedCase load_case(const std::filesystem::path& file, std::span<const Override> overrides)
+{
+    return built(read_case_file(file, overrides));
+}
+
+LoadedCase load_case(std::string text, const NamedFiles& files, const std::filesystem::path& file, std::span<const Override> overrides)
+{
+    return built(read_case_text(std::move(text), file, overrides, &files));
 }
 }  // namespace hdem

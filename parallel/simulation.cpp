@@ -38,9 +38,10 @@ Simulation::Simulation(Model model, State state, int threads)
       state_(std::move(state)),
       threads_(threads)
 {
+    const bool fresh = state_.broad_phase_runs == 0;  // and not from a checkpoint
     if (state_.contacts_outdated)
         runner_.renew_contacts(model_, state_, threads_);
-    if (state_.cycle == 0)
+    if (fresh)
         state_.ledger.initial = stored_energy(model_, state_).total();
 }
 
@@ -106,6 +107,7 @@ void Simulation::begin_stage(Index stage)
 {
     const StageDef& def = model_.stages[stage];
     state_.stage = stage;
+    state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
@@ -127,6 +129,11 @@ void Simulation::begin_stage(Index stage)
         state_.blocks.reference_position[i] = {state_.blocks.motion[i].x, state_.blocks.motion[i].y};
         state_.blocks.reference_angle[i] = state_.blocks.motion[i].angle;
     }
+}
+
+void Simulation::note_outcome(bool converged)
+{
+    state_.stages_done.push_back({.cycles = state_.cycle - state_.stage_begin_cycle, .converged = converged});
 }
 
 void Simulation::advance(std::int64_t cycles)

@@ -22,6 +22,7 @@ struct ContactCounts
 class Simulation
 {
   public:
+    /// The state is the first one of a run, or one that a checkpoint gave back together with its model.
     Simulation(Model model, State state, int threads = 1);
 
     [[nodiscard]] const Model& model() const { return model_; }
@@ -33,6 +34,8 @@ class Simulation
 
     /// Excavate, fix, free; set method and damping; count displacements from here.
     void begin_stage(Index stage);
+    /// How the present stage ended; before the next one begins.
+    void note_outcome(bool converged);
 
     void advance(std::int64_t cycles);
     /// Throw RunError at a non-finite value or an overlap above its limit; names cycle, time, blocks and the setting that may help.

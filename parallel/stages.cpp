@@ -1,6 +1,7 @@
 #include "parallel/stages.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace hdem
@@ -16,36 +17,108 @@ void show(Simulation& simulation, std::span<Observer* const> observers, bool all
             observer->observe(simulation.model(), simulation.state());
 }
 
-StageResult run_stage(Simulation& simulation, Index number, std::span<Observer* const> observers)
+/// How many cycles take about a fifth of a second: so long a keeper may wait.
+class Pace
 {
-    const StageDef& def = simulation.model().stages[number];
-    const ConvergenceDef& criteria = simulation.model().convergence;
-    simulation.begin_stage(number);
-    for (Observer* const observer : observers)
-        observer->begin_stage(simulation.model(), simulation.state());
-    const std::int64_t begin = simulation.state().cycle;
-    const std::int64_t end = last_cycle(def, begin, simulation.model().time_step);
-    StageResult result{.name = def.name, .first_cycle = begin, .until_converged = def.until_converged};
-    while (simulation.state().cycle < end && !result.converged)
+  public:
+    [[nodiscard]] std::int64_t cycles() const { return cycles_; }
+    void took(std::int64_t cycles)
     {
-        const std::int64_t now = simulation.state().cycle;
-        std::int64_t next = std::min(end, next_multiple(now, check_every));
-        if (def.until_converged)
-            next = std::min(next, std::max(begin + criteria.least_cycles, next_multiple(now, criteria.check_every)));
-        for (const Observer* const observer : observers)
-            next = std::min(next, observer->next_cycle(now));
-        simulation.advance(next - now);
-        if (next % check_every == 0 || next == end)
-            simulation.check_state();
-        result.converged = def.until_converged && next - begin >= criteria.least_cycles && next % criteria.check_every == 0 &&
-                           is_converged(criteria, simulation.equilibrium());
-        show(simulation, observers, next == end || result.converged);
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::max(std::chrono::duration<double>(now - last_).count(), 1e-6);
+        last_ = now;
+        cycles_ = std::clamp<std::int64_t>(static_cast<std::int64_t>(0.2 / seconds * static_cast<double>(cycles)), 1, 4 * cycles_);
     }
-    simulation.check_state();
-    for (Observer* const observer : observers)
-        observer->end_stage(simulation.model(), simulation.state());
-    result.cycles = simulation.state().cycle - begin;
-    return result;
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::int64_t cycles_ = 1;
+};
+
+class StageRunner
+{
+  public:
+    StageRunner(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper)
+        : simulation_(simulation),
+          observers_(observers),
+          keeper_(keeper)
+    {
+    }
+
+    /// The stage that the state is in, from its present cycle on.
+    StageResult run()
+    {
+        const State& state = simulation_.state();
+        def_ = &simulation_.model().stages[state.stage];
+        begin_ = state.stage_begin_cycle;
+        end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
+        StageResult result{.name = def_->name, .first_cycle = begin_, .until_converged = def_->until_converged};
+        result.converged = has_converged();
+        while (state.cycle < end_ && !result.converged && !broken_off_)
+        {
+            const std::int64_t now = state.cycle;
+            simulation_.advance(next_stop(now) - now);
+            pace_.took(state.cycle - now);
+            if (state.cycle % check_every == 0 || state.cycle == end_)
+                simulation_.check_state();
+            result.converged = has_converged();
+            show(simulation_, observers_, state.cycle == end_ || result.converged);
+            broken_off_ = keeper_ != nullptr && !keeper_->keep(simulation_);
+        }
+        result.cycles = state.cycle - begin_;
+        if (broken_off_)
+            return result;
+        simulation_.check_state();
+        for (Observer* const observer : observers_)
+            observer->end_stage(simulation_.model(), state);
+        return result;
+    }
+
+    [[nodiscard]] bool broken_off() const { return broken_off_; }
+
+  private:
+    [[nodiscard]] bool has_converged() const
+    {
+        const ConvergenceDef& criteria = simulation_.model().convergence;
+        const std::int64_t cycle = simulation_.state().cycle;
+        return def_->until_converged && cycle - begin_ >= std::max<std::int64_t>(criteria.least_cycles, 1) &&
+               cycle % criteria.check_every == 0 && is_converged(criteria, simulation_.equilibrium());
+    }
+
+    [[nodiscard]] std::int64_t next_stop(std::int64_t now) const
+    {
+        const ConvergenceDef& criteria = simulation_.model().convergence;
+        std::int64_t next = std::min(end_, next_multiple(now, check_every));
+        if (def_->until_converged)
+            next = std::min(next, std::max(begin_ + criteria.least_cycles, next_multiple(now, criteria.check_every)));
+        for (const Observer* const observer : observers_)
+            next = std::min(next, observer->next_cycle(now));
+        return keeper_ == nullptr ? next : std::min({next, now + pace_.cycles(), keeper_->next_cycle(now)});
+    }
+
+    Simulation& simulation_;
+    std::span<Observer* const> observers_;
+    Keeper* keeper_;
+    Pace pace_;
+    const StageDef* def_ = nullptr;
+    std::int64_t begin_ = 0;
+    std::int64_t end_ = 0;
+    bool broken_off_ = false;
+};
+
+/// Results of the stages before the present one, from the checkpoint they went through.
+std::vector<StageResult> earlier_results(const Model& model, const State& state)
+{
+    std::vector<StageResult> results;
+    std::int64_t begin = 0;
+    for (std::size_t i = 0; i < state.stages_done.size(); ++i)
+    {
+        const StageOutcome& outcome = state.stages_done[i];
+        const StageDef& def = model.stages[i];
+        results.push_back({def.name, begin, outcome.cycles, def.until_converged, outcome.converged});
+        begin += outcome.cycles;
+    }
+    return results;
 }
 }  // namespace
 
@@ -70,13 +143,26 @@ std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_s
     return begin + static_cast<std::int64_t>(std::ceil(stage.duration.value_or(0.0) / time_step * (1.0 - 1e-12)));
 }
 
-std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers)
+std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper)
 {
-    std::vector<StageResult> results;
-    show(simulation, observers, true);
+    const State& state = simulation.state();
+    std::vector<StageResult> results = earlier_results(simulation.model(), state);
+    bool goes_on = state.stage_begun;
+    if (!goes_on)
+        show(simulation, observers, true);
+    StageRunner runner(simulation, observers, keeper);
     const auto stages = static_cast<Index>(simulation.model().stages.size());
-    for (Index i = 0; i < stages; ++i)
-        results.push_back(run_stage(simulation, i, observers));
+    for (Index i = state.stage; i < stages && !runner.broken_off(); ++i)
+    {
+        if (!goes_on)
+            simulation.begin_stage(i);
+        goes_on = false;
+        for (Observer* const observer : observers)
+            observer->begin_stage(simulation.model(), state);
+        results.push_back(runner.run());
+        if (i + 1 < stages && !runner.broken_off())
+            simulation.note_outcome(results.back().converged);
+    }
     return results;
 }
 }  // namespace hdem

@@ -9,6 +9,21 @@
 
 namespace hdem
 {
+/// Looks after a run between pieces of it: saves it, or ends it before its time.
+class Keeper
+{
+  public:
+    Keeper() = default;
+    Keeper(const Keeper&) = delete;
+    Keeper& operator=(const Keeper&) = delete;
+    virtual ~Keeper() = default;
+
+    /// First cycle after `now` that it wants to see, besides those after every fifth of a second or so.
+    [[nodiscard]] virtual std::int64_t next_cycle(std::int64_t now) const = 0;
+    /// After a cycle that the observers have seen if they asked for it. True: go on; false: leave the run here.
+    [[nodiscard]] virtual bool keep(const Simulation& simulation) = 0;
+};
+
 struct StageResult
 {
     std::string name;
@@ -24,7 +39,7 @@ struct StageResult
 /// Last cycle the stage may reach, seen from where it begins.
 [[nodiscard]] std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step);
 
-/// Run all stages, showing the state to the observers. The run's state is checked for non-finite values and overlaps at
-/// least every thousand cycles.
-std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers);
+/// Run all stages, or those that are left to a state that comes from a checkpoint, and show the state to the observers. It is checked for
+/// non-finite values and overlaps at least every thousand cycles. A stage that the keeper breaks off is the last of the results.
+std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper = nullptr);
 }  // namespace hdem

@@ -11,6 +11,13 @@
 
 namespace hdem
 {
+/// How a stage ended.
+struct StageOutcome
+{
+    std::int64_t cycles = 0;
+    bool converged = false;
+};
+
 struct State
 {
     Blocks blocks;
@@ -22,6 +29,8 @@ struct State
     double time = 0.0;                          ///< [s]
     std::int64_t stage_begin_cycle = 0;
     Index stage = 0;                            ///< running, or next to begin
+    bool stage_begun = false;                   ///< `stage` runs, or has just come to its end
+    std::vector<StageOutcome> stages_done;      ///< one for each stage before `stage`
     Method method = Method::hybrid;             ///< in force now
     DampingPreset damping = DampingPreset::automatic;
     std::int64_t excavation_cycle = -1;         ///< of the last excavation, -1: none yet

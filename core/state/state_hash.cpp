@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 namespace hdem
 {
@@ -60,6 +61,33 @@ std::uint64_t state_hash(const Model& model, const State& state)
     std::sort(hashed.begin(), hashed.end(),
               [](const HashedContact& p, const HashedContact& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
     XXH3_64bits_update(hash, hashed.data(), hashed.size() * sizeof(HashedContact));
+    const std::uint64_t digest = XXH3_64bits_digest(hash);
+    XXH3_freeState(hash);
+    return digest;
+}
+
+std::uint64_t model_hash(const Model& model)
+{
+    XXH3_state_t* const hash = XXH3_createState();
+    XXH3_64bits_reset(hash);
+    const auto add = [&](std::initializer_list<double> values)
+    {
+        for (const double value : values)
+        {
+            const double positive_zero = value + 0.0;
+            XXH3_64bits_update(hash, &positive_zero, sizeof positive_zero);
+        }
+    };
+    const Shapes& shapes = model.shapes;
+    for (const Index i : model.slot_of_user)
+    {
+        add({model.mass[i], model.inertia[i], static_cast<double>(shapes.part_begin[i + 1] - shapes.part_begin[i])});
+        for (Index v = shapes.vertex_begin[shapes.part_begin[i]]; v < shapes.vertex_begin[shapes.part_begin[i + 1]]; ++v)
+            add({shapes.vertex[v].x(), shapes.vertex[v].y(), static_cast<double>(shapes.edge_source[v])});
+    }
+    for (const CoulombSlip& law : model.joints.laws)
+        add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
+    add({model.time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

@@ -1,5 +1,5 @@
 #pragma once
-/// Fingerprint of a state.
+/// Fingerprints of a state and of the model it belongs to.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -11,4 +11,7 @@ namespace hdem
 /// XXH3 of pose, velocity and contact history, taken in the user's order of blocks and parts, so that it does not see how
 /// blocks and contacts are sorted in memory. Open contacts carry no history and do not count; -0 counts as 0.
 [[nodiscard]] std::uint64_t state_hash(const Model& model, const State& state);
+
+/// XXH3 of shapes, masses, joints and time step, in the user's order of blocks: a state may go on with a model of the same hash only.
+[[nodiscard]] std::uint64_t model_hash(const Model& model);
 }  // namespace hdem

@@ -1,0 +1,220 @@
+#include "io/state_archive.h"
+
+#include "core/check.h"
+#include "core/model/block_order.h"
+#include "io/state_checks.h"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+// What is saved stands once, in exchange(); Saver and Loader are its two directions. A table has a row for each item; `members` gives the
+// numbers of a row as a tuple of references.
+
+template <typename Item, typename Members>
+constexpr std::uint64_t columns_of = std::tuple_size_v<std::invoke_result_t<Members, Item&>>;
+
+template <typename Item, typename Members>
+Shape table_shape(std::uint64_t rows)
+{
+    return columns_of<Item, Members> > 1 ? Shape{rows, columns_of<Item, Members>} : Shape{rows};
+}
+
+class Saver
+{
+  public:
+    explicit Saver(Hdf5Writer& file) : file_(file) {}
+
+    void group(const std::string& path) { file_.make_group(path); }
+
+    template <typename Stored, typename T>
+    void value(const std::string& object, const std::string& name, T& from)
+    {
+        file_.set_attribute(object, name, static_cast<Stored>(from));
+    }
+
+    template <typename Stored, typename Item, typename Members>
+    void rows(const std::string& path, std::uint64_t /*expected*/, std::vector<Item>& items, const Members& members)
+    {
+        std::vector<Stored> values;
+        values.reserve(items.size() * columns_of<Item, Members>);
+        for (Item& item : items)
+            std::apply([&](auto&... member) { (values.push_back(static_cast<Stored>(member)), ...); }, members(item));
+        file_.write(path, values, table_shape<Item, Members>(items.size()), Hdf5Writer::Packing::plain);
+    }
+
+  private:
+    Hdf5Writer& file_;
+};
+
+class Loader
+{
+  public:
+    explicit Loader(const Hdf5Reader& file) : file_(file) {}
+
+    void group(const std::string& /*path*/) {}
+
+    template <typename Stored, typename T>
+    void value(const std::string& object, const std::string& name, T& to)
+    {
+        to = static_cast<T>(file_.attribute<Stored>(object, name, {}).front());
+    }
+
+    /// @param expected rows; any_extent: as many as there are
+    template <typename Stored, typename Item, typename Members>
+    void rows(const std::string& path, std::uint64_t expected, std::vector<Item>& items, const Members& members)
+    {
+        const std::vector<Stored> values = file_.read<Stored>(path, table_shape<Item, Members>(expected));
+        items.resize(values.size() / columns_of<Item, Members>);
+        auto at = values.begin();
+        const auto take = [&](auto& member) { member = static_cast<std::remove_reference_t<decltype(member)>>(*at++); };
+        for (Item& item : items)
+            std::apply([&](auto&... member) { (take(member), ...); }, members(item));
+    }
+
+  private:
+    const Hdf5Reader& file_;
+};
+
+constexpr auto itself = [](auto& value) { return std::tie(value); };
+
+/// What of a checkpoint's state is kept otherwise in the memory.
+struct Unpacked
+{
+    std::vector<Index> user_number;
+    std::vector<Contact> contacts;
+    std::vector<std::uint8_t> stale;  ///< per contact
+};
+
+template <typename Archive>
+void exchange_run(Archive& archive, State& state)
+{
+    archive.group("/state");
+    archive.template value<std::int64_t>("/state", "cycle", state.cycle);
+    archive.template value<double>("/state", "time", state.time);
+    archive.template value<std::int32_t>("/state", "stage", state.stage);
+    archive.template value<std::uint8_t>("/state", "stage_begun", state.stage_begun);
+    archive.template value<std::int64_t>("/state", "stage_begin_cycle", state.stage_begin_cycle);
+    archive.template value<std::uint8_t>("/state", "method", state.method);
+    archive.template value<std::uint8_t>("/state", "damping", state.damping);
+    archive.template value<std::int64_t>("/state", "excavation_cycle", state.excavation_cycle);
+    archive.template value<std::int64_t>("/state", "broad_phase_runs", state.broad_phase_runs);
+    archive.template value<std::int64_t>("/state", "feature_searches", state.feature_searches);
+    archive.template value<std::uint8_t>("/state", "contacts_outdated", state.contacts_outdated);
+    archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
+                                        [](StageOutcome& s) { return std::tie(s.cycles, s.converged); });
+    EnergyLedger& ledger = state.ledger;
+    archive.group("/state/ledger");
+    archive.template value<double>("/state/ledger", "initial", ledger.initial);
+    archive.template value<double>("/state/ledger", "gravity_work", ledger.gravity_work);
+    archive.template value<double>("/state/ledger", "load_work", ledger.load_work);
+    archive.template value<double>("/state/ledger", "position_correction", ledger.position_correction);
+    archive.template value<double>("/state/ledger", "friction", ledger.friction);
+    archive.template value<double>("/state/ledger", "local_damping", ledger.local_damping);
+    archive.template value<double>("/state/ledger", "global_damping", ledger.global_damping);
+    archive.template value<double>("/state/ledger", "impulse_loss", ledger.impulse_loss);
+    archive.template value<double>("/state/ledger", "contact_changes", ledger.contact_changes);
+    archive.template value<double>("/state/ledger", "removed", ledger.removed);
+}
+
+template <typename Archive>
+void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& unpacked)
+{
+    Blocks& blocks = state.blocks;
+    const auto motion = [](BlockMotion& m) { return std::tie(m.x, m.y, m.c, m.s, m.vx, m.vy, m.w, m.angle); };
+    archive.template rows<std::int32_t>("/blocks/user_number", n, unpacked.user_number, itself);
+    archive.template rows<double>("/blocks/motion", n, blocks.motion, motion);
+    archive.template rows<double>("/blocks/rebuilt_at", any_extent, state.rebuilt_at, motion);
+    archive.template rows<double>("/blocks/force", n, blocks.force,
+                                  [](BlockForce& f) { return std::tie(f.x, f.y, f.moment, f.reserve); });
+    archive.template rows<float>("/blocks/joint_use", n, blocks.force,
+                                 [](BlockForce& f) { return std::tie(f.mobilised, f.t_x, f.t_y); });
+    archive.template rows<std::uint8_t>("/blocks/contact_kinds", n, blocks.force,
+                                        [](BlockForce& f) { return std::tie(f.contacts); });
+    archive.template rows<double>("/blocks/inverse_inertia", n, blocks.inertia,
+                                  [](BlockInertia& i) { return std::tie(i.inverse_mass_x, i.inverse_mass_y, i.inverse_inertia); });
+    archive.template rows<std::uint8_t>("/blocks/present", n, blocks.present, itself);
+    archive.template rows<double>("/blocks/reference_position", n, blocks.reference_position,
+                                  [](Vec2& v) { return std::tie(v.x(), v.y()); });
+    archive.template rows<double>("/blocks/reference_angle", n, blocks.reference_angle, itself);
+    archive.template rows<std::int32_t>("/blocks/next_to_excavation", any_extent, state.next_to_excavation, itself);
+}
+
+template <typename Archive>
+void exchange_contacts(Archive& archive, std::vector<Contact>& contacts, std::vector<std::uint8_t>& stale)
+{
+    archive.template rows<std::int32_t>("/contacts/features", any_extent, contacts,
+                                        [](Contact& c)
+                                        { return std::tie(c.part_a, c.part_b, c.ref, c.inc, c.ref_edge, c.inc_edge, c.law); });
+    const std::uint64_t n = contacts.size();
+    archive.template rows<std::uint8_t>("/contacts/swapped", n, contacts, [](Contact& c) { return std::tie(c.swapped); });
+    archive.template rows<std::uint8_t>("/contacts/stale", n, stale, itself);
+    archive.template rows<std::uint8_t>("/contacts/regime", n, contacts,
+                                        [](Contact& c) { return std::tie(c.point[0].regime, c.point[1].regime); });
+    archive.template rows<double>("/contacts/edges", n, contacts,
+                                  [](Contact& c)
+                                  {
+                                      EdgePair& e = c.edges;
+                                      return std::tie(e.tx, e.ty, e.start_t, e.start_m, e.length, e.p0x, e.p0y, e.p1x, e.p1y);
+                                  });
+    archive.template rows<float>("/contacts/seen", n, contacts,
+                                 [](Contact& c) { return std::tie(c.moved_limit, c.seen[0], c.seen[1], c.seen[2], c.seen[3]); });
+    archive.template rows<double>("/contacts/length", n, contacts,
+                                  [](Contact& c) { return std::tie(c.length_floor, c.last_length); });
+    for (const int k : {0, 1})
+        archive.template rows<double>("/contacts/point_" + std::to_string(k), n, contacts,
+                                      [k](Contact& c)
+                                      {
+                                          PointHistory& p = c.point[k];
+                                          return std::tie(p.normal_force, p.shear_force, p.rest_overlap, p.overlap);
+                                      });
+}
+
+template <typename Archive>
+void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
+{
+    exchange_run(archive, state);
+    exchange_blocks(archive, static_cast<std::uint64_t>(blocks), state, unpacked);
+    exchange_contacts(archive, unpacked.contacts, unpacked.stale);
+}
+}  // namespace
+
+void save_state(const Model& model, const State& state, Hdf5Writer& file)
+{
+    Unpacked unpacked{.user_number = model.user_number, .contacts = {}, .stale = {}};
+    const Contacts& contacts = state.contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+        unpacked.contacts.push_back(contacts.get(i));
+    unpacked.stale.assign(contacts.stale.begin(), contacts.stale.begin() + contacts.size());
+    Saver saver(file);
+    exchange(saver, model.blocks(), const_cast<State&>(state), unpacked);  // a Saver changes nothing
+}
+
+State load_state(const Hdf5Reader& file, Model& model)
+{
+    State state;
+    Unpacked unpacked;
+    Loader loader(file);
+    exchange(loader, model.blocks(), state, unpacked);
+    if (!is_permutation(unpacked.user_number))
+        file.fail("/blocks/user_number", "not an order of the blocks: the file is damaged");
+    reorder_blocks(unpacked.user_number, model);
+
+    Contacts& contacts = state.contacts;
+    const auto n = static_cast<Index>(unpacked.contacts.size());
+    contacts.resize(n);
+    for (Index i = 0; i < n; ++i)
+    {
+        contacts.put(i, unpacked.contacts[i]);
+        contacts.stale[i] = unpacked.stale[i];
+    }
+    if (const auto damage = find_damage(model, state))
+        file.fail(damage->object, damage->reason);
+    return state;
+}
+}  // namespace hdem

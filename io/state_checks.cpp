@@ -1,0 +1,164 @@
+#include "io/state_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+constexpr std::int64_t longest_run = 1'000'000'000'000'000;  // [cycles]; sums of two such numbers do not overflow
+
+bool are_finite(std::initializer_list<double> values)
+{
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool is_finite(const BlockMotion& m)
+{
+    return are_finite({m.x, m.y, m.c, m.s, m.vx, m.vy, m.w, m.angle});
+}
+
+/// A unit vector but for round-off.
+bool is_rotation(const BlockMotion& m)
+{
+    return std::abs(m.c * m.c + m.s * m.s - 1.0) < 1e-6;
+}
+
+std::optional<Damage> damage_of_run(const Model& model, const State& state)
+{
+    const auto stages = static_cast<Index>(model.stages.size());
+    if (state.stage < 0 || state.stage >= stages || static_cast<Index>(state.stages_done.size()) != state.stage)
+        return Damage{"/state@stage", "not a stage of the case"};
+    if (!state.stage_begun)
+        return Damage{"/state@stage_begun", "no stage has begun"};
+    std::int64_t begin = 0;
+    for (const StageOutcome& stage : state.stages_done)
+    {
+        if (stage.cycles < 0 || stage.cycles > state.cycle - begin)
+            return Damage{"/state/stages_done", "cycles do not add up"};
+        begin += stage.cycles;
+    }
+    if (state.stage_begin_cycle != begin || state.cycle < begin || state.cycle > longest_run)
+        return Damage{"/state@stage_begin_cycle", "cycles do not add up"};
+    if (state.time != static_cast<double>(state.cycle) * model.time_step)
+        return Damage{"/state@time", "does not belong to the cycle"};
+    if (state.method > Method::hybrid || state.damping > DampingPreset::dynamic)
+        return Damage{"/state@method", "unknown method or damping"};
+    if (state.excavation_cycle < -1 || state.excavation_cycle > state.cycle || state.broad_phase_runs < 1)
+        return Damage{"/state", "counters that no run leaves behind"};
+    const EnergyLedger& e = state.ledger;
+    if (!are_finite({e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
+                     e.impulse_loss, e.contact_changes, e.removed}))
+        return Damage{"/state/ledger", "not a finite number"};
+    return std::nullopt;
+}
+
+/// The block's own inverse mass, or 0 where its motion is prescribed.
+bool is_inertia_of(const BlockInertia& inertia, const BlockInertia& full)
+{
+    const auto fits = [](double value, double own) { return value == 0.0 || value == own; };
+    return fits(inertia.inverse_mass_x, full.inverse_mass_x) && fits(inertia.inverse_mass_y, full.inverse_mass_y) &&
+           fits(inertia.inverse_inertia, full.inverse_inertia);
+}
+
+std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
+{
+    const Blocks& blocks = state.blocks;
+    const auto n = static_cast<std::size_t>(blocks.size());
+    if (state.rebuilt_at.size() != n)
+        return Damage{"/blocks/rebuilt_at", "not one row for each block"};
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        if (!is_finite(blocks.motion[i]) || !is_rotation(blocks.motion[i]))
+            return Damage{"/blocks/motion", "not a place and a rotation"};
+        if (!is_finite(state.rebuilt_at[i]) || !is_rotation(state.rebuilt_at[i]))
+            return Damage{"/blocks/rebuilt_at", "not a place and a rotation"};
+        const BlockForce& f = blocks.force[i];
+        if (!are_finite({f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y}) ||
+            f.contacts > (contact_force | contact_impulse))
+            return Damage{"/blocks/force", "not a force"};
+        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i]))
+            return Damage{"/blocks/inverse_inertia", "not that of the block"};
+        if (!blocks.reference_position[i].allFinite() || !std::isfinite(blocks.reference_angle[i]))
+            return Damage{"/blocks/reference_position", "not a finite number"};
+    }
+    const std::vector<Index>& near = state.next_to_excavation;
+    const bool ascending = std::adjacent_find(near.begin(), near.end(), std::greater_equal<>()) == near.end();
+    if (!ascending || (!near.empty() && (near.front() < 0 || near.back() >= blocks.size())))
+        return Damage{"/blocks/next_to_excavation", "not ascending numbers of blocks"};
+    return std::nullopt;
+}
+
+bool is_edge_of(const Shapes& shapes, Index part, Index edge)
+{
+    return edge >= shapes.vertex_begin[part] && edge < shapes.vertex_begin[part + 1];
+}
+
+bool has_features_of_its_parts(const Model& model, const Contact& contact)
+{
+    const Shapes& shapes = model.shapes;
+    const Index ref = contact.swapped ? contact.part_b : contact.part_a;
+    const Index inc = contact.swapped ? contact.part_a : contact.part_b;
+    return contact.ref == shapes.part_block[ref] && contact.inc == shapes.part_block[inc] && contact.ref != contact.inc &&
+           is_edge_of(shapes, ref, contact.ref_edge) && is_edge_of(shapes, inc, contact.inc_edge) && contact.law >= 0 &&
+           contact.law < static_cast<Index>(model.joints.laws.size());
+}
+
+bool has_finite_numbers(const Contact& contact)
+{
+    const EdgePair& e = contact.edges;
+    const auto is_finite_point = [](const PointHistory& p) {
+        return are_finite({p.normal_force, p.shear_force, p.rest_overlap, p.overlap}) && p.regime <= Regime::impulse;
+    };
+    return are_finite({e.tx, e.ty, e.start_t, e.start_m, e.length, e.p0x, e.p0y, e.p1x, e.p1y, contact.length_floor,
+                       contact.last_length}) &&
+           contact.length_floor > 0.0 && contact.last_length >= 0.0 && !std::isnan(contact.moved_limit) &&
+           std::none_of(contact.seen.begin(), contact.seen.end(), [](float value) { return std::isnan(value); }) &&
+           is_finite_point(contact.point[0]) && is_finite_point(contact.point[1]);
+}
+
+std::optional<Damage> damage_of_contacts(const Model& model, const State& state)
+{
+    const Index parts = model.shapes.parts();
+    std::pair<Index, Index> last{-1, -1};
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        const Contact contact = state.contacts.get(i);
+        const std::pair<Index, Index> pair{contact.part_a, contact.part_b};
+        if (pair.first < 0 || pair.first >= pair.second || pair.second >= parts || pair <= last)
+            return Damage{"/contacts/features", "not ascending pairs of parts"};
+        if (!has_features_of_its_parts(model, contact))
+            return Damage{"/contacts/features", "not those of its parts"};
+        if (state.contacts.stale[i] > 1 || !has_finite_numbers(contact))
+            return Damage{"/contacts", "not a finite number, or an unknown regime"};
+        last = pair;
+    }
+    return std::nullopt;
+}
+}  // namespace
+
+bool is_permutation(const std::vector<Index>& order)
+{
+    std::vector<bool> seen(order.size(), false);
+    for (const Index i : order)
+    {
+        if (i < 0 || i >= static_cast<Index>(order.size()) || seen[i])
+            return false;
+        seen[i] = true;
+    }
+    return true;
+}
+
+std::optional<Damage> find_damage(const Model& model, const State& state)
+{
+    if (auto damage = damage_of_run(model, state))
+        return damage;
+    if (auto damage = damage_of_blocks(model, state))
+        return damage;
+    return damage_of_contacts(model, state);
+}
+}  // namespace hdem

@@ -1,0 +1,149 @@
+#include "core/model/block_order.h"
+#include "core/rock/build_model.h"
+#include "core/state/state_hash.h"
+#include "io/checkpoint.h"
+#include "parallel/stages.h"
+#include "verification/scenes/scenes.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace hdem
+{
+namespace
+{
+using test::ScratchFolder;
+
+/// Saves the run at one cycle, or breaks it off there.
+class SaveAt : public Keeper
+{
+  public:
+    SaveAt(std::filesystem::path folder, std::int64_t cycle, bool go_on) : folder_(std::move(folder)), cycle_(cycle), go_on_(go_on)
+    {
+    }
+    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return now < cycle_ ? cycle_ : never; }
+    [[nodiscard]] bool keep(const Simulation& simulation) override
+    {
+        if (simulation.state().cycle != cycle_)
+            return true;
+        write_checkpoint(folder_, {}, simulation.model(), simulation.state());
+        return go_on_;
+    }
+
+  private:
+    std::filesystem::path folder_;
+    std::int64_t cycle_;
+    bool go_on_;
+};
+
+struct Ended
+{
+    std::uint64_t hash = 0;
+    std::int64_t cycle = 0;
+    std::vector<std::int64_t> stage_cycles;
+    std::vector<double> ledger;
+    std::int64_t counters = 0;
+
+    bool operator==(const Ended&) const = default;
+};
+
+Ended run(Simulation& simulation, Keeper* keeper)
+{
+    Ended ended;
+    for (const StageResult& stage : run_stages(simulation, {}, keeper))
+        ended.stage_cycles.insert(ended.stage_cycles.end(), {stage.first_cycle, stage.cycles, stage.converged});
+    const State& state = simulation.state();
+    const EnergyLedger& e = state.ledger;
+    ended.hash = state_hash(simulation.model(), state);
+    ended.cycle = state.cycle;
+    ended.ledger = {e.initial,       e.gravity_work,   e.load_work,    e.position_correction, e.friction,
+                    e.local_damping, e.global_damping, e.impulse_loss, e.contact_changes,     e.removed};
+    ended.counters = state.broad_phase_runs + state.feature_searches + state.excavation_cycle;
+    return ended;
+}
+
+Ended run_unbroken(const CaseDef& scene)
+{
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state));
+    return run(simulation, nullptr);
+}
+
+void run_until(const CaseDef& scene, std::int64_t cycle, const std::filesystem::path& folder)
+{
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state));
+    SaveAt keeper(folder, cycle, false);
+    run(simulation, &keeper);
+}
+
+Ended restart(const CaseDef& scene, const std::filesystem::path& folder, int threads)
+{
+    hdem::Setup setup = build_model(scene);
+    State state = CheckpointReader(checkpoint_file(folder)).state(setup.model);
+    Simulation simulation(std::move(setup.model), std::move(state), threads);
+    return run(simulation, nullptr);
+}
+
+/// A tunnel in rock: blocks fall out after the excavation; the last stage changes method and damping.
+CaseDef tunnel(Method method)
+{
+    CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 3.0);
+    scene.contact.method = method;
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {6.0, 6.0}, .diameter = 4.0}};
+    scene.stages = {{.name = "gravity", .until_converged = true, .max_cycles = 300},
+                    {.name = "dig", .cycles = 900, .excavate = {"tunnel"}},
+                    {.name = "other", .cycles = 200, .method = Method::hybrid, .damping = DampingPreset::dynamic}};
+    scene.convergence.least_cycles = 100;
+    scene.convergence.mean_speed = 1.0;
+    return scene;
+}
+
+class Checkpoint : public testing::TestWithParam<Method>
+{
+};
+
+TEST_P(Checkpoint, GivesTheUnbrokenRunToTheLastBitFromAnyCycle)
+{
+    const ScratchFolder folder("checkpoint");
+    const CaseDef scene = tunnel(GetParam());
+    const Ended unbroken = run_unbroken(scene);
+    EXPECT_GT(unbroken.cycle, 1100);
+    std::mt19937 random(1);
+    std::vector<std::int64_t> cycles = {1, unbroken.stage_cycles[1], unbroken.stage_cycles[1] + 1, unbroken.cycle};
+    while (cycles.size() < 9)
+        cycles.push_back(std::uniform_int_distribution<std::int64_t>(1, unbroken.cycle)(random));
+    for (const std::int64_t cycle : cycles)
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
+/// Blocks may be sorted anew while a run goes on; the case alone gives the order at the start.
+TEST(CheckpointReader, BringsTheModelIntoTheOrderOfTheRun)
+{
+    const ScratchFolder folder("order");
+    const CaseDef scene = tunnel(Method::hybrid);
+    run_until(scene, 700, folder.path());
+    hdem::Setup setup = build_model(scene);
+    const std::vector<Index> in_the_run = setup.model.user_number;
+    std::vector<Index> other = in_the_run;
+    std::shuffle(other.begin(), other.end(), std::mt19937(5));
+    const std::uint64_t hash = model_hash(setup.model);
+    reorder_blocks(other, setup.model);
+    ASSERT_NE(setup.model.user_number, in_the_run);
+    EXPECT_EQ(model_hash(setup.model), hash);
+
+    State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+    EXPECT_EQ(setup.model.user_number, in_the_run);
+    Simulation simulation(std::move(setup.model), std::move(state));
+    EXPECT_EQ(run(simulation, nullptr), run_unbroken(scene));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Checkpoint, testing::Values(Method::force, Method::impulse, Method::hybrid));
+}  // namespace
+}  // namespace hdem
