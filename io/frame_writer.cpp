@@ -69,10 +69,18 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
             continue;
         const Frame frame = read_frame(file);
         if (frame.cycle > state.cycle)
-            std::filesystem::remove(file);
+            younger_.push_back(file);
         else if (name.starts_with("blocks_"))
             frames_.push_back(frame);
     }
+    write_all_series();
+}
+
+void FrameWriter::remove_younger_frames()
+{
+    for (const std::filesystem::path& file : younger_)
+        std::filesystem::remove(file);
+    younger_.clear();
 }
 
 const Frame& FrameWriter::write(const Model& model, const State& state)
@@ -85,10 +93,15 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
         write_contact_frame(folder_ / frame_file("contacts", number), model, state);
     write_block_frame(folder_ / frame_file("blocks", number), model, state);
     frames_.push_back(std::move(frame));
+    write_all_series();
+    return frames_.back();
+}
+
+void FrameWriter::write_all_series() const
+{
     write_series("blocks");
     if (contacts_)
         write_series("contacts");
-    return frames_.back();
 }
 
 void FrameWriter::write_series(const std::string& kind) const

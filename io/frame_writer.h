@@ -27,8 +27,10 @@ class FrameWriter
   public:
     /// Contact frames are written when model.output.contacts says so. Frames of an earlier run in the folder are removed.
     FrameWriter(std::filesystem::path folder, const Model& model);
-    /// To go on after a restart at `state`: frames of the folder that are not younger than it stay.
+    /// To go on after a restart at `state`: frames of the folder that are not younger than it stay, the others leave the series.
     FrameWriter(std::filesystem::path folder, const Model& model, const State& state);
+    /// Remove the files of frames younger than the restart, once nothing names them any more.
+    void remove_younger_frames();
 
     const Frame& write(const Model& model, const State& state);
 
@@ -36,11 +38,13 @@ class FrameWriter
     [[nodiscard]] bool has_contacts() const { return contacts_; }
 
   private:
+    void write_all_series() const;
     void write_series(const std::string& kind) const;
 
     std::filesystem::path folder_;
     bool contacts_ = true;
     std::vector<Frame> frames_;
+    std::vector<std::filesystem::path> younger_;  ///< files of frames that a restart does away with
 };
 
 /// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks" or "contacts"

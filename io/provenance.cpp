@@ -80,5 +80,6 @@ void write_provenance(Hdf5Writer& file, const Provenance& provenance)
     file.write_texts(group + "/overrides", provenance.overrides);
     file.write_texts(group + "/command_line", provenance.command_line);
     file.write_texts(group + "/environment", provenance.environment);
+    file.write_texts(group + "/restarts", provenance.restarts);
 }
 }  // namespace hdem

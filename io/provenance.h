@@ -23,6 +23,7 @@ struct Provenance
     std::vector<std::string> environment;    ///< OMP_... variables, NAME=value
     std::string begin;                       ///< of the run, UTC, "2024-05-06T07:08:09Z"
     std::string end;                         ///< "" while it goes on
+    std::vector<std::string> restarts;       ///< "UTC cycle", one for each
 };
 
 /// Processor, host, OpenMP variables and the present time.

@@ -124,7 +124,7 @@ void ResultsWriter::write(std::span<const Frame> frames, bool contact_frames)
     const auto begin = Clock::now();
     Hdf5Writer file(file_);
     file.set_text("/", "filetype", "hdem-results");
-    file.set_attribute("/", "version", std::vector<std::int64_t>{1, 0});
+    file.set_attribute("/", "version", std::vector<std::int64_t>{1, 1});
     file.set_text("/", "hdem_version", version().number);
     file.set_text("/", "git_commit", version().commit);
     file.set_text("/", "date_and_time", timestamp());

@@ -34,10 +34,21 @@ RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Prove
     add_tables(model);
 }
 
-RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart)
+RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart,
+                         std::span<const Vec2> history_axes)
     : frames_(folder, model, restart), results_(folder / "results.h5", std::move(provenance)), take_over_(restart.cycle)
 {
     add_tables(model);
+    for (std::size_t i = 0; i < std::min(samplers_.size(), history_axes.size()); ++i)
+        samplers_[i].set_axis(history_axes[i]);
+}
+
+std::vector<Vec2> RunRecorder::history_axes() const
+{
+    std::vector<Vec2> axes;
+    for (const HistorySampler& sampler : samplers_)
+        axes.push_back(sampler.axis());
+    return axes;
 }
 
 void RunRecorder::add_tables(const Model& model)
@@ -97,14 +108,28 @@ std::int64_t RunRecorder::next_cycle(std::int64_t now) const
     return next;
 }
 
+void RunRecorder::begin_tables()
+{
+    energy_table_ = results_.add_table("/energy", energy_columns_);
+    has_tables_ = true;
+    if (take_over_ < 0)
+        return;
+    results_.take_over_rows(take_over_);
+    write_results();
+    frames_.remove_younger_frames();
+}
+
+void RunRecorder::begin_stage(const Model&, const State&)
+{
+    if (!has_tables_)
+        begin_tables();
+}
+
 void RunRecorder::observe(const Model& model, const State& state)
 {
     if (!has_tables_)
     {
-        energy_table_ = results_.add_table("/energy", energy_columns_);
-        has_tables_ = true;
-        if (take_over_ >= 0)
-            results_.take_over_rows(take_over_);
+        begin_tables();
         sample_all(model, state);
         write_frame(model, state);  // the state before the first cycle
         write_results();

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace hdem
@@ -15,25 +16,33 @@ class RunRecorder : public Observer
   public:
     /// A new run in FOLDER; frames of an earlier one are removed. Throws InputError for a history that cannot be sampled.
     RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance);
-    /// Goes on at `restart`: frames and rows of the folder up to its cycle stay.
-    RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart);
+    /// Goes on at `restart`, with the axes that were saved with it: frames and rows of the folder up to its cycle stay, younger ones go.
+    RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart,
+                std::span<const Vec2> history_axes);
 
     /// One more column of /energy; before the first cycle. Called once a row.
     using Quantity = std::function<double(const Model&, const State&)>;
     void add_energy(Column column, Quantity quantity);
 
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
+    void begin_stage(const Model& model, const State& state) override;
     void observe(const Model& model, const State& state) override;
     void end_stage(const Model& model, const State& state) override;
 
+    /// Rows that are still in memory go to the disk: what a checkpoint needs beside it.
+    void save() { write_results(); }
+    /// What histories between two blocks remember, one for each history; for a checkpoint.
+    [[nodiscard]] std::vector<Vec2> history_axes() const;
     /// A frame of this state, unless the last one shows the same cycle.
     void write_frame(const Model& model, const State& state);
-    /// Last words: everything that is still in memory. For every way a run ends, also when it is interrupted or fails.
+    /// Last words: a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
+    /// to go on from a checkpoint: it would not have these rows without the break.
     void finish(const Model& model, const State& state);
 
   private:
     void add_tables(const Model& model);
     void add_ledger();
+    void begin_tables();
     void sample_all(const Model& model, const State& state);
     void sample_energies(const Model& model, const State& state);
     void write_results();

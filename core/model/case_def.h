@@ -223,6 +223,8 @@ struct OutputDef
     std::int64_t row_every = 1000;           ///< cycles between rows on the screen and in run.log, and samples of the energy history
     std::int64_t frame_every = 0;            ///< cycles between frames; 0: at the end of each stage only
     bool contacts = true;                    ///< write contact frames as well
+    std::int64_t checkpoint_every = 0;       ///< cycles between checkpoints; 0: by wall time only
+    double checkpoint_wall_minutes = 10.0;   ///< of a clock on the wall; 0: by cycles only
 };
 
 struct CaseDef

@@ -16,13 +16,27 @@ namespace
 void add_run(CLI::App& app, RunOptions& options)
 {
     CLI::App* run = app.add_subcommand("run", "Run a case to its end and write results into a folder");
-    run->add_option("case", options.case_file, "Case file (TOML); io/case_format.md describes it")->required();
-    run->add_option("-o,--output", options.folder, "Folder of the results; default: the case file's name without its ending");
+    CLI::Option* file = run->add_option("case", options.case_file, "Case file (TOML); io/case_format.md describes it");
+    run->add_option("-o,--output", options.folder,
+                    "Folder of the results; default: the case file's name without its ending, or the checkpoint's folder");
+    run->add_option("--restart", options.restart,
+                    "Go on from this checkpoint, or from the last one in this folder; the checkpoint holds the case");
+    run->add_flag("--overwrite", options.overwrite, "Begin anew in a folder whose run was cut short");
+    run->add_option("--max-wall", options.max_wall,
+                    "Stop in time for this long on the wall, with a checkpoint and exit code 5; seconds, or with s, min, h or d")
+        ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}}))
+        ->check(CLI::PositiveNumber);
     run->add_option("--method", options.method, "Contact method instead of the case's: force, impulse or hybrid")
         ->check(CLI::IsMember({"force", "impulse", "hybrid"}));
     run->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
     run->add_option("--set", options.overrides, "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
     run->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
+    run->callback(
+        [&options, file]
+        {
+            if (options.restart.empty() && file->count() == 0)
+                throw CLI::RequiredError("case");
+        });
 }
 
 void add_check(CLI::App& app, CheckOptions& options)

@@ -7,7 +7,10 @@
 
 namespace hdem
 {
-Log::Log(const std::filesystem::path& file, bool quiet) : file_(std::fopen(file.c_str(), "w")), quiet_(quiet), interactive_(!quiet && isatty(STDERR_FILENO) != 0)
+Log::Log(const std::filesystem::path& file, bool quiet, Begin begin)
+    : file_(std::fopen(file.c_str(), begin == Begin::anew ? "w" : "a")),
+      quiet_(quiet),
+      interactive_(!quiet && isatty(STDERR_FILENO) != 0)
 {
     if (file_ == nullptr)
         throw RunError(fmt::format("{}: cannot be written (is the folder writable?). Give another folder with -o.", file.string()));
@@ -67,10 +70,12 @@ std::int64_t RowObserver::next_cycle(std::int64_t now) const
 void RowObserver::begin_stage(const Model& model, const State& state)
 {
     const StageDef& stage = model.stages[state.stage];
-    const std::int64_t most = last_cycle(stage, state.cycle, model.time_step) - state.cycle;
+    const std::int64_t most = last_cycle(stage, state.stage_begin_cycle, model.time_step) - state.stage_begin_cycle;
     stage_time_ = std::chrono::steady_clock::now();
-    stage_cycle_ = state.cycle;
+    first_cycle_ = state.cycle;
     log_.line("");
+    if (state.cycle > state.stage_begin_cycle)
+        log_.line(fmt::format("goes on after cycle {}", state.cycle));
     log_.line(stage.until_converged ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
                                                   simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
                                     : fmt::format("stage \"{}\": {} cycles", stage.name, most));
@@ -80,12 +85,12 @@ void RowObserver::begin_stage(const Model& model, const State& state)
 
 void RowObserver::observe(const Model& model, const State& state)
 {
-    if (state.cycle == stage_cycle_ || state.cycle == row_cycle_)
+    if (state.cycle == first_cycle_ || state.cycle == row_cycle_)
         return;
     const StageDef& stage = model.stages[state.stage];
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_time_).count();
-    const double rate = static_cast<double>(state.cycle - stage_cycle_) / std::max(seconds, 1e-9);
-    const double left = static_cast<double>(last_cycle(stage, stage_cycle_, model.time_step) - state.cycle) / rate;
+    const double rate = static_cast<double>(state.cycle - first_cycle_) / std::max(seconds, 1e-9);
+    const double left = static_cast<double>(last_cycle(stage, state.stage_begin_cycle, model.time_step) - state.cycle) / rate;
     const std::string left_text = (stage.until_converged ? "< " : "") + duration_text(left);
     const Equilibrium now = simulation_.equilibrium();
     if (log_.is_interactive() && next_multiple(state.cycle - 1, model.output.row_every) != state.cycle && next_cycle(state.cycle - 1) == state.cycle)

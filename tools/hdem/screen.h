@@ -16,7 +16,12 @@ namespace hdem
 class Log
 {
   public:
-    Log(const std::filesystem::path& file, bool quiet);
+    enum class Begin
+    {
+        anew,
+        behind_the_last_run
+    };
+    Log(const std::filesystem::path& file, bool quiet, Begin begin);
     ~Log();
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
@@ -47,7 +52,7 @@ class RowObserver : public Observer
     const Simulation& simulation_;
     Log& log_;
     std::chrono::steady_clock::time_point stage_time_;
-    std::int64_t stage_cycle_ = 0;
+    std::int64_t first_cycle_ = 0;  ///< of the stage, or after a restart
     std::int64_t row_cycle_ = -1;
 };
 

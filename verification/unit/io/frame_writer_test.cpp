@@ -13,6 +13,8 @@ using test::ScratchFolder;
 using test::SmallRun;
 using test::text_in;
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
 using testing::Pointwise;
 using testing::FloatEq;
 
@@ -181,6 +183,9 @@ TEST(FrameWriter, NewRunsRemoveOldFramesAndRestartsKeepThem)
     run.state.cycle = 10;
     FrameWriter restarted(folder.path(), run.model, run.state);
     ASSERT_EQ(restarted.frames().size(), 2U);
+    EXPECT_THAT(test::text_in(folder / "blocks.hdf.series"), Not(HasSubstr("blocks_000002.hdf")));
+    EXPECT_TRUE(std::filesystem::exists(folder / "frames/blocks_000002.hdf")) << "results.h5 may still name it";
+    restarted.remove_younger_frames();
     EXPECT_FALSE(std::filesystem::exists(folder / "frames/blocks_000002.hdf"));
     run.state.cycle = 15;
     EXPECT_EQ(restarted.write(run.model, run.state).number, 2);

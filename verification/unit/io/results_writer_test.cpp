@@ -1,5 +1,6 @@
 #include "core/check.h"
 #include "io/hdf5_reader.h"
+#include "io/checkpoint.h"
 #include "io/run_recorder.h"
 #include "verification/unit/small_run.h"
 
@@ -97,6 +98,12 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     test::load_contact(run, 0, 0.0, 0.0, Regime::open);    // a frame without contacts
     show(run, recorder, 40);
     recorder.finish(run.model, run.state);
+    RunRecord record;
+    record.files = {{"a.wkt", "# none"}};
+    record.history_axes = recorder.history_axes();
+    run.state.rebuilt_at = run.state.blocks.motion;
+    run.state.stages_done = {{.cycles = 7, .converged = true}};
+    write_checkpoint(folder.path(), record, run.model, run.state);
     const std::string source = HDEM_SOURCE_DIR;
     const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source + "/io/hdf5_format.md " +
                                 folder.path().string() + " > " + (folder / "log").string() + " 2>&1";
@@ -114,8 +121,10 @@ TEST(RunRecorder, RestartKeepsWhatLedToIt)
         recorder.end_stage(run.model, run.state);
     }
     run.state.cycle = 40;
-    RunRecorder recorder(folder.path(), run.model, some_provenance(), run.state);
-    recorder.observe(run.model, run.state);
+    RunRecorder recorder(folder.path(), run.model, some_provenance(), run.state, {});
+    recorder.begin_stage(run.model, run.state);
+    EXPECT_THAT(Hdf5Reader(folder / "results.h5").read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 20, 40));
+    EXPECT_FALSE(std::filesystem::exists(folder / "frames/blocks_000003.hdf")) << "of cycle 60";
     show(run, recorder, 50);
     recorder.finish(run.model, run.state);
     const Hdf5Reader in(folder / "results.h5");

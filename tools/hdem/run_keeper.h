@@ -1,0 +1,54 @@
+#pragma once
+/// Takes checkpoints of a run, and breaks it off when a signal or the time on the wall says so.
+
+#include "io/checkpoint.h"
+#include "io/run_recorder.h"
+#include "parallel/stages.h"
+#include "tools/hdem/screen.h"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace hdem
+{
+class RunKeeper : public Keeper
+{
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    struct Settings
+    {
+        std::filesystem::path folder;
+        OutputDef output;
+        Clock::time_point begin;         ///< of this program
+        std::optional<double> max_wall;  ///< the run is broken off in time for this [s]
+    };
+
+    /// @param record of the run until now; its wall time counts on from there
+    RunKeeper(Settings settings, RunRecord record, RunRecorder& recorder, Log& log);
+
+    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
+    [[nodiscard]] bool keep(const Simulation& simulation) override;
+
+    /// The run has come to its end.
+    void finish(const Simulation& simulation);
+
+    /// Exit code of a run that was broken off; nothing for one that was not.
+    [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
+    /// Since the run first began, over all restarts [s].
+    [[nodiscard]] double wall_seconds() const;
+
+  private:
+    void save(const Simulation& simulation);
+
+    Settings settings_;
+    RunRecord record_;
+    RunRecorder& recorder_;
+    Log& log_;
+    double earlier_seconds_ = 0.0;  ///< spent by earlier programs
+    Clock::time_point last_save_;
+    double save_seconds_ = 0.0;  ///< that the last checkpoint took
+    std::optional<int> exit_code_;
+};
+}  // namespace hdem

@@ -1,0 +1,194 @@
+#include "tools/hdem/run_report.h"
+
+#include "core/energy_ledger.h"
+#include "core/state/state_hash.h"
+#include "core/version.h"
+#include "io/digest.h"
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <thread>
+
+namespace hdem
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+std::string method_name(Method method)
+{
+    return method == Method::force ? "force" : (method == Method::impulse ? "impulse" : "hybrid");
+}
+
+Index free_blocks(const State& state)
+{
+    Index count = 0;
+    for (Index i = 0; i < state.blocks.size(); ++i)
+        count += state.blocks.is_free(i) ? 1 : 0;
+    return count;
+}
+
+Index present_blocks(const State& state)
+{
+    return std::accumulate(state.blocks.present.begin(), state.blocks.present.end(), Index{0});
+}
+
+double smallest_free_mass(const Model& model, const State& state)
+{
+    double mass = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < model.blocks(); ++i)
+        if (state.blocks.is_free(i))
+            mass = std::min(mass, model.mass[i]);
+    return mass;
+}
+
+/// As OpenMP counts them: those this process may run on.
+int processors_at_hand()
+{
+    cpu_set_t processors;
+    CPU_ZERO(&processors);
+    if (::sched_getaffinity(0, sizeof processors, &processors) != 0)
+        return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+    return std::max(CPU_COUNT(&processors), 1);
+}
+
+std::string origin_of_threads(const RunOptions& options)
+{
+    if (options.threads)
+        return "--threads";
+    return std::getenv("OMP_NUM_THREADS") != nullptr ? "OMP_NUM_THREADS" : "the processors at hand";
+}
+
+double peak_megabytes()
+{
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+}  // namespace
+
+double cpu_seconds()
+{
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& time)
+    { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation)
+{
+    const Model& model = simulation.model();
+    const State& state = simulation.state();
+    log.line(std::string(version_line()));
+    log.line(fmt::format("case      {} (SHA-256 {:.12}...){}", start.record.case_file, sha256_hex(start.record.case_text),
+                         model.title.empty() ? "" : fmt::format(": {}", model.title)));
+    for (const std::string& note : start.notes)
+        log.line(note);
+    log.line(fmt::format("blocks    {}, of which {} free; smallest free one {:.4g} kg", present_blocks(state), free_blocks(state),
+                         smallest_free_mass(model, state)));
+    const RockMass& rock = start.loaded.setup.rock;
+    if (rock.joints > 0)
+        log.line(fmt::format(
+            "joints    {} traces, {} cuts; {} cuts refused (piece or edge too small), {} skipped by persistence, {} slivers merged",
+            rock.joints, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers));
+    log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
+                         simulation.count_contacts().closed()));
+    log.line(fmt::format("method    {}; threshold scale {:.4g}", method_name(state.method), model.threshold_scale));
+    log.line(fmt::format("threads   {} ({})", simulation.threads(), origin_of_threads(options)));
+    log.line(fmt::format("time step {:.4g} s; Eq. (32) {:.4g} s, stable limit of the present contacts {:.4g} s", model.time_step,
+                         model.paper_time_step, simulation.critical_step()));
+    log.line(fmt::format("memory    {:.0f} MB", peak_megabytes()));
+    if (const int processors = processors_at_hand(); simulation.threads() > processors)
+        log.line(fmt::format(
+            "warning: threads = {} (more than the {} processors at hand: they wait for each other, which is slow). Give "
+            "--threads {}.",
+            simulation.threads(), processors, processors));
+    for (const Problem& warning : start.loaded.warnings)
+        log.line(warning.text);
+}
+
+RunSummary summarise(const RunStart& start, const Simulation& simulation, const std::vector<StageResult>& stages,
+                     const Session& session, double wall_seconds)
+{
+    const Model& model = simulation.model();
+    const State& state = simulation.state();
+    const Equilibrium now = simulation.equilibrium();
+    const DisplacementReport moved = report_displacements(model, state);
+    RunSummary s;
+    s.case_name = fs::path(start.record.case_file).filename().string();
+    s.title = model.title;
+    s.method = method_name(state.method);
+    s.threads = simulation.threads();
+    s.version = version().number;
+    s.git_commit = version().commit;
+    s.blocks = present_blocks(state);
+    s.free_blocks = free_blocks(state);
+    s.contact_points = simulation.count_contacts().closed();
+    s.time_step = model.time_step;
+    s.paper_time_step = model.paper_time_step;
+    s.smallest_block_mass = smallest_free_mass(model, state);
+    s.cycles = state.cycle;
+    s.time = state.time;
+    s.converged = std::ranges::all_of(stages, [](const StageResult& stage) { return stage.converged || !stage.until_converged; });
+    if (state.excavation_cycle >= 0)
+        s.cycles_after_excavation = state.cycle - state.excavation_cycle;
+    for (const StageResult& stage : stages)
+        s.stages.push_back(
+            {.name = stage.name, .cycles = stage.cycles, .until_converged = stage.until_converged, .converged = stage.converged});
+    s.kinetic_energy = now.kinetic_energy;
+    s.kinetic_energy_limit = now.kinetic_energy_at(model.convergence.mean_speed);
+    s.unbalanced_force_ratio = now.unbalanced_force_ratio();
+    s.mean_displacement = moved.mean;
+    s.max_displacement = moved.greatest;
+    s.mean_displacement_all = moved.mean_all;
+    s.max_displacement_all = moved.greatest_all;
+    for (const Index block : moved.detached)
+        s.detached_blocks.push_back(model.name[block]);
+    s.energy = state.ledger;
+    s.stored = stored_energy(model, state);
+    s.wall_seconds = wall_seconds;
+    s.contact_point_updates_per_second = static_cast<double>(simulation.contact_point_updates()) / std::max(session.seconds, 1e-9);
+    s.state_hash = state_hash(model, state);
+    for (const Problem& warning : start.loaded.warnings)
+        s.warnings.push_back(warning.text);
+    return s;
+}
+
+void print_closing(Log& log, const RunSummary& s, const Session& session, const ContactCounts& contacts, const fs::path& folder)
+{
+    log.line("");
+    const bool aimed = std::ranges::any_of(s.stages, &StageSummary::until_converged);
+    log.line(fmt::format(
+        "{} after {} cycles ({:.4g} s){}", !aimed ? "done" : (s.converged ? "converged" : "NOT converged"), s.cycles, s.time,
+        s.cycles_after_excavation ? fmt::format(", {} of them after the excavation", *s.cycles_after_excavation) : ""));
+    log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
+                         s.kinetic_energy_limit, s.unbalanced_force_ratio));
+    log.line(fmt::format("displacement {}: mean {:.4g} mm, greatest {:.4g} mm; all blocks: mean {:.4g} mm, greatest {:.4g} mm",
+                         s.cycles_after_excavation ? "next to the excavation" : "of free blocks", 1e3 * s.mean_displacement,
+                         1e3 * s.max_displacement, 1e3 * s.mean_displacement_all, 1e3 * s.max_displacement_all));
+    log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
+                         fmt::join(s.detached_blocks, ", ")));
+    const EnergyLedger& e = s.energy;
+    log.line(fmt::format(
+        "energy [J]: at the start {:.4g}, gravity {:.4g}, loads {:.4g}, position correction {:.4g} -> friction {:.4g}, "
+        "local damping {:.4g}, global damping {:.4g}, impulses {:.4g}, contact changes {:.4g}, removed {:.4g}, stored {:.4g}; "
+        "residual {:.2g} ({:.1e} of the largest)",
+        e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
+        e.impulse_loss, e.contact_changes, e.removed, s.stored.total(), residual(e, s.stored), relative_residual(e, s.stored)));
+    log.line(
+        fmt::format("contact points: {} stick, {} slip, {} impulse", contacts.points[1], contacts.points[2], contacts.points[3]));
+    const double seconds = std::max(session.seconds, 1e-9);
+    log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
+                         "at most {:.0f} MB",
+                         duration_text(s.wall_seconds), static_cast<double>(s.cycles - session.first_cycle) / seconds,
+                         1e-6 * s.contact_point_updates_per_second, session.cpu_seconds / seconds, s.threads, peak_megabytes()));
+    log.line(fmt::format("state hash {:016x}", s.state_hash));
+    log.line(fmt::format("results in {}", folder.string()));
+}
+}  // namespace hdem

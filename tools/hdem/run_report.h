@@ -1,0 +1,30 @@
+#pragma once
+/// What a run says about itself at its beginning and at its end.
+
+#include "io/summary.h"
+#include "parallel/stages.h"
+#include "tools/hdem/run_start.h"
+#include "tools/hdem/screen.h"
+
+namespace hdem
+{
+/// Since this program began, or since it went on from a checkpoint.
+struct Session
+{
+    std::int64_t first_cycle = 0;
+    double seconds = 0.0;      ///< in cycles
+    double cpu_seconds = 0.0;  ///< likewise, over all threads
+};
+
+/// Processor time of this program, over all threads [s].
+[[nodiscard]] double cpu_seconds();
+
+void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation);
+
+/// @param wall_seconds of the whole run, over all restarts
+RunSummary summarise(const RunStart& start, const Simulation& simulation, const std::vector<StageResult>& stages,
+                     const Session& session, double wall_seconds);
+
+void print_closing(Log& log, const RunSummary& summary, const Session& session, const ContactCounts& contacts,
+                   const std::filesystem::path& folder);
+}  // namespace hdem

@@ -1,0 +1,179 @@
+#include "tools/hdem/run_start.h"
+
+#include "io/provenance.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+namespace hdem
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& text)
+{
+    throw InputError(Problem{.key = {}, .text = text});
+}
+
+std::vector<Override> parsed(const std::vector<std::string>& texts)
+{
+    std::vector<Override> overrides;
+    for (const std::string& text : texts)
+        overrides.push_back(parse_override(text));
+    return overrides;
+}
+
+/// --set and --method, as a case would say them.
+std::vector<std::string> overrides_of(const RunOptions& options)
+{
+    std::vector<std::string> texts = options.overrides;
+    if (options.method)
+        texts.push_back("contact.method=\"" + *options.method + '"');
+    return texts;
+}
+
+RunStart start_anew(const RunOptions& options)
+{
+    RunStart start;
+    start.record.overrides = overrides_of(options);
+    start.loaded = load_case(options.case_file, parsed(start.record.overrides));
+    start.record.case_file = options.case_file;
+    start.record.case_text = start.loaded.file.source.text();
+    start.record.files = start.loaded.file.files;
+    start.record.begin = timestamp();
+    start.folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem()) : fs::path(options.folder);
+    return start;
+}
+
+struct Found
+{
+    fs::path file;
+    CheckpointReader reader;
+};
+
+/// The checkpoint itself, or the last one of a folder that can be read.
+Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
+{
+    if (!fs::is_directory(given))
+    {
+        if (!fs::exists(given))
+            refuse(fmt::format("--restart {}: (does not exist). Give a checkpoint, or the folder of a run.", given.string()));
+        return {given, CheckpointReader(given)};
+    }
+    const fs::path last = checkpoint_file(given);
+    const fs::path previous = previous_checkpoint_file(given);
+    if (!fs::exists(last) && !fs::exists(previous))
+        refuse(fmt::format("--restart {}: (holds no checkpoint). Give a checkpoint, or the folder of a run that has one.",
+                           given.string()));
+    try
+    {
+        if (fs::exists(last))
+            return {last, CheckpointReader(last)};
+    }
+    catch (const InputError& error)
+    {
+        if (!fs::exists(previous))
+            throw;
+        notes.push_back(fmt::format("warning: {}", error.what()));
+    }
+    notes.push_back(fmt::format("warning: {} cannot be used: going on from {}", last.string(), previous.string()));
+    return {previous, CheckpointReader(previous)};
+}
+
+/// May a run that goes on have another value? Everything but what says how far it goes and what is written.
+bool is_free_to_change(const std::string& key)
+{
+    const std::string section = key.substr(0, key.find_first_of(".["));
+    const std::string name = key.substr(std::min(key.rfind('.'), key.size() - 1) + 1);
+    return section == "output" || section == "convergence" ||
+           (section == "stage" && (name == "cycles" || name == "max_cycles" || name == "duration"));
+}
+
+/// Overrides given now, behind those the run began with.
+std::vector<std::string> merged_overrides(const RunOptions& options, std::vector<std::string> overrides)
+{
+    const std::vector<std::string> at_first = overrides;
+    for (const std::string& text : overrides_of(options))
+    {
+        if (std::find(at_first.begin(), at_first.end(), text) != at_first.end())
+            continue;
+        if (!is_free_to_change(parse_override(text).key))
+            refuse(fmt::format(
+                "{}: (a run that goes on keeps its blocks, joints and laws; it began with {}). Leave it away, or begin a "
+                "new run. Free to change are output, convergence, and how long stages last.",
+                text, at_first.empty() ? "the case file alone" : fmt::format("{}", fmt::join(at_first, ", "))));
+        overrides.push_back(text);
+    }
+    return overrides;
+}
+
+void check_same_case(const RunOptions& options, const RunRecord& record)
+{
+    if (options.case_file.empty())
+        return;
+    std::ifstream in(options.case_file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in && !in.eof())
+        refuse(fmt::format("{}: case: (cannot be read). Leave it away: the checkpoint holds the case.", options.case_file));
+    if (text != record.case_text)
+        refuse(fmt::format("{}: case: (is not the one that the run began with). Leave it away: the checkpoint holds the case.",
+                           options.case_file));
+}
+
+RunStart start_again(const RunOptions& options)
+{
+    RunStart start;
+    start.restarted = true;
+    const Found found = find_checkpoint(options.restart, start.notes);
+    start.record = found.reader.record();
+    RunRecord& record = start.record;
+    check_same_case(options, record);
+    record.overrides = merged_overrides(options, record.overrides);
+    start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
+    start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
+    record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
+    start.folder = options.folder;
+    if (options.folder.empty())
+        start.folder = found.file.has_parent_path() ? found.file.parent_path() : fs::path(".");
+    start.notes.push_back(
+        fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));
+    return start;
+}
+}  // namespace
+
+RunStart start_run(const RunOptions& options)
+{
+    return options.restart.empty() ? start_anew(options) : start_again(options);
+}
+
+void clear_for_new_run(const fs::path& folder, bool overwrite)
+{
+    const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
+    if (!overwrite && fs::exists(checkpoints[0]))
+    {
+        std::optional<CheckpointReader> reader;
+        try
+        {
+            reader.emplace(checkpoints[0]);
+        }
+        catch (const InputError&)
+        {
+            refuse(fmt::format("{}: (cannot be read). Write to another folder with -o, or begin anew with --overwrite.",
+                               checkpoints[0].string()));
+        }
+        if (!reader->record().finished)
+            refuse(fmt::format(
+                "{}: (the run in this folder was cut short, its last checkpoint is of cycle {}). Go on with --restart {}, "
+                "write to another folder with -o, or begin anew with --overwrite.",
+                checkpoints[0].string(), reader->cycle(), folder.string()));
+    }
+    for (const fs::path& checkpoint : checkpoints)
+        fs::remove(checkpoint);
+}
+}  // namespace hdem
