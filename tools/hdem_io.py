@@ -164,11 +164,18 @@ class Run:
         edges (n, 2, 2), edge_block: outer edges. outline (n, 2, 2): edges around excavations.
         info: dict with cycle, time, stage, title and so on.
         """
-        return read_blocks(self.folder / "frames" / f"blocks_{self.frame(frame).number:06d}.hdf")
+        return read_blocks(self._file("blocks", frame))
 
     def contacts(self, frame="last"):
         """Arrays with one entry per contact: the frame's cell data, and points (n, 2, 2), its two ends."""
-        return read_contacts(self.folder / "frames" / f"contacts_{self.frame(frame).number:06d}.hdf")
+        return read_contacts(self._file("contacts", frame))
+
+    def has_contacts(self, frame="last"):
+        """Whether this frame has contacts: output.contacts of the case."""
+        return self._file("contacts", frame).exists()
+
+    def _file(self, kind, frame):
+        return self.folder / "frames" / f"{kind}_{self.frame(frame).number:06d}.hdf"
 
     def _table(self, path):
         with self._results() as results:

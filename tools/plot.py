@@ -27,6 +27,8 @@ GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "
 MATERIALS = ["#e8d9b5", "#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2", "#f0e442", "#d55e00"]
 SEQUENTIAL, DIVERGING = "YlGnBu", "RdBu_r"
 REGIMES = ["no contact", "force", "impulse"]
+STYLE = {"font.size": 8, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
+         "hatch.linewidth": 0.5, "legend.fontsize": 7.5, "svg.hashsalt": "hdem", "svg.fonttype": "none"}
 
 # name -> label, unit, value per block, whether both signs occur
 FIELDS = {
@@ -262,8 +264,7 @@ def draw_history(run, options):
 
 def main(arguments):
     options = parse(arguments)
-    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
-                         "hatch.linewidth": 0.5, "legend.fontsize": 7.5, "svg.hashsalt": "hdem", "svg.fonttype": "none"})
+    plt.rcParams.update(STYLE)
     try:
         if not options.result.exists():
             raise ResultError(f"{options.result}: no such file or folder")

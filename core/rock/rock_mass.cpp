@@ -164,9 +164,8 @@ void add_generated(const CaseDef& def, const Domain& domain, CutMass& mass, Rock
         {
             merge_convex_parts(from.parts);
         }
-        places.push_back({from.excavation, {}, blocks.size()});
         blocks.push_back(finished(from, def, domain));
-        places.back().centroid = moments(blocks.back()).centroid;
+        places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
         from = {};  // a million of them need not wait
     }
     std::sort(places.begin(), places.end(),

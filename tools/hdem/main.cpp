@@ -4,7 +4,7 @@
 #include "core/version.h"
 #include "io/case_format.h"
 #include "tools/hdem/options.h"
-#include "tools/hdem/plot.h"
+#include "tools/hdem/script.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,6 +48,15 @@ void add_check(CLI::App& app, CheckOptions& options)
     check->add_option("--wkt", options.wkt_file, "Write the blocks to this file as WKT polygons");
 }
 
+/// A command whose options are read by a script.
+CLI::App* add_script(CLI::App& app, const std::string& name, const std::string& what)
+{
+    CLI::App* script = app.add_subcommand(name, what);
+    script->prefix_command();
+    script->set_help_flag();
+    return script;
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("hdem: hybrid discrete element method for jointed rock in two dimensions", "hdem");
@@ -62,10 +71,8 @@ int dispatch(int argc, char** argv)
     add_check(app, check);
     CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
     schema->add_flag("--markdown", markdown, "Print io/case_format.md instead");
-    // The picture's own options are read by tools/plot.py.
-    CLI::App* plot = app.add_subcommand("plot", "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
-    plot->prefix_command();
-    plot->set_help_flag();
+    CLI::App* plot = add_script(app, "plot", "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
+    CLI::App* report = add_script(app, "report", "Make one HTML page of a run: hdem report FOLDER [-o FILE.html]");
     try
     {
         app.parse(argc, argv);
@@ -80,7 +87,9 @@ int dispatch(int argc, char** argv)
         return exit_done;
     }
     if (*plot)
-        return run_plot(plot->remaining());
+        return run_script("plot", "plot.py", plot->remaining());
+    if (*report)
+        return run_script("report", "run_report.py", report->remaining());
     return app.got_subcommand("run") ? run_command(run) : check_command(check);
 }
 }  // namespace

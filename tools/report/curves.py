@@ -57,7 +57,8 @@ class Looks:
         rows = []
         for group in self.groups:
             title = f'<li class="note">{escape(", ".join(group["shows"]))}</li>' if len(self.groups) > 1 else ""
-            rows.append(title + "".join(f"<li>{swatch(look)}{escape(name)}</li>" for name, look in group["lines"].items() if name))
+            entries = "".join(f"<li>{swatch(look)}{escape(name)}</li>" for name, look in group["lines"].items() if name)
+            rows += [title + entries] if entries else []
         if self.marks:
             rows.append("".join(f"<li>{swatch(look, upright=True)}{escape(name)}</li>" for name, look in self.marks.items()))
         return "".join(f'<ul class="legend">{row}</ul>' for row in rows)

@@ -2,33 +2,18 @@
 import re
 from collections import Counter
 from html import escape
-from pathlib import Path
 
 import curves
 import maps
+from shell import anchor, card, document, number
 
 LONG_TABLE = 60    # rows; longer ones are folded
 GROUPS = {"paper": "The paper's tables and figures", "closed_form": "Closed forms", "": "Other"}
 VERDICTS = {True: ("met", "✓ met"), False: ("missed", "✗ missed"), None: ("informs", "informs")}
 
 
-def anchor(name):
-    return re.sub(r"[^A-Za-z0-9]+", "-", name)
-
-
 def group_of(check):
     return next((group for group in GROUPS if group and check.startswith(group + ".")), "")
-
-
-def number(value):
-    """Six digits; powers of ten written out."""
-    if value is None:
-        return "–"
-    text = f"{value:.6g}"
-    if "e" in text:
-        digits, power = text.split("e")
-        text = f"{digits} × 10<sup>{int(power)}</sup>".replace("<sup>-", "<sup>−")
-    return text.replace("-", "−")
 
 
 def deviation(row):
@@ -112,17 +97,17 @@ def section(check, rows, figures):
 def summary(checks, rows, build):
     counts = count(rows)
     missed = [row for row in rows if row["pass"] is False]
-    cards = "".join(f'<div class="card {kind}"><b>{counts[kind]}</b>{text}</div>' for kind, text in (
+    cards = "".join(card(counts[kind], text, kind) for kind, text in (
         ("met", "bars met"), ("missed", "bars missed"), ("informs", "rows without a bar")))
     version = f'<p class="note">{escape(build["line"])}</p>' if build else '<p class="note">version unknown: made without --curves</p>'
-    text = f'<header id="top"><h1>hdem: verification</h1>{version}<div class="cards">{cards}<div class="card"><b>{len(checks)}</b>checks</div></div></header>'
+    text = f'<header id="top"><h1>hdem: verification</h1>{version}<div class="cards">{cards}{card(len(checks), "checks")}</div></header>'
     if missed:
         text += f'<section id="missed"><h2>Bars that are missed</h2>{table(missed, with_check=True)}</section>'
     return text
 
 
 def contents(checks, rows_of):
-    text = '<nav><a class="home" href="#top">Summary</a>'
+    text = '<a class="home" href="#top">Summary</a>'
     if any(row["pass"] is False for rows in rows_of.values() for row in rows):
         text += '<a href="#missed">Missed bars</a>'
     for group, title in GROUPS.items():
@@ -133,7 +118,7 @@ def contents(checks, rows_of):
             missed = count(rows_of[check["name"]])["missed"]
             flag = f'<span class="missed">{missed} ✗</span>' if missed else '<span class="met">✓</span>'
             text += f'<a href="#{anchor(check["name"])}">{escape(check["name"])} {flag}</a>'
-    return text + "</nav>"
+    return text
 
 
 def build(rows, drawn):
@@ -149,6 +134,4 @@ def build(rows, drawn):
         inside = [check for check in checks if group_of(check["name"]) == group]
         main += f"<h2>{escape(title)}</h2>" if inside else ""
         main += "".join(section(check, rows_of[check["name"]], [f for f in figures if f["check"] == check["name"]]) for check in inside)
-    style = (Path(__file__).parent / "style.css").read_text(encoding="utf-8")
-    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
-            f"<title>hdem: verification</title><style>{style}</style></head>\n<body>{contents(checks, rows_of)}<main>{main}</main></body></html>\n")
+    return document("hdem: verification", contents(checks, rows_of), main)

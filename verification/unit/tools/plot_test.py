@@ -24,53 +24,7 @@ HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(TOOLS))
 import hdem_io    # noqa: E402
 import plot       # noqa: E402
-
-# A concave block on a ground beside a prop that is removed, and a block that falls 0.2 m.
-CASE = """
-title = "Small run"
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 30.0
-[time]
-step = 1e-4
-[convergence]
-detached_distance = 0.05
-[[block]]
-name = "ground"
-polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]
-fixed = true
-[[block]]
-name = "l"
-polygon = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
-[[block]]
-name = "prop"
-polygon = [[6, 0], [7, 0], [7, 1], [6, 1]]
-[[block]]
-name = "ball"
-polygon = [[4, 0.2], [5, 0.2], [5, 1.2], [4, 1.2]]
-[[stage]]
-name = "settle"
-cycles = 200
-[[stage]]
-name = "fall"
-cycles = 1500
-excavate = ["prop"]
-[output]
-row_every = 100
-[[history]]
-name = "rest"
-between = ["ground", "l"]
-quantities = ["normal_force", "overlap"]
-every = 10
-[[history]]
-name = "ball"
-block = "ball"
-quantities = ["displacement", "speed"]
-every = 10
-"""
+import small_case    # noqa: E402
 
 
 def area(polygon):
@@ -82,10 +36,7 @@ class SmallRun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_plot_test_")
-        cls.folder = Path(cls.scratch.name) / "out"
-        case = Path(cls.scratch.name) / "small.toml"
-        case.write_text(CASE, encoding="utf-8")
-        subprocess.run([HDEM, "run", case, "-o", cls.folder, "--quiet"], check=True)
+        cls.folder = small_case.run(HDEM, Path(cls.scratch.name))
         cls.run_ = hdem_io.open_run(cls.folder)
 
     @classmethod
@@ -134,7 +85,7 @@ class SmallRun(unittest.TestCase):
         self.assertAlmostEqual(rest["normal_force"][-1] / (3.0 * 2700.0 * 9.81), 1.0, places=2)
         self.assertEqual(sorted(self.run_.history("ball")), ["cycle", "displacement_x", "displacement_y", "speed", "time"])
         self.assertIn("kinetic_energy", self.run_.energy())
-        self.assertEqual(self.run_.provenance()["case_text"], CASE)
+        self.assertEqual(self.run_.provenance()["case_text"], small_case.CASE)
         with self.assertRaisesRegex(hdem_io.ResultError, "ball, rest"):
             self.run_.history("nothing")
 

@@ -1,4 +1,4 @@
-#include "tools/hdem/plot.h"
+#include "tools/hdem/script.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,15 +24,15 @@ std::filesystem::path shared_folder()
 }
 }  // namespace
 
-int run_plot(const std::vector<std::string>& arguments)
+int run_script(const std::string& command, const std::string& script, const std::vector<std::string>& arguments)
 {
-    const std::string script = (shared_folder() / "plot.py").string();
-    if (::access(script.c_str(), R_OK) != 0)
+    const std::string file = (shared_folder() / script).string();
+    if (::access(file.c_str(), R_OK) != 0)
     {
-        fmt::print(stderr, "error: hdem plot: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n", script);
+        fmt::print(stderr, "error: hdem {}: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n", command, file);
         return 1;
     }
-    std::vector<std::string> words = {python, script};
+    std::vector<std::string> words = {python, file};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words)
@@ -40,7 +40,8 @@ int run_plot(const std::vector<std::string>& arguments)
     argv.push_back(nullptr);
     std::fflush(nullptr);
     ::execv(python, argv.data());
-    fmt::print(stderr, "error: hdem plot: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", python, std::strerror(errno));
+    fmt::print(stderr, "error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command, python,
+               std::strerror(errno));
     return 1;
 }
 }  // namespace hdem

@@ -1,0 +1,158 @@
+"""The page of one run: summary, pictures, histories, energies, timing, provenance as one HTML file."""
+from html import escape
+
+import numpy as np
+
+import run_figures
+from hdem_io import ResultError
+from shell import anchor, card, document, number
+
+# of summary.json, what it is, unit
+OUTCOME = [("method", "contact method", ""), ("cycles", "cycles", ""), ("cycles_after_excavation", "cycles after the excavation", ""),
+           ("time", "simulated time", "s"), ("time_step", "time step", "s"), ("paper_time_step", "time step of Eq. (32)", "s"),
+           ("blocks", "blocks at the end", ""), ("free_blocks", "of them free", ""), ("smallest_block_mass", "mass of the smallest free block", "kg/m"),
+           ("contact_points", "closed contact points", ""), ("kinetic_energy", "kinetic energy", "J"), ("kinetic_energy_limit", "its limit", "J"),
+           ("unbalanced_force_ratio", "unbalanced force ratio", ""), ("mean_displacement", "mean displacement next to the excavation", "m"),
+           ("max_displacement", "greatest displacement next to the excavation", "m"), ("mean_displacement_all", "mean displacement of all free blocks", "m"),
+           ("max_displacement_all", "greatest displacement of all free blocks", "m"), ("state_hash", "hash of the final state", "")]
+# term of the ledger -> what it is, +1 put in, -1 taken out, 0 stored at the end
+LEDGER = {"initial": ("stored at the start", 1), "gravity_work": ("work of gravity", 1), "load_work": ("work of loads and prescribed motions", 1),
+          "position_correction": ("put in by the position correction", 1), "friction": ("spent by slip of springs", -1),
+          "local_damping": ("spent by local damping", -1), "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),
+          "contact_changes": ("taken by changes of contacts", -1), "removed": ("gone with removed blocks", -1), "kinetic_energy": ("kinetic", 0),
+          "elastic_normal": ("in normal springs", 0), "elastic_shear": ("in shear springs", 0)}
+BALANCE = {1: "put in", -1: "taken out", 0: "stored at the end"}
+
+
+def cell(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return number(value) if isinstance(value, (int, float)) or value is None else escape(str(value))
+
+
+def facts(rows):
+    """Two columns: what, and its value with its unit."""
+    return ('<div class="wide"><table class="facts"><tbody>'
+            + "".join(f'<tr><th>{escape(what)}</th><td>{cell(value)}{" " + escape(unit) if unit else ""}</td></tr>' for what, value, unit in rows)
+            + "</tbody></table></div>")
+
+
+def folded(title, text):
+    return f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
+
+
+def section(title, body):
+    return f'<section id="{anchor(title)}"><h2>{escape(title)}</h2>{body}</section>' if body else ""
+
+
+def outcome_card(summary):
+    if not summary:
+        return card("open", "has not ended", "missed")
+    if not any(stage["until_converged"] for stage in summary["stages"]):
+        return card("done", "as many cycles as asked for", "met")
+    return card("converged", "every stage that should", "met") if summary["converged"] else card("not converged", "within its limit of cycles", "missed")
+
+
+def duration(seconds):
+    minutes, hours = int(seconds + 0.5) // 60, int(seconds + 0.5) // 3600
+    return f"{seconds:.1f} s" if minutes == 0 else f"{minutes} min {int(seconds + 0.5) % 60:02d} s" if hours == 0 else f"{hours} h {minutes % 60:02d} min"
+
+
+def metres(value):
+    return f"{1e3 * value:.3g} mm" if abs(value) < 1.0 else f"{value:.3g} m"
+
+
+def head(run, summary, last):
+    title = last["info"]["title"] or run.provenance()["case_file"]
+    where = run.provenance()
+    cards = outcome_card(summary) + card(len(last["id"]), "blocks") + card(f'{last["info"]["cycle"]:,}'.replace(",", "\u202f"), "cycles")
+    cards += card(int(np.count_nonzero(last["detached"])), "detached blocks")
+    if summary:
+        cards += card(metres(summary["max_displacement"]), "greatest displacement of what stands") + card(duration(summary["wall_seconds"]), "wall time")
+    note = "" if summary else '<p class="note">summary.json is missing: the run goes on, or was killed. The page shows what there is.</p>'
+    return (f'<header id="top"><h1>{escape(title)}</h1><p class="note">{escape(where["case_file"])}, hdem {escape(where["hdem_version"])}, '
+            f'{escape(where["begin"])}</p>{note}<div class="cards">{cards}</div></header>')
+
+
+def stages(summary):
+    rows = "".join(f'<tr><td>{escape(stage["name"])}</td><td class="n">{number(stage["cycles"])}</td>'
+                   f'<td>{"until converged" if stage["until_converged"] else "these cycles"}</td>'
+                   f'<td>{("yes" if stage["converged"] else "no") if stage["until_converged"] else "–"}</td></tr>' for stage in summary["stages"])
+    return f'<div class="wide"><table><thead><tr><th>stage</th><th class="n">cycles</th><th>aim</th><th>converged</th></tr></thead><tbody>{rows}</tbody></table></div>'
+
+
+def summary_section(summary, last):
+    names = [str(name) for name in last["name"][last["detached"].astype(bool)]]
+    detached = [("detached blocks", ", ".join(names[:60]) + (" ..." if len(names) > 60 else "") or "none", "")]
+    if not summary:
+        return facts(detached)
+    warnings = "".join(f'<p class="missed">{escape(text)}</p>' for text in summary["warnings"])
+    rows = [(what, metres(summary[key]) if unit == "m" else summary[key], "" if unit == "m" else unit)
+            for key, what, unit in OUTCOME if summary.get(key) is not None]
+    return warnings + stages(summary) + facts(rows + detached)
+
+
+def ledger(run):
+    """Every term at the last sample, its share of all that was put in, and what is left over."""
+    table = run.energy()
+    if not len(table["time"]):
+        return ""
+    terms = {name: float(table[name][-1]) for name in LEDGER if name in table}
+    everything = sum(abs(value) for name, value in terms.items() if LEDGER[name][1] == 1) or 1.0
+
+    def row(kind, what, value):
+        share = 100.0 * value / everything
+        bar = f'<span class="bar" style="width:{min(abs(share), 100.0):.2f}%"></span>'
+        return (f'<tr><td>{kind}</td><td class="what">{escape(what)}</td><td class="n">{number(float(f"{value:.5g}"))}</td>'
+                f'<td class="n">{number(float(f"{share:.3g}"))} %</td><td class="share">{bar}</td></tr>')
+    rows = "".join(row(BALANCE[sign], LEDGER[name][0], terms[name]) for sign in (1, -1, 0) for name in terms if LEDGER[name][1] == sign)
+    rows += row("left over", "residual: what the ledger cannot explain", float(table["residual"][-1]))
+    return ('<div class="wide"><table><thead><tr><th></th><th>term</th><th class="n">energy [J]</th><th class="n">of all put in</th><th></th></tr></thead>'
+            f"<tbody>{rows}</tbody></table></div>" + run_figures.ledger_curves(run))
+
+
+def timing(summary, where, log):
+    rows = [("threads", int(where["threads"]), ""), ("processor", where["cpu"], "")]
+    if summary:
+        seconds = max(summary["wall_seconds"], 1e-9)
+        rows += [("wall time", duration(seconds), ""), ("speed", float(f'{summary["cycles"] / seconds:.4g}'), "cycles/s"),
+                 ("contact-point updates", float(f'{1e-6 * summary["contact_point_updates_per_second"]:.4g}'), "million/s")]
+    return facts(rows) + (folded("run.log: rows with the speed at each moment", log) if log else "")
+
+
+def provenance(where):
+    dirty = ", sources changed since" if where["git_dirty"] else ""
+    rows = [("hdem", where["hdem_version"], ""), ("commit", where["git_commit"] + dirty, ""), ("compiler", where["compiler"], ""), ("flags", where["flags"], ""),
+            ("build", where["build_type"], ""), ("processor", where["cpu"], ""), ("host", where["hostname"], ""), ("begin", where["begin"], ""),
+            ("end", where["end"] or "not reached", ""), ("seed", int(where["seed"]), ""), ("case file", where["case_file"], ""),
+            ("its SHA-256", where["case_sha256"], ""), ("set besides", "; ".join(where["overrides"]) or "nothing", ""),
+            ("command line", " ".join(where["command_line"]), ""), ("environment", "; ".join(where["environment"]) or "no OMP_ variables", "")]
+    return facts(rows) + folded("The case file", where["case_text"])
+
+
+def pictures(run):
+    views = [("displacement", "Displacement since the stage began", [])]
+    if len(run.blocks("last")["outline"]):
+        views.append(("displacement", "The same, around the excavation", ["--excavation"]))
+    views += [("stress", "Mean stress of the blocks, from their contact forces", []),
+              ("regime", "Regime of the blocks, and their contact forces", ["--contacts"] if run.has_contacts() else [])]
+    return f'<div class="pictures">{"".join(run_figures.picture(run, *view) for view in views)}</div>'
+
+
+def build(run, summary, log):
+    """HTML of a run (hdem_io.Run); summary.json as dict and run.log as text, {} and "" where they are missing."""
+    if not run.frames:
+        raise ResultError(f"{run.folder}: holds no frames yet")
+    last, where = run.blocks("last"), run.provenance()
+    first = str(run.frames[0].number)
+    parts = {"Summary": summary_section(summary, last),
+             "Model": run_figures.picture(run, "material", "Model at the start", ["--frame", first]),
+             "Displacement and stress": pictures(run),
+             "Histories": run_figures.convergence(run) + "".join(run_figures.history(run, name) for name in run.histories),
+             "Energy ledger": ledger(run),
+             "Timing": timing(summary, where, log),
+             "Provenance": provenance(where)}
+    parts = {title: body for title, body in parts.items() if body}
+    contents = '<a class="home" href="#top">Top</a>' + "".join(f'<a href="#{anchor(title)}">{escape(title)}</a>' for title in parts)
+    return document(f'hdem: {last["info"]["title"] or where["case_file"]}', contents,
+                    head(run, summary, last) + "".join(section(title, body) for title, body in parts.items()))

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""Makes one page of a run's folder. Called by `hdem report`; see its --help.
+
+The page is one file that asks the network for nothing. A run that goes on, or was killed, gives a page of what there is by then.
+"""
+import argparse
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
+try:
+    import run_page
+    from hdem_io import ResultError, open_run
+except ImportError as missing:
+    sys.exit(f"error: hdem report: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="hdem report", description="One HTML page of a run: summary, pictures, histories, energies, timing, provenance.")
+    parser.add_argument("result", type=Path, help="the run's folder, or its results.h5")
+    parser.add_argument("-o", "--output", type=Path, help="the page (default: report.html in the run's folder)")
+    return parser.parse_args(arguments)
+
+
+def read_summary(file):
+    if not file.exists():
+        return {}
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from error
+
+
+def main(arguments):
+    options = parse(arguments)
+    try:
+        if not options.result.exists():
+            raise ResultError(f"{options.result}: no such file or folder")
+        run = open_run(options.result)
+        log = run.folder / "run.log"
+        text = run_page.build(run, read_summary(run.folder / "summary.json"), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
+        output = options.output or run.folder / "report.html"
+        output.parent.mkdir(parents=True, exist_ok=True)
+        output.write_text(text, encoding="utf-8")
+    except (ResultError, OSError, KeyError) as error:
+        print(f"error: hdem report: {error}", file=sys.stderr)
+        return 1
+    print(output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
