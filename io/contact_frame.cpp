@@ -6,6 +6,28 @@
 
 namespace hdem
 {
+namespace
+{
+/// How far the rock of a block that is now at `place` has moved since the stage began [m].
+Vec2 displacement_at(const Blocks& blocks, Index block, const Vec2& place)
+{
+    const BlockMotion& now = blocks.motion[block];
+    const Vec2 arm = place - Vec2(now.x, now.y);
+    const double turn = now.angle - blocks.reference_angle[block];
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    return blocks.displacement(block) + arm - Vec2(c * arm.x() + s * arm.y(), c * arm.y() - s * arm.x());
+}
+
+/// Of the second block against the shear axis, relative to the first, in the middle of the contact [m].
+double slip_of(const Blocks& blocks, const ContactReport& contact)
+{
+    const Vec2 middle = 0.5 * (contact.point[0] + contact.point[1]);
+    const Vec2 moved = displacement_at(blocks, contact.second, middle) - displacement_at(blocks, contact.first, middle);
+    return -moved.dot(contact.shear_axis());
+}
+}  // namespace
+
 void write_contact_frame(const std::filesystem::path& name, const Model& model, const State& state)
 {
     std::vector<ContactReport> contacts;
@@ -37,6 +59,7 @@ void write_contact_frame(const std::filesystem::path& name, const Model& model, 
     write_cell_data<float>(file, "normal_stress", n, normal_stress);
     write_cell_data<float>(file, "shear_stress", n, shear_stress);
     write_cell_data<float>(file, "traction", n, [&](std::size_t i) { return std::hypot(normal_stress(i), shear_stress(i)); });
+    write_cell_data<float>(file, "slip", n, [&](std::size_t i) { return slip_of(state.blocks, contacts[i]); });
     write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return contacts[i].regime; });
     write_frame_header(file, "hdem-contacts", model, state);
     file.commit();

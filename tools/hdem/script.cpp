@@ -29,7 +29,8 @@ int run_script(const std::string& command, const std::string& script, const std:
     const std::string file = (shared_folder() / script).string();
     if (::access(file.c_str(), R_OK) != 0)
     {
-        fmt::print(stderr, "error: hdem {}: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n", command, file);
+        fmt::print(stderr, "error: hdem {}: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n",
+                   command, file);
         return 1;
     }
     std::vector<std::string> words = {python, file};
@@ -40,8 +41,8 @@ int run_script(const std::string& command, const std::string& script, const std:
     argv.push_back(nullptr);
     std::fflush(nullptr);
     ::execv(python, argv.data());
-    fmt::print(stderr, "error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command, python,
-               std::strerror(errno));
+    fmt::print(stderr, "error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command,
+               python, std::strerror(errno));
     return 1;
 }
 }  // namespace hdem

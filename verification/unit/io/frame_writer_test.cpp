@@ -129,11 +129,32 @@ TEST(ContactFrame, HasALineForEachClosedContact)
     EXPECT_FLOAT_EQ(value("traction"), 1e5f);
     EXPECT_NEAR(value("length"), 0.5f, 1e-6f);
     EXPECT_NEAR(value("overlap"), 1e-5f, 1e-10f);
+    EXPECT_FLOAT_EQ(value("slip"), 1.5f) << "against the shear axis, which points to the left";
     EXPECT_THAT(in.read<std::uint8_t>("/VTKHDF/CellData/regime", {1}), ElementsAre(2));
     const auto points = in.read<double>("/VTKHDF/Points", {2, 3});
     EXPECT_NEAR(points[0], 102.0, 1e-9);
     EXPECT_NEAR(points[1], 200.0 - 0.5e-5, 1e-9);
     EXPECT_NEAR(points[3], 101.5, 1e-9);
+}
+
+/// A block that turns about its contact does not slip there, though its centroid moves along the contact.
+TEST(ContactFrame, SlipIsThatOfTheContactNotOfTheCentroids)
+{
+    const ScratchFolder folder("frame_slip");
+    SmallRun run = test::small_run();
+    const double turn = 1e-4;
+    BlockMotion& m = run.state.blocks.motion[block];
+    const Vec2 middle = {m.x, m.y - 0.5};
+    const Vec2 arm = Vec2(m.x, m.y) - middle;
+    m.c = std::cos(turn);
+    m.s = std::sin(turn);
+    m.angle += turn;
+    m.x = middle.x() + m.c * arm.x() - m.s * arm.y();
+    m.y = middle.y() + m.s * arm.x() + m.c * arm.y();
+    test::load_contact(run, 0, 3e4, -4e4, Regime::stick);
+    write_contact_frame(folder / "one.hdf", run.model, run.state);
+    EXPECT_NEAR(Hdf5Reader(folder / "one.hdf").read<float>("/VTKHDF/CellData/slip", {1}).front(), 0.0f, 1e-8f);
+    EXPECT_NEAR(run.state.blocks.displacement(block).x(), -0.5 * turn, 1e-8) << "the centroid moved all the same";
 }
 
 TEST(FrameWriter, SeriesNamesTheFramesWithTheirTimes)
