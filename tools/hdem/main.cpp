@@ -3,11 +3,13 @@
 #include "core/check.h"
 #include "core/version.h"
 #include "io/case_format.h"
+#include "parallel/simulation.h"
 #include "tools/hdem/options.h"
 #include "tools/hdem/script.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <hdf5.h>
 
 namespace hdem
 {
@@ -48,6 +50,18 @@ void add_check(CLI::App& app, CheckOptions& options)
     check->add_option("--wkt", options.wkt_file, "Write the blocks to this file as WKT polygons");
 }
 
+/// The first line as everywhere, then what a report of a defect needs.
+std::string build_facts()
+{
+    unsigned major = 0;
+    unsigned minor = 0;
+    unsigned release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return fmt::format("{}\ncommit    {}{}\ncompiler  {}\nflags     {}\nHDF5      {}.{}.{}\nthreads   {} at hand", version_line(), version().commit,
+                       version().dirty ? ", changed" : "", version().compiler, version().flags, major, minor, release,
+                       default_threads());
+}
+
 /// A command whose options are read by a script.
 CLI::App* add_script(CLI::App& app, const std::string& name, const std::string& what)
 {
@@ -60,7 +74,8 @@ CLI::App* add_script(CLI::App& app, const std::string& name, const std::string& 
 int dispatch(int argc, char** argv)
 {
     CLI::App app("hdem: hybrid discrete element method for jointed rock in two dimensions", "hdem");
-    app.set_version_flag("--version", std::string(version_line()));
+    app.set_version_flag("--version", build_facts());
+    app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::help);
     RunOptions run;
@@ -69,6 +84,9 @@ int dispatch(int argc, char** argv)
     bool markdown = false;
     add_run(app, run);
     add_check(app, check);
+    CLI::App* info = app.add_subcommand("info", "Say what a file holds: results, a frame, a case");
+    std::string file;
+    info->add_option("file", file, "Folder of a run, results.h5, blocks_NNNNNN.hdf, contacts_NNNNNN.hdf or a case")->required();
     CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
     schema->add_flag("--markdown", markdown, "Print io/case_format.md instead");
     CLI::App* plot = add_script(app, "plot", "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
@@ -86,6 +104,8 @@ int dispatch(int argc, char** argv)
         fmt::print("{}", markdown ? case_format_markdown() : case_json_schema());
         return exit_done;
     }
+    if (*info)
+        return info_command(file);
     if (*plot)
         return run_script("plot", "plot.py", plot->remaining());
     if (*report)

@@ -41,4 +41,7 @@ struct CheckOptions
     std::string wkt_file;                     ///< write the blocks there
 };
 int check_command(const CheckOptions& options);
+
+/// @param path a run's folder, results.h5, a frame or a case file
+int info_command(const std::string& path);
 }  // namespace hdem
