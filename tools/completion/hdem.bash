@@ -4,7 +4,7 @@
 _hdem_words()
 {
     case "$1" in
-        run) echo "-o --output --method --threads --set -q --quiet -h --help" ;;
+        run) echo "-o --output --restart --overwrite --max-wall --method --threads --set -q --quiet -h --help" ;;
         check) echo "--set --blocks --wkt -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
@@ -23,7 +23,7 @@ _hdem()
         --method) mapfile -t COMPREPLY < <(compgen -W "force impulse hybrid" -- "$word"); return ;;
         --colour) mapfile -t COMPREPLY < <(compgen -W "displacement displacement_x displacement_y rotation velocity stress stress_xx stress_yy stress_xy regime material none" -- "$word"); return ;;
         --frame) mapfile -t COMPREPLY < <(compgen -W "last" -- "$word"); return ;;
-        --threads | --set | --window | --range | --history | --title | --width | --dpi) return ;;
+        --max-wall | --threads | --set | --window | --range | --history | --title | --width | --dpi) return ;;
     esac
     if [[ $word == -* || -z $command ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_hdem_words "$command")" -- "$word")

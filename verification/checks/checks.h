@@ -35,6 +35,7 @@ std::vector<Check> stability_checks();
 std::vector<Check> cyclic_shear_checks();
 std::vector<Check> order_checks();
 std::vector<Check> ledger_checks();
+std::vector<Check> recycling_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();

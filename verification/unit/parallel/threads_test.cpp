@@ -41,11 +41,32 @@ TEST_P(Threads, GiveTheSameRockAndTheSameExcavation)
     expect_hash_of_one_thread(scene, 1500);
 }
 
+TEST_P(Threads, GiveTheSameWallOfTenThousandBricks)
+{
+    CaseDef scene = scenes::wall(100, 100);
+    for (const Method method : {Method::force, Method::hybrid})
+    {
+        scene.contact.method = method;
+        expect_hash_of_one_thread(scene, 60);
+    }
+}
+
+/// So many impulse points that the threads share the colours.
+TEST_P(Threads, GiveTheSameImpulsesInTheOrderOfColours)
+{
+    CaseDef scene = scenes::wall(30, 30);
+    scene.contact.method = Method::impulse;
+    expect_hash_of_one_thread(scene, 100);
+    CaseDef fall = scenes::pile(900, 30);
+    fall.contact.method = Method::impulse;
+    expect_hash_of_one_thread(fall, 3000);
+}
+
 TEST_P(Threads, MayBeMoreThanThereAreBlocks)
 {
     expect_hash_of_one_thread(scenes::stack(2), 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(2, 3, 8));
+INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(2, 3, 4, 8));
 }  // namespace
 }  // namespace hdem
