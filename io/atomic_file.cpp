@@ -129,4 +129,12 @@ void write_atomically(const std::filesystem::path& file, std::string_view text)
 {
     write_atomically(file, std::as_bytes(std::span(text)));
 }
+
+void remove_file(const std::filesystem::path& file)
+{
+    if (::unlink(file.c_str()) == 0 || errno == ENOENT || errno == ENOTDIR)
+        return;
+    const int error = errno;
+    throw RunError(fmt::format("{}: cannot be removed ({}). {}", file.string(), std::strerror(error), advice(error)));
+}
 }  // namespace hdem

@@ -13,4 +13,7 @@ namespace hdem
 /// Throws RunError with the file, the system's reason (disk full, no permission) and what may help; FILE is then as it was.
 void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::filesystem::path& previous = {});
 void write_atomically(const std::filesystem::path& file, std::string_view text);
+
+/// Remove FILE if it is there. Throws RunError as above.
+void remove_file(const std::filesystem::path& file);
 }  // namespace hdem

@@ -52,11 +52,11 @@ std::string frame_file(const std::string& kind, int number)
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model) : folder_(std::move(folder)), contacts_(model.output.contacts)
 {
+    remove_file(folder_ / "blocks.hdf.series");  // first what names the others
+    remove_file(folder_ / "contacts.hdf.series");
     for (const std::filesystem::path& file : files_in(folder_ / "frames"))
         if (frame_number(file.filename().string()) >= 0)
-            std::filesystem::remove(file);
-    std::filesystem::remove(folder_ / "blocks.hdf.series");
-    std::filesystem::remove(folder_ / "contacts.hdf.series");
+            remove_file(file);
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const State& state)
@@ -79,7 +79,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
 void FrameWriter::remove_younger_frames()
 {
     for (const std::filesystem::path& file : younger_)
-        std::filesystem::remove(file);
+        remove_file(file);
     younger_.clear();
 }
 

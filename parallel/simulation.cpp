@@ -1,5 +1,6 @@
 #include "parallel/simulation.h"
 
+#include "core/contact/contact_report.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 #include "core/motion/time_step.h"
@@ -164,10 +165,15 @@ void Simulation::check_state() const
         const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
         const double limit = model_.contact.overlap_limit * std::min(model_.size(ref), model_.size(inc));
         if (overlap > limit)
-            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\": overlap = " +
-                           with_digits("%.4g", overlap) + " m (above contact.overlap_limit: " + with_digits("%.4g", limit) +
+        {
+            const Vec2 place = model_.origin + 0.5 * (report_contact(state_, i).point[0] + report_contact(state_, i).point[1]);
+            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\", contact " +
+                           std::to_string(i) + " at (" + with_digits("%.6g", place.x()) + ", " + with_digits("%.6g", place.y()) +
+                           ") m: overlap = " + with_digits("%.4g", overlap) +
+                           " m (above contact.overlap_limit: " + with_digits("%.4g", limit) +
                            " m). Give a smaller time.step or a greater "
                            "joint normal_stiffness, or raise the limit if this overlap is meant.");
+        }
     }
 }
 

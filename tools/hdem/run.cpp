@@ -1,5 +1,6 @@
 /// hdem run: a case from its file, or from a checkpoint, to its results.
 
+#include "io/atomic_file.h"
 #include "io/run_recorder.h"
 #include "tools/hdem/run_keeper.h"
 #include "tools/hdem/run_report.h"
@@ -72,7 +73,7 @@ int run_command(const RunOptions& options)
     make_folder(folder);
     if (!start.restarted)
         clear_for_new_run(folder, options.overwrite);
-    fs::remove(folder / "summary.json");  // that of an older run, or not yet the outcome
+    remove_file(folder / "summary.json");  // that of an older run, or not yet the outcome
     Log log(folder / "run.log", options.quiet, start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
     print_banner(log, start, options, simulation);
 

@@ -1,5 +1,6 @@
 #include "tools/hdem/run_start.h"
 
+#include "io/atomic_file.h"
 #include "io/provenance.h"
 
 #include <fmt/format.h>
@@ -80,7 +81,9 @@ Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
     {
         if (!fs::exists(previous))
             throw;
-        notes.push_back(fmt::format("warning: {}", error.what()));
+        const fs::path aside = last.string() + ".damaged";  // else it would soon take the place of the sound one
+        fs::rename(last, aside);
+        notes.push_back(fmt::format("warning: {} It is now called {}.", error.what(), aside.string()));
     }
     notes.push_back(fmt::format("warning: {} cannot be used: going on from {}", last.string(), previous.string()));
     return {previous, CheckpointReader(previous)};
@@ -174,6 +177,7 @@ void clear_for_new_run(const fs::path& folder, bool overwrite)
                 checkpoints[0].string(), reader->cycle(), folder.string()));
     }
     for (const fs::path& checkpoint : checkpoints)
-        fs::remove(checkpoint);
+        remove_file(checkpoint);
+    remove_file(folder / "results.h5");  // it names frames that are about to go
 }
 }  // namespace hdem

@@ -23,7 +23,7 @@ struct RunStart
 /// Throws InputError for what the user must change.
 RunStart start_run(const RunOptions& options);
 
-/// Throws InputError when the folder holds a run that was cut short and nothing says that it may go. Removes checkpoints and summary of an
+/// Throws InputError when the folder holds a run that was cut short and nothing says that it may go. Removes checkpoints and results of an
 /// older run: they must not be taken for those of this one.
 void clear_for_new_run(const std::filesystem::path& folder, bool overwrite);
 }  // namespace hdem

@@ -58,6 +58,7 @@ checkpoint_every = 200
 checkpoint_wall_minutes = 0
 """
 INTERVAL = 200    # checkpoint_every
+ROW_EVERY = 50    # where rows of run.log must tell how far a killed run had come
 
 
 def write_case(folder):

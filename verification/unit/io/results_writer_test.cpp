@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <limits>
 #include <thread>
 
 namespace hdem
@@ -131,6 +132,21 @@ TEST(RunRecorder, RestartKeepsWhatLedToIt)
     EXPECT_THAT(in.read<std::int64_t>("/energy/cycle", {any_extent}), ElementsAre(0, 10, 20, 30, 40, 50));
     EXPECT_EQ(in.read<double>("/history/block/speed", {any_extent}).size(), 26U);
     EXPECT_THAT(in.read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 20, 40, 50));
+}
+
+/// A run that blew up leaves a picture of that moment.
+TEST(RunRecorder, WritesAStateThatIsNotFinite)
+{
+    const ScratchFolder folder("recorder_not_finite");
+    SmallRun run = run_with_histories();
+    RunRecorder recorder(folder.path(), run.model, some_provenance());
+    recorder.observe(run.model, run.state);
+    run.state.cycle = 15;
+    run.state.blocks.motion[2].x = std::numeric_limits<double>::quiet_NaN();
+    run.state.blocks.motion[2].vx = std::numeric_limits<double>::infinity();
+    recorder.finish(run.model, run.state);
+    EXPECT_THAT(Hdf5Reader(folder / "results.h5").read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 15));
+    EXPECT_EQ(Hdf5Reader(folder / "frames/blocks_000001.hdf").attribute<std::int64_t>("/hdem", "cycle", {}).front(), 15);
 }
 
 TEST(RunRecorder, RefusesHistoriesThatCannotBeGroups)

@@ -88,14 +88,14 @@ class Restart(unittest.TestCase):
 
     def test_max_wall_stops_in_time(self):
         folder = self.root / "late"
-        done = run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.3s")
+        done = run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertIn("--max-wall: stopped after cycle", done.stdout)
         self.expect_the_whole_run(folder)
 
     def test_a_run_cut_short_is_not_overwritten_by_mistake(self):
         folder = self.root / "again"
-        run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.3s")
+        run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")
         before = run_folder.checkpoint_cycle(folder)
         refused = run_folder.run(HDEM, self.case, "-o", folder)
         self.assertEqual(refused.returncode, 2)
@@ -105,8 +105,11 @@ class Restart(unittest.TestCase):
         self.assertEqual(run_folder.run(HDEM, self.case, "-o", folder).returncode, 0, "a finished one may be replaced")
 
     def test_a_damaged_checkpoint_gives_way_to_the_one_before(self):
-        folder = self.root / "damaged"
-        run_folder.run(HDEM, self.case, "-o", folder, "--set", "output.checkpoint_every=400", "--max-wall", "1s")
+        folder, program = self.begin("damaged", "--set", "output.checkpoint_every=100", "--quiet")
+        while not (folder / "checkpoint.previous.h5").exists():
+            time.sleep(0.005)
+        program.kill()
+        program.communicate()
         (folder / "checkpoint.h5").write_bytes((folder / "checkpoint.h5").read_bytes()[:1000])
         refused = run_folder.run(HDEM, "--restart", folder / "checkpoint.h5")
         self.assertEqual(refused.returncode, 2)
@@ -115,7 +118,7 @@ class Restart(unittest.TestCase):
 
     def test_only_the_same_physics_goes_on(self):
         folder = self.root / "other"
-        run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.3s")
+        run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")
         for arguments, words in ((["--set", "joint.default.cohesion=1e3"], "keeps its blocks, joints and laws"),
                                  (["--method", "force"], "keeps its blocks, joints and laws"),
                                  ([self.root / "nothing.toml"], "cannot be read")):
