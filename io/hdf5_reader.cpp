@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace hdem
 {
@@ -81,6 +82,26 @@ struct Hdf5Reader::Handles
         std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
         H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
         return {extents.begin(), extents.end()};
+    }
+
+    /// The library takes memory for a whole chunk: none may be larger than the data, which are checked against what is stored.
+    void check_chunk(const std::string& what, const Hdf5Handle& dataset, const Shape& shape) const
+    {
+        const Hdf5Handle properties(H5Dget_create_plist(dataset.id()), H5Pclose);
+        if (H5Pget_layout(properties.id()) != H5D_CHUNKED)
+            return;
+        std::vector<hsize_t> chunk(shape.size() + 1);
+        const int rank = H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
+        if (rank != static_cast<int>(shape.size()) || !std::equal(shape.begin(), shape.end(), chunk.begin(), std::greater_equal<>()))
+            fail(what, "a chunk that is larger than the data: the file is damaged");
+    }
+
+    /// What the file holds for a dataset, whatever the dataset says [bytes].
+    [[nodiscard]] std::uint64_t stored_bytes(const Hdf5Handle& dataset) const
+    {
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(name, error);
+        return error ? 0 : std::min<std::uint64_t>(H5Dget_storage_size(dataset.id()), size);
     }
 
     /// Product of the extents; fails when it is out of proportion to what is stored.
@@ -179,7 +200,8 @@ std::uint64_t Hdf5Reader::checked_count(const std::string& path, ElementType typ
     const Shape extents = handles_->shape_of(path, {H5Dget_space(dataset.id()), H5Sclose});
     handles_->check(path, {H5Dget_type(dataset.id()), H5Tclose}, type);
     handles_->check(path, extents, expected);
-    return handles_->count(path, extents, element_size(type), H5Dget_storage_size(dataset.id()));
+    handles_->check_chunk(path, dataset, extents);
+    return handles_->count(path, extents, element_size(type), handles_->stored_bytes(dataset));
 }
 
 void Hdf5Reader::read_elements(const std::string& path, void* values, ElementType type) const
@@ -196,7 +218,8 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& path) const
     const std::size_t size = handles_->check_text(path, type);
     const Shape extents = handles_->shape_of(path, {H5Dget_space(dataset.id()), H5Sclose});
     handles_->check(path, extents, {any_extent});
-    const std::uint64_t n = handles_->count(path, extents, size, H5Dget_storage_size(dataset.id()));
+    handles_->check_chunk(path, dataset, extents);
+    const std::uint64_t n = handles_->count(path, extents, size, handles_->stored_bytes(dataset));
     std::vector<char> bytes(n * size);
     if (n > 0 && H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
         handles_->fail(path, hdf5_reason());
