@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <limits>
+#include <memory>
 #include <thread>
 
 namespace hdem
@@ -132,6 +133,33 @@ TEST(RunRecorder, RestartKeepsWhatLedToIt)
     EXPECT_THAT(in.read<std::int64_t>("/energy/cycle", {any_extent}), ElementsAre(0, 10, 20, 30, 40, 50));
     EXPECT_EQ(in.read<double>("/history/block/speed", {any_extent}).size(), 26U);
     EXPECT_THAT(in.read<std::int64_t>("/frames/cycle", {any_extent}), ElementsAre(0, 20, 40, 50));
+}
+
+/// While two blocks are apart, a history counts along the normal they had: a checkpoint must not forget it.
+TEST(RunRecorder, RestartKeepsTheAxesOfHistories)
+{
+    const ScratchFolder folder("recorder_axes");
+    std::vector<std::vector<double>> sheared;
+    for (const bool restarted : {false, true})
+    {
+        SmallRun run = run_with_histories();
+        auto recorder = std::make_unique<RunRecorder>(folder.path(), run.model, some_provenance());
+        recorder->observe(run.model, run.state);
+        recorder->save();
+        test::load_contact(run, 0, 0.0, 0.0, Regime::open);
+        run.state.blocks.motion[2].x += 0.3;  // the line of centroids is no longer that normal
+        if (restarted)
+        {
+            const std::vector<Vec2> axes = recorder->history_axes();
+            recorder = std::make_unique<RunRecorder>(folder.path(), run.model, some_provenance(), run.state, axes);
+            recorder->begin_stage(run.model, run.state);
+        }
+        show(run, *recorder, 20);
+        recorder->finish(run.model, run.state);
+        sheared.push_back(Hdf5Reader(folder / "results.h5").read<double>("/history/contact/shear_displacement", {any_extent}));
+    }
+    EXPECT_NEAR(sheared[0].back(), 0.3, 1e-12);
+    EXPECT_EQ(sheared[1], sheared[0]);
 }
 
 /// A run that blew up leaves a picture of that moment.
