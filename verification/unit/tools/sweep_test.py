@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+"""A sweep is planned, run, restarted where it was cut short, and collected.
+
+    sweep_test.py HDEM TOOLS    the program, and the folder of its scripts
+"""
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import small_case
+
+HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+
+class Sweep(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory(prefix="hdem_sweep_test_")
+        self.folder = Path(self.scratch.name)
+        (self.folder / "small.toml").write_text(small_case.CASE, encoding="utf-8")
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def sweep(self, *arguments):
+        """Exit code, and all that was said."""
+        done = subprocess.run([TOOLS / "sweep", *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.folder)
+        return done.returncode, done.stdout + done.stderr
+
+    def plan(self, *varied):
+        code, said = self.sweep("plan", "small.toml", "-o", "s", *[word for text in varied for word in ("--vary", text)])
+        self.assertEqual(code, 0, said)
+        return json.loads((self.folder / "s/plan.json").read_text())["runs"]
+
+    def table(self):
+        with open(self.folder / "s/table.csv", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def recorder(self):
+        """A program that keeps the words it was called with, and does nothing."""
+        program = self.folder / "recorder"
+        program.write_text(f'#!/bin/bash\nprintf "%s\\n" "$@" > "{self.folder}/words"\nexit "${{CODE:-0}}"\n')
+        program.chmod(0o755)
+        return program
+
+    def words(self):
+        return (self.folder / "words").read_text().split()
+
+    def test_plans_all_combinations(self):
+        runs = self.plan("generator.seed=1:3", "joint.default.friction_angle_deg=0.1:0.3:0.1")
+        self.assertEqual(len(runs), 9)
+        self.assertEqual(runs[1], {"generator.seed": "1", "joint.default.friction_angle_deg": "0.2"})
+        self.assertEqual(runs[-1], {"generator.seed": "3", "joint.default.friction_angle_deg": "0.3"})
+
+    def test_outcomes_are_collected(self):
+        self.plan("joint.default.friction_angle_deg=5,30")
+        self.assertEqual(self.sweep("run", "s", 2, "--program", HDEM, "--", "--quiet"), (0, ""))
+        (self.folder / "s/run_000001").mkdir()
+        code, said = self.sweep("collect", "s")
+        self.assertEqual((code, said.strip()), (1, "s/table.csv: 1 of 2 runs done"))
+        first, second = self.table()
+        self.assertEqual((first["state"], second["state"]), ("cut short", "done"))
+        self.assertEqual(second["joint.default.friction_angle_deg"], "30")
+        summary = json.loads((self.folder / "s/run_000002/summary.json").read_text())
+        self.assertEqual(second["state_hash"], summary["state_hash"])
+        self.assertEqual(float(second["energy.friction"]), summary["energy"]["friction"])
+        self.assertEqual(second["detached_blocks"], "1")
+        self.sweep("run", "s", 1, "--program", HDEM, "--", "--quiet")
+        self.assertEqual(self.sweep("collect", "s")[0], 0)
+        self.assertNotEqual(self.table()[0]["state_hash"], second["state_hash"], "the setting reached the run")
+
+    def test_goes_on_where_it_was_cut_short_and_leaves_alone_what_is_done(self):
+        self.plan("generator.seed=1:2")
+        program = self.recorder()
+        self.sweep("run", "s", 1, "--program", program, "--", "--threads", "3")
+        self.assertEqual(self.words(), ["run", str(self.folder / "small.toml"), "-o", "s/run_000001", "--set", "generator.seed=1", "--threads", "3"])
+        (self.folder / "s/run_000001").mkdir()
+        (self.folder / "s/run_000001/checkpoint.h5").touch()
+        self.sweep("run", "s", 1, "--program", program)
+        self.assertEqual(self.words(), ["run", "--restart", "s/run_000001"])
+        (self.folder / "words").unlink()
+        (self.folder / "s/run_000001/summary.json").write_text("{}")
+        self.assertEqual(self.sweep("run", "s", 1, "--program", program)[0], 0)
+        self.assertFalse((self.folder / "words").exists())
+
+    def test_exit_codes_of_failures_are_passed_on(self):
+        self.plan("generator.seed=1")
+        program = self.recorder()
+        for code, expected in ((1, 1), (2, 2), (4, 0), (143, 143)):
+            program.write_text(f"#!/bin/bash\nexit {code}\n")
+            self.assertEqual(self.sweep("run", "s", 1, "--program", program)[0], expected)
+
+    def test_errors_say_what_is_wrong(self):
+        self.plan("generator.seed=1")
+        for arguments, words in ((["plan", "small.toml", "-o", "s", "--vary", "a=1"], "there is a plan already"),
+                                 (["plan", "small.toml", "-o", "t"], "nothing varies"), (["plan", "none.toml", "-o", "t", "--vary", "a=1"], "no such file"),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=1:x"], "not a range"),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:0"], "not a range"),
+                                 (["run", "s", "2"], "not in the plan"), (["collect", "u"], "cannot be read"),
+                                 (["run", "s", "1", "--program", "nowhere"], "cannot be run")):
+            code, said = self.sweep(*arguments)
+            self.assertEqual(code, 2, said)
+            self.assertIn(words, said)
+            self.assertNotIn("Traceback", said)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
