@@ -41,6 +41,10 @@ class RockCheck : public CaseCheck
         const DomainDef& domain = def_.domain;
         if (!domain.given)
             return;
+        for (const char* key : {"traces_joint", "traces_snap"})
+            if (given(std::string("domain.") + key) && domain.traces_file.empty())
+                problems_.add(std::string("domain.") + key, "[domain]", key, "belongs to traces_file, which is not given",
+                              "Give traces_file, or remove this key.");
         if (given("domain.polygon"))
             for (const char* key : {"width", "height", "origin", "fixed"})
                 exclude("domain", "[domain]", "polygon", key);
@@ -126,6 +130,8 @@ class RockCheck : public CaseCheck
                 check_reference(fmt::format("block[{}].material", i), fmt::format("block \"{}\"", printable(def_.blocks[i].name)),
                                 def_.blocks[i].material, "material", materials_);
         }
+        if (!def_.domain.traces_joint.empty())
+            check_reference("domain.traces_joint", "[domain]", def_.domain.traces_joint, "joint", joints_);
         for (std::size_t i = 0; i < def_.joint_sets.size(); ++i)
             if (!def_.joint_sets[i].joint.empty())
                 check_reference(fmt::format("joint_set[{}].joint", i),

@@ -124,6 +124,23 @@ POLYGON((2 1, 3 1, 3 2, 2 2, 2 1)); upper; ; rotation
 
 The first vertex is repeated at the end. Blocks without a name are called `block1`, `block2`, ... counted on from those of [[block]].
 Holes, MULTIPOLYGON, Z and M are refused.
+
+A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
+other; a heading may stand above them. `tools/import_dxf.py` makes such files from drawings.
+
+## The traces file
+
+`domain.traces_file` names a text file of joint traces that need not run through: one WKT line a row, or a `.csv` with rows of `name,x,y`.
+
+```
+# a joint, and one that bends
+LINESTRING(0 2, 8 5.5)
+LINESTRING(3 0, 4 3, 6 9)
+```
+
+The traces cut the domain into blocks where they close around an area together, or with the domain's boundary. What parts nothing, because it ends
+inside a block or only joins two rings of traces, is dropped, and counted in `hdem check` and in run.log. Excavations and joint sets cut further. Traces are cut whatever `smallest_block_area`
+says: a cell smaller than it stays, with a warning.
 )md";
 
 std::string escaped(std::string text)

@@ -1,9 +1,11 @@
 #include "io/case_reader.h"
 
+#include "core/rock/rock_checks.h"
 #include "io/case_checks.h"
 #include "io/case_problems.h"
 #include "io/case_schema.h"
 #include "io/polygons.h"
+#include "io/traces.h"
 
 #include <fmt/format.h>
 
@@ -239,6 +241,29 @@ void add_blocks_file(CaseFile& read, const std::filesystem::path& case_file, con
         return problems.add("blocks_file", "case", fmt::format("blocks_file = \"{}\"", printable(def.blocks_file)),
                             fmt::format("larger than {} bytes", largest_named_file), "Make the model smaller.");
     std::istringstream in(*text);
+/// A file that a key names, relative to the case file.
+std::ifstream open_beside(const std::filesystem::path& file, const std::string& key, const std::string& object, const std::string& given,
+                          CaseProblems& problems)
+{
+    std::error_code ignored;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file, ignored))
+    {
+        problems.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(given)),
+                     fmt::format("{} cannot be opened", printable(file.string(), 200)), "A relative name starts at the folder of the case file.");
+        in.setstate(std::ios::failbit);
+    }
+    return in;
+}
+
+/// Appends the blocks of the blocks_file. Problems inside it are located already.
+void add_blocks_file(CaseDef& def, const std::filesystem::path& case_file, CaseSource& source, CaseProblems& problems,
+                     std::vector<Problem>& located)
+{
+    const auto file = case_file.parent_path() / def.blocks_file;
+    std::ifstream in = open_beside(file, "blocks_file", "case", def.blocks_file, problems);
+    if (!in)
+        return;
     auto [blocks, found] = read_polygons(in, file.string(), def.blocks.size());
     read.files.emplace(def.blocks_file, std::move(*text));
     located.insert(located.end(), found.begin(), found.end());
@@ -247,6 +272,34 @@ void add_blocks_file(CaseFile& read, const std::filesystem::path& case_file, con
     {
         source.add(fmt::format("block[{}]", def.blocks.size()), {.line = line, .source = number});
         def.blocks.push_back(std::move(block));
+    }
+}
+/// Traces of the traces_file. Problems inside it are located already.
+std::vector<Polygon> traces_of(const CaseDef& def, const std::filesystem::path& case_file, CaseProblems& problems, std::vector<Problem>& located)
+{
+    if (def.domain.traces_file.empty())
+        return {};
+    const auto file = case_file.parent_path() / def.domain.traces_file;
+    std::ifstream in = open_beside(file, "domain.traces_file", "[domain]", def.domain.traces_file, problems);
+    if (!in)
+        return {};
+    auto [traces, found] = read_traces(in, file.string());
+    located.insert(located.end(), found.begin(), found.end());
+    return traces;
+}
+
+/// Only a domain without problems can be cut.
+void cut_domain(CaseDef& def, const std::vector<Polygon>& traces, const CaseSource& source)
+{
+    if (traces.empty() || !find_rock_problems(def).empty())
+        return;
+    try
+    {
+        def.trace_cells = cut_into_cells(domain_polygon(def.domain), traces, def.domain.traces_snap);
+    }
+    catch (const InputError& error)
+    {
+        throw InputError(source.located(error.problems()));
     }
 }
 }  // namespace
@@ -270,6 +323,8 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     Reader(result.def, source, problems).read(document);
     if (!result.def.blocks_file.empty())
         add_blocks_file(result, file, files, problems, located);
+        add_blocks_file(result.def, file, source, problems, located);
+    const std::vector<Polygon> traces = traces_of(result.def, file, problems, located);
     check_rock_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
 
@@ -277,6 +332,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     located.insert(located.begin(), found.begin(), found.end());
     if (!located.empty())
         throw InputError(std::move(located));
+    cut_domain(result.def, traces, source);
     result.warnings = source.located(problems.warnings());
     return result;
 }

@@ -1,67 +1,20 @@
 #include "io/polygons.h"
 
+#include "io/csv_shapes.h"
+#include "io/scanner.h"
 #include "io/toml_tree.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <istream>
 #include <ostream>
 
 namespace hdem
 {
 namespace
 {
-constexpr std::size_t longest_line = 1'000'000;  // bytes; some 25 000 vertices
 constexpr std::size_t most_problems = 50;
 constexpr std::size_t most_blocks = 20'000'000;
-constexpr std::size_t largest_file = 4'000'000'000;  // bytes
-constexpr double farthest = 1e8;                     // [m], the same limit as in the case file
-
-std::string_view trimmed(std::string_view text)
-{
-    const auto first = text.find_first_not_of(" \t\r");
-    return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-bool starts_with_word(std::string_view text, std::string_view word)
-{
-    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(),
-                                                    [](char w, char t) { return w == (t >= 'a' && t <= 'z' ? t - 'a' + 'A' : t); });
-}
-
-/// Reads a text from the left; every take_ either consumes or leaves the text as it is.
-struct Scanner
-{
-    std::string_view rest;
-
-    bool take(char c)
-    {
-        rest = trimmed(rest);
-        if (rest.empty() || rest.front() != c)
-            return false;
-        rest.remove_prefix(1);
-        return true;
-    }
-    bool take_number(double& x)
-    {
-        rest = trimmed(rest);
-        std::string_view digits = rest;
-        if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
-            digits.remove_prefix(1);
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-        const bool whole_word = end == digits.data() + digits.size() ||
-                                std::string_view(" \t,()").find(*end) != std::string_view::npos;
-        if (error != std::errc() || !std::isfinite(x) || !whole_word)
-            return false;
-        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-        return true;
-    }
-    [[nodiscard]] std::string here() const { return rest.empty() ? "the end of the line" : "\"" + printable(rest, 20) + "\""; }
-};
 
 /// Reads "fixed" or a list of x, y, rotation; false when it says something else.
 bool read_fixed(std::string_view text, BlockDef& block)
@@ -112,6 +65,25 @@ std::string read_line(std::string_view line, BlockDef& block)
         return fmt::format("\"{}\" does not say what is fixed). Write fixed, or a list of x, y, rotation.", printable(fields[3]));
     return "";
 }
+
+/// A block from the rows of a table; returns what is wrong with it, or "".
+std::string read_shape(const CsvShapes::Shape& shape, BlockDef& block)
+{
+    block.name = shape.name;
+    block.polygon = shape.points;
+    if (block.polygon.size() > 1 && block.polygon.front() == block.polygon.back())
+        block.polygon.pop_back();
+    if (shape.more.size() > 2)
+        return fmt::format("has {} columns). Write at most name,x,y,material,fixed.", shape.more.size() + 3);
+    if (!shape.more.empty() && !shape.more[0].empty())
+        block.material = shape.more[0];
+    if (shape.more.size() > 1 && !read_fixed(shape.more[1], block))
+        return fmt::format("\"{}\" does not say what is fixed). Write fixed, or a list of x, y, rotation with spaces.", printable(shape.more[1]));
+    if (block.polygon.size() < 3)
+        return fmt::format("\"{}\" has {} rows, a polygon has at least 3 vertices). Give each vertex a row, rows of a block after each other.",
+                           printable(shape.name), block.polygon.size());
+    return "";
+}
 }  // namespace
 
 std::variant<Polygon, std::string> parse_wkt(std::string_view text)
@@ -134,9 +106,9 @@ std::variant<Polygon, std::string> parse_wkt(std::string_view text)
         Vec2 point;
         if (!scan.take_number(point.x()) || !scan.take_number(point.y()))
             return fmt::format("expected a finite number, got {}). Vertex {} needs x and y.", scan.here(), polygon.size() + 1);
-        if (std::abs(point.x()) > farthest || std::abs(point.y()) > farthest)
+        if (std::abs(point.x()) > farthest_coordinate || std::abs(point.y()) > farthest_coordinate)
             return fmt::format("vertex {} is farther than {} m from the origin). Move the model nearer to the origin.",
-                               polygon.size() + 1, farthest);
+                               polygon.size() + 1, farthest_coordinate);
         polygon.push_back(point);
     } while (scan.take(','));
 
@@ -161,49 +133,43 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
 {
     PolygonFile result;
     const auto complain = [&](int line, const std::string& why)
+    { result.problems.push_back({Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)}); };
+    const bool is_csv = file_name.ends_with(".csv");
+    CsvShapes rows;
+    const auto add = [&](int line, std::string_view text)
     {
-        result.problems.push_back(
-            {Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)});
-    };
-
-    std::string line;
-    int number = 0;
-    std::size_t bytes = 0;
-    for (char c = '\0'; in.get(c) || !line.empty();)
-    {
-        if (in && c != '\n' && line.size() <= longest_line)
+        if (result.blocks.size() >= most_blocks)
+            complain(line, fmt::format("more than {} blocks). Make the model smaller.", most_blocks));
+        else if (result.problems.size() >= most_problems)
+            complain(line, "too many problems, the rest was not read). Is this a file of polygons?");
+        else
         {
-            line += c;
-            continue;
-        }
-        ++number;
-        bytes += line.size() + 1;
-        const std::string_view text = trimmed(line);
-        if (line.size() > longest_line || result.blocks.size() >= most_blocks || bytes > largest_file)
-        {
-            complain(number,
-                     line.size() > longest_line
-                         ? fmt::format("the line is longer than {} bytes). Is this a file of WKT polygons?", longest_line)
-                         : fmt::format("more than {} blocks or {} bytes). Make the model smaller.", most_blocks, largest_file));
-            return result;
-        }
-        if (!text.empty() && text.front() != '#')
-        {
+            if (is_csv)
+            {
+                if (const std::string why = rows.add(line, text); !why.empty())
+                    complain(line, why);
+                return true;
+            }
             BlockDef block;
             block.name = "block" + std::to_string(first_number + result.blocks.size() + 1);
             if (const std::string why = read_line(text, block); !why.empty())
-                complain(number, why);
-            result.blocks.push_back({std::move(block), number});
+                complain(line, why);
+            result.blocks.push_back({std::move(block), line});
+            return true;
         }
-        line.clear();
-        if (result.problems.size() >= most_problems)
-        {
-            complain(number, "too many problems, the rest was not read). Is this a file of WKT polygons?");
-            return result;
-        }
+        return false;
+    };
+    int last = 0;
+    if (const std::string why = read_lines(in, last, add); !why.empty())
+        complain(last, why);
+    for (const CsvShapes::Shape& shape : rows.shapes)
+    {
+        result.blocks.push_back({{}, shape.line});
+        if (const std::string why = read_shape(shape, result.blocks.back().block); !why.empty())
+            complain(shape.line, why);
     }
     if (result.blocks.empty() && result.problems.empty())
-        complain(number, "the file has no polygon). Write one POLYGON((x y, ...)) a line.");
+        complain(last, "the file has no polygon). Write one POLYGON((x y, ...)) a line, or rows of name,x,y in a .csv.");
     return result;
 }
 

@@ -7,6 +7,8 @@
 ///
 /// After the polygon may follow, each behind a semicolon and each possibly empty: name, material, and "fixed" or a list of
 /// x, y, rotation. Coordinates are in metres.
+///
+/// A file whose name ends in .csv has a row a vertex instead: name,x,y and, from a block's first row, material,fixed.
 
 #include "core/check.h"
 #include "core/model/case_def.h"

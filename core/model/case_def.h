@@ -3,6 +3,7 @@
 /// SI units; angles in degrees where the name ends in _deg. Each field's default, range and effect stands once more, for
 /// users, in io/case_schema (which writes io/case_format.md).
 
+#include "core/model/trace_cells.h"
 #include "core/types.h"
 
 #include <cstdint>
@@ -32,6 +33,9 @@ struct DomainDef
     std::vector<std::string> fixed;    ///< "left", "right", "bottom", "top": blocks with an edge on that side are fixed
     std::vector<int> fixed_edges;      ///< same for edges of the polygon, 0 = first to second vertex
     std::string material = "rock";
+    std::string traces_file;           ///< WKT or CSV of joint traces; cut by io/ into CaseDef::trace_cells
+    std::string traces_joint;          ///< name of a [joint.NAME] for contacts along traces; "" = by materials
+    double traces_snap = 0.0;          ///< a trace that ends nearer than this to another one meets it [m]
 };
 
 /// [[joint_set]]: parallel joints at a regular spacing.
@@ -231,6 +235,7 @@ struct CaseDef
 {
     std::string title;
     DomainDef domain;
+    TraceCells trace_cells;                  ///< what domain.traces_file cuts the domain into, found by io/; empty without
     std::vector<JointSetDef> joint_sets;
     GeneratorDef generator;
     std::vector<ExcavationDef> excavations;

@@ -23,7 +23,7 @@ struct Shapes
     std::vector<Vec2> vertex;              ///< body frame [m]; edge i runs from vertex i to the next of its part
     std::vector<Vec2> edge_tangent;        ///< per vertex: unit vector along edge i [-]; outward normal = tangent turned right
     std::vector<double> edge_length;       ///< per vertex [m]
-    std::vector<std::int32_t> edge_source; ///< per vertex: EdgeSource, or number of the joint set
+    std::vector<std::int32_t> edge_source; ///< per vertex: EdgeSource, or number of the joint set; traces are one more
     std::vector<Vec2> part_centre;         ///< per part: centre of its bounding circle, body frame [m]
     std::vector<double> part_radius;       ///< per part: of that circle [m]
 
@@ -36,7 +36,7 @@ struct JointTable
 {
     std::vector<std::string> names;
     std::vector<CoulombSlip> laws;
-    std::vector<Index> of_joint_set;       ///< per joint set: law, or no_index
+    std::vector<Index> of_joint_set;       ///< per joint set, and for all traces: law, or no_index
     std::vector<Index> of_materials;       ///< materials x materials: law
     Index materials = 0;
 

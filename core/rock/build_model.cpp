@@ -147,6 +147,7 @@ void add_joints(const CaseDef& def, Model& model)
     }
     for (const JointSetDef& set : def.joint_sets)
         table.of_joint_set.push_back(set.joint.empty() ? no_index : joint_named(set.joint));
+    table.of_joint_set.push_back(def.domain.traces_joint.empty() ? no_index : joint_named(def.domain.traces_joint));    // of all traces
 }
 
 double smallest_free_mass(const Model& model, const Blocks& blocks)

@@ -7,6 +7,7 @@
 #include "core/rock/problem_text.h"
 #include "core/rock/rock_checks.h"
 #include "core/rock/slivers.h"
+#include "core/rock/trace_cells.h"
 #include "core/rock/weld.h"
 
 #include <algorithm>
@@ -69,6 +70,34 @@ double snapping_distance(const CaseDef& def, const Box& box)
         size = std::min(size, set.spacing);
     }
     return std::max(1e-9 * size, 64.0 * std::numeric_limits<double>::epsilon() * largest);
+}
+
+/// The domain as one block, or as the cells between its traces.
+CutMass start_mass(const CaseDef& def, const Polygon& domain, RockMass& rock)
+{
+    const TraceCells& traces = def.trace_cells;
+    const double tolerance = snapping_distance(def, bounding_box(domain));
+    if (traces.cells.empty())
+    {
+        return uncut_mass(domain, tolerance);
+    }
+    const auto small = std::count_if(traces.cells.begin(), traces.cells.end(),
+                                     [&](const std::vector<Polygon>& cell)
+                                     {
+                                         double sum = 0.0;
+                                         for (const Polygon& piece : cell)
+                                             sum += signed_area(piece);
+                                         return sum < def.generator.smallest_block_area;
+                                     });
+    if (small > 0)
+    {
+        rock.warnings.push_back({Problem::Severity::warning, "domain.traces_file",
+                                 "[domain]: traces_file (" + std::to_string(small) + " cells are smaller than generator.smallest_block_area, " +
+                                     text(def.generator.smallest_block_area) + " m2). Move these traces, or leave some out."});
+    }
+    rock.joints += traces.traces;
+    rock.dead_ends = traces.dead_ends;
+    return traced_mass(domain, traces, static_cast<std::int32_t>(def.joint_sets.size()), tolerance);
 }
 
 void cut_joint_sets(const CaseDef& def, const Polygon& domain, CutMass& mass, RockMass& rock)
@@ -248,7 +277,7 @@ RockMass generate_rock_mass(const CaseDef& def)
     {
         const Domain domain = make_domain(def.domain);
         rock.domain_area = signed_area(domain.polygon);
-        CutMass mass = uncut_mass(domain.polygon, snapping_distance(def, bounding_box(domain.polygon)));
+        CutMass mass = start_mass(def, domain.polygon, rock);
         cut_joint_sets(def, domain.polygon, mass, rock);
         cut_excavations(def, mass, rock);
         add_generated(def, domain, mass, rock);

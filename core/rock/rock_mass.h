@@ -34,6 +34,7 @@ struct RockMass
     std::int64_t cuts = 0;               ///< block cuts made
     std::int64_t refused_cuts = 0;       ///< because a piece or an edge would have been too small
     std::int64_t skipped_cuts = 0;       ///< by persistence
+    std::int64_t dead_ends = 0;          ///< stretches of traces that part nothing, dropped
     std::int64_t merged_slivers = 0;     ///< outline pieces joined to a neighbour
     std::vector<Problem> warnings;
 };

@@ -51,8 +51,8 @@ int check_command(const CheckOptions& options)
     fmt::print("blocks            {} ({} free)\n", model.blocks(), free);
     fmt::print("smallest free     {:.6g} kg\n", smallest);
     if (rock.joints > 0)
-        fmt::print("joints            {} traces, {} cuts, {} refused, {} skipped by persistence, {} slivers merged\n", rock.joints, rock.cuts,
-                   rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
+        fmt::print("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers merged\n",
+                   rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
     fmt::print("time step         {:.6g} s\n", model.time_step);
     fmt::print("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
     fmt::print("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());

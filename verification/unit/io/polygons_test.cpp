@@ -134,6 +134,29 @@ TEST(PolygonFile, RefusesAnEndlessLineBeforeItFillsTheMemory)
     EXPECT_THAT(file.problems[0].text, testing::HasSubstr("line is longer"));
 }
 
+TEST(PolygonFile, ReadsRowsOfATable)
+{
+    std::istringstream in("name,x,y,material,fixed\nbench,0,0,chalk,fixed\nbench,1,0\nbench,1,1\nlid, 0,1\nlid,1,1\nlid,0,2\nlid,0,1\n");
+    const PolygonFile file = read_polygons(in, "blocks.csv");
+    EXPECT_THAT(file.problems, testing::IsEmpty());
+    ASSERT_EQ(file.blocks.size(), 2U);
+    EXPECT_EQ(file.blocks[0].block.name, "bench");
+    EXPECT_EQ(file.blocks[0].block.material, "chalk");
+    EXPECT_TRUE(file.blocks[0].block.fix_rotation);
+    EXPECT_EQ(file.blocks[0].line, 2);
+    EXPECT_THAT(file.blocks[1].block.polygon, testing::ElementsAre(Vec2(0, 1), Vec2(1, 1), Vec2(0, 2))) << "a repeated first vertex is dropped";
+}
+
+TEST(PolygonFile, SaysWhichRowOfATableIsWrong)
+{
+    std::istringstream in("a,0,0\na,1,0\na,1,zero\nb,0,0,rock,all\nb,1,0\nb,1,1\n");
+    const PolygonFile file = read_polygons(in, "blocks.csv");
+    ASSERT_EQ(file.problems.size(), 3U);
+    EXPECT_THAT(file.problems[0].text, testing::HasSubstr("blocks.csv:3: block: polygon (expected a finite number, got \"zero\")"));
+    EXPECT_THAT(file.problems[1].text, testing::HasSubstr("blocks.csv:1: block: polygon (\"a\" has 2 rows"));
+    EXPECT_THAT(file.problems[2].text, testing::HasSubstr("\"all\" does not say what is fixed"));
+}
+
 TEST(PolygonFile, RefusesAnEmptyFile)
 {
     EXPECT_THAT(read("").problems.at(0).text, testing::HasSubstr("no polygon"));

@@ -1,0 +1,28 @@
+#pragma once
+/// What joint traces of finite length cut the domain into, as a geometry library found it.
+
+#include "core/types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hdem
+{
+/// A straight stretch of a trace.
+struct TraceSegment
+{
+    Vec2 from = {0.0, 0.0};  ///< [m]
+    Vec2 to = {0.0, 0.0};    ///< [m]
+};
+
+/// What traces of finite length cut the domain into.
+struct TraceCells
+{
+    /// Of each cell its pieces, anticlockwise: itself, or triangles when it has a hole. Neighbours, and pieces of one cell, have the
+    /// same vertices along their border [m].
+    std::vector<std::vector<Polygon>> cells;
+    std::vector<TraceSegment> segments;
+    std::int64_t traces = 0;
+    std::int64_t dead_ends = 0;  ///< stretches dropped, because they part nothing
+};
+}  // namespace hdem

@@ -1,0 +1,85 @@
+#include "io/scanner.h"
+
+#include "io/toml_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <istream>
+
+namespace hdem
+{
+namespace
+{
+constexpr std::size_t longest_line = 1'000'000;      // bytes; some 25 000 vertices
+constexpr std::size_t largest_file = 4'000'000'000;  // bytes
+}  // namespace
+
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool starts_with_word(std::string_view text, std::string_view word)
+{
+    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(),
+                                                    [](char w, char t) { return w == (t >= 'a' && t <= 'z' ? t - 'a' + 'A' : t); });
+}
+
+bool Scanner::take(char c)
+{
+    rest = trimmed(rest);
+    if (rest.empty() || rest.front() != c)
+        return false;
+    rest.remove_prefix(1);
+    return true;
+}
+
+bool Scanner::take_number(double& x)
+{
+    rest = trimmed(rest);
+    std::string_view digits = rest;
+    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
+        digits.remove_prefix(1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+    const bool whole_word = end == digits.data() + digits.size() || std::string_view(" \t,()").find(*end) != std::string_view::npos;
+    if (error != std::errc() || !std::isfinite(x) || !whole_word)
+        return false;
+    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+    return true;
+}
+
+std::string Scanner::here() const
+{
+    return rest.empty() ? "the end of the line" : "\"" + printable(rest, 20) + "\"";
+}
+
+std::string read_lines(std::istream& in, int& last, const std::function<bool(int, std::string_view)>& use)
+{
+    std::string line;
+    std::size_t bytes = 0;
+    last = 0;
+    for (char c = '\0'; in.get(c) || !line.empty();)
+    {
+        if (in && c != '\n' && line.size() <= longest_line)
+        {
+            line += c;
+            continue;
+        }
+        ++last;
+        bytes += line.size() + 1;
+        if (line.size() > longest_line)
+            return fmt::format("the line is longer than {} bytes). Is this a text file with a shape a line?", longest_line);
+        if (bytes > largest_file)
+            return fmt::format("more than {} bytes). Make the model smaller.", largest_file);
+        const std::string_view text = trimmed(line);
+        if (!text.empty() && text.front() != '#' && !use(last, text))
+            return "";
+        line.clear();
+    }
+    return "";
+}
+}  // namespace hdem

@@ -1,0 +1,33 @@
+#pragma once
+/// Reading lines and numbers of text files that others made: bounded, without exceptions, with words for what was found instead.
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace hdem
+{
+inline constexpr double farthest_coordinate = 1e8;  // [m], the same limit as in the case file
+
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// Whether a text begins with this word of capitals, itself in capitals or not.
+[[nodiscard]] bool starts_with_word(std::string_view text, std::string_view word);
+
+/// Reads a text from the left; every take_ either consumes or leaves the text as it is.
+struct Scanner
+{
+    std::string_view rest;
+
+    bool take(char c);
+    /// A finite number that ends where a word ends.
+    bool take_number(double& x);
+    /// What comes next, for messages.
+    [[nodiscard]] std::string here() const;
+};
+
+/// Calls `use` with the number and the text of every line that is neither empty nor a comment (#), until it returns false.
+/// @return "" or why reading stopped: a line or a file that is too long; `last` is the number of the last line seen
+std::string read_lines(std::istream& in, int& last, const std::function<bool(int, std::string_view)>& use);
+}  // namespace hdem
