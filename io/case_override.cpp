@@ -51,7 +51,8 @@ TomlNode& member(TomlNode& table, const std::string& key, const Place& at)
     for (TomlMember& existing : *table.members())
         if (existing.key == key)
             return existing.value;
-    return table.members()->emplace_back(key, at, TomlNode{TomlNode::Members{}, at}).value;
+    table.members()->push_back({key, at, TomlNode{TomlNode::Members{}, at}});
+    return table.members()->back().value;
 }
 
 /// Entry of an array by its name, given or by default; nullptr when there is none.

@@ -16,8 +16,10 @@ if(HDEM_SANITIZE STREQUAL "address")
     set(HDEM_SANITIZE_FLAGS -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
 elseif(HDEM_SANITIZE STREQUAL "thread")
     set(HDEM_SANITIZE_FLAGS -fsanitize=thread -fno-omit-frame-pointer)
+elseif(HDEM_SANITIZE STREQUAL "fuzz")    # clang only
+    set(HDEM_SANITIZE_FLAGS -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=all -fno-omit-frame-pointer)
 elseif(HDEM_SANITIZE)
-    message(FATAL_ERROR "HDEM_SANITIZE = \"${HDEM_SANITIZE}\" (unknown). Give \"\", \"address\" or \"thread\".")
+    message(FATAL_ERROR "HDEM_SANITIZE = \"${HDEM_SANITIZE}\" (unknown). Give \"\", \"address\", \"thread\" or \"fuzz\".")
 endif()
 
 target_compile_options(hdem_flags INTERFACE
