@@ -225,65 +225,55 @@ std::optional<std::string> named_file(const std::string& name, const std::filesy
     return read_all(in, largest_named_file);
 }
 
+/// Text of the file that `key` names; it is kept with the case. Complains where there is none, and returns nothing.
+const std::string* text_named(const std::string& key, const std::string& object, const std::string& name, CaseFile& read,
+                              const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems)
+{
+    const auto complain = [&](const std::string& why, const std::string& remedy)
+    { problems.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(name)), why, remedy); };
+    std::optional<std::string> text = named_file(name, case_file, stored);
+    if (!text)
+        complain(fmt::format("{} cannot be opened", printable((case_file.parent_path() / name).string(), 200)),
+                 "A relative name starts at the folder of the case file.");
+    else if (text->size() > largest_named_file)
+        complain(fmt::format("larger than {} bytes", largest_named_file), "Make the model smaller.");
+    else
+        return &(read.files[name] = std::move(*text));
+    return nullptr;
+}
+
 /// Appends the blocks of the blocks_file. Problems inside it are located already.
 void add_blocks_file(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
                      std::vector<Problem>& located)
 {
     CaseDef& def = read.def;
-    CaseSource& source = read.source;
-    const auto file = case_file.parent_path() / def.blocks_file;
-    std::optional<std::string> text = named_file(def.blocks_file, case_file, stored);
-    if (!text)
-        return problems.add("blocks_file", "case", fmt::format("blocks_file = \"{}\"", printable(def.blocks_file)),
-                            fmt::format("{} cannot be opened", printable(file.string(), 200)),
-                            "A relative name starts at the folder of the case file.");
-    if (text->size() > largest_named_file)
-        return problems.add("blocks_file", "case", fmt::format("blocks_file = \"{}\"", printable(def.blocks_file)),
-                            fmt::format("larger than {} bytes", largest_named_file), "Make the model smaller.");
-    std::istringstream in(*text);
-/// A file that a key names, relative to the case file.
-std::ifstream open_beside(const std::filesystem::path& file, const std::string& key, const std::string& object, const std::string& given,
-                          CaseProblems& problems)
-{
-    std::error_code ignored;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, ignored))
-    {
-        problems.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(given)),
-                     fmt::format("{} cannot be opened", printable(file.string(), 200)), "A relative name starts at the folder of the case file.");
-        in.setstate(std::ios::failbit);
-    }
-    return in;
-}
-
-/// Appends the blocks of the blocks_file. Problems inside it are located already.
-void add_blocks_file(CaseDef& def, const std::filesystem::path& case_file, CaseSource& source, CaseProblems& problems,
-                     std::vector<Problem>& located)
-{
-    const auto file = case_file.parent_path() / def.blocks_file;
-    std::ifstream in = open_beside(file, "blocks_file", "case", def.blocks_file, problems);
-    if (!in)
+    const std::string* text = text_named("blocks_file", "case", def.blocks_file, read, case_file, stored, problems);
+    if (text == nullptr)
         return;
-    auto [blocks, found] = read_polygons(in, file.string(), def.blocks.size());
-    read.files.emplace(def.blocks_file, std::move(*text));
+    const std::string file = (case_file.parent_path() / def.blocks_file).string();
+    std::istringstream in(*text);
+    auto [blocks, found] = read_polygons(in, file, def.blocks.size());
     located.insert(located.end(), found.begin(), found.end());
-    const int number = source.add_source(file.string());
+    const int number = read.source.add_source(file);
     for (auto& [block, line] : blocks)
     {
-        source.add(fmt::format("block[{}]", def.blocks.size()), {.line = line, .source = number});
+        read.source.add(fmt::format("block[{}]", def.blocks.size()), {.line = line, .source = number});
         def.blocks.push_back(std::move(block));
     }
 }
+
 /// Traces of the traces_file. Problems inside it are located already.
-std::vector<Polygon> traces_of(const CaseDef& def, const std::filesystem::path& case_file, CaseProblems& problems, std::vector<Problem>& located)
+std::vector<Polygon> traces_of(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored,
+                               CaseProblems& problems, std::vector<Problem>& located)
 {
-    if (def.domain.traces_file.empty())
+    const std::string& name = read.def.domain.traces_file;
+    if (name.empty())
         return {};
-    const auto file = case_file.parent_path() / def.domain.traces_file;
-    std::ifstream in = open_beside(file, "domain.traces_file", "[domain]", def.domain.traces_file, problems);
-    if (!in)
+    const std::string* text = text_named("domain.traces_file", "[domain]", name, read, case_file, stored, problems);
+    if (text == nullptr)
         return {};
-    auto [traces, found] = read_traces(in, file.string());
+    std::istringstream in(*text);
+    auto [traces, found] = read_traces(in, (case_file.parent_path() / name).string());
     located.insert(located.end(), found.begin(), found.end());
     return traces;
 }
@@ -323,8 +313,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     Reader(result.def, source, problems).read(document);
     if (!result.def.blocks_file.empty())
         add_blocks_file(result, file, files, problems, located);
-        add_blocks_file(result.def, file, source, problems, located);
-    const std::vector<Polygon> traces = traces_of(result.def, file, problems, located);
+    const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);
     check_rock_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
 

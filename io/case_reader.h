@@ -24,7 +24,7 @@ using NamedFiles = std::map<std::string, std::string>;
 struct CaseFile
 {
     CaseDef def;
-    NamedFiles files;               ///< blocks_file
+    NamedFiles files;               ///< blocks_file, traces_file
     CaseSource source;              ///< finds file:line:col of problems that are noticed later
     std::vector<Problem> warnings;  ///< located
 };

@@ -95,8 +95,9 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
     const RockMass& rock = start.loaded.setup.rock;
     if (rock.joints > 0)
         log.line(fmt::format(
-            "joints    {} traces, {} cuts; {} cuts refused (piece or edge too small), {} skipped by persistence, {} slivers merged",
-            rock.joints, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers));
+            "joints    {} traces, {} dead ends of them dropped, {} cuts; {} cuts refused (piece or edge too small), {} skipped by "
+            "persistence, {} slivers merged",
+            rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers));
     log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
                          simulation.count_contacts().closed()));
     log.line(fmt::format("method    {}; threshold scale {:.4g}", method_name(state.method), model.threshold_scale));
