@@ -23,15 +23,14 @@ RunKeeper::RunKeeper(Settings settings, RunRecord record, RunRecorder& recorder,
       record_(std::move(record)),
       recorder_(recorder),
       log_(log),
-      earlier_seconds_(record_.wall_seconds),
-      last_save_(Clock::now())
+      earlier_seconds_(record_.wall_seconds)
 {
     record_.finished = false;
 }
 
 double RunKeeper::wall_seconds() const
 {
-    return earlier_seconds_ + since(settings_.begin);
+    return earlier_seconds_ + since(first_);
 }
 
 std::int64_t RunKeeper::next_cycle(std::int64_t now) const

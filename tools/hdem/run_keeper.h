@@ -36,7 +36,7 @@ class RunKeeper : public Keeper
 
     /// Exit code of a run that was broken off; nothing for one that was not.
     [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
-    /// Since the run first began, over all restarts [s].
+    /// Spent in cycles and output, over all restarts [s].
     [[nodiscard]] double wall_seconds() const;
 
   private:
@@ -47,7 +47,8 @@ class RunKeeper : public Keeper
     RunRecorder& recorder_;
     Log& log_;
     double earlier_seconds_ = 0.0;  ///< spent by earlier programs
-    Clock::time_point last_save_;
+    Clock::time_point first_ = Clock::now();
+    Clock::time_point last_save_ = first_;
     double save_seconds_ = 0.0;  ///< that the last checkpoint took
     std::optional<int> exit_code_;
 };
