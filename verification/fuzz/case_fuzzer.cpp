@@ -18,7 +18,7 @@ bool is_small(const CaseDef& def)
     for (const JointSetDef& set : def.joint_sets)
     {
         const double across = def.domain.width + def.domain.height;
-        if (!def.domain.polygon.empty() || !(across / set.spacing < 20.0))
+        if (!def.domain.polygon.empty() || !(across / set.spacing < 5.0))
             return false;
     }
     for (const ExcavationDef& excavation : def.excavations)
