@@ -113,8 +113,8 @@ HistorySampler::HistorySampler(const Model& model, const HistoryDef& def) : name
         return at;
     };
     const bool pair = def.between.size() == 2;
-    first_ = find(pair ? def.between[0] : def.block);
-    second_ = pair ? find(def.between[1]) : no_index;
+    first_user_ = model.user_number[find(pair ? def.between[0] : def.block)];
+    second_user_ = pair ? model.user_number[find(def.between[1])] : no_index;
     for (const std::string& quantity : def.quantities)
     {
         const bool known = pair ? select(known_of_pair(), quantity, columns_, of_pair_) : select(known_of_block(), quantity, columns_, of_block_);
@@ -129,6 +129,8 @@ void HistorySampler::find_contacts(const Model& model, const State& state)
     if (broad_phase_runs_ == state.broad_phase_runs)
         return;
     contacts_.clear();
+    first_ = model.slot_of_user[first_user_];  // blocks may have been sorted anew
+    second_ = second_user_ == no_index ? no_index : model.slot_of_user[second_user_];
     const std::vector<Index>& block_of = model.shapes.part_block;
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
@@ -169,7 +171,7 @@ void HistorySampler::sample(const Model& model, const State& state, std::span<do
 {
     HDEM_EXPECT(values.size() == columns_.size());
     for (std::size_t i = 0; i < of_block_.size(); ++i)
-        values[i] = of_block_[i](model, state, first_);
+        values[i] = of_block_[i](model, state, model.slot_of_user[first_user_]);
     if (of_pair_.empty())
         return;
     find_contacts(model, state);

@@ -70,7 +70,9 @@ class HistorySampler
     std::string name_;
     std::int64_t every_ = 1;
     std::vector<Column> columns_;
-    Index first_ = no_index;             ///< or the only block
+    Index first_user_ = no_index;        ///< or the only block; number that the user knows
+    Index second_user_ = no_index;
+    Index first_ = no_index;             ///< where a pair is now
     Index second_ = no_index;
     std::vector<BlockQuantity> of_block_;
     std::vector<PairQuantity> of_pair_;

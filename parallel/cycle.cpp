@@ -4,6 +4,7 @@
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
+#include "core/state/block_sorting.h"
 
 #include <algorithm>
 
@@ -45,9 +46,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
 
 void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
-    if (state.contacts_outdated)
-        renew_contacts(model, state, threads);
-    else if (!prepared_ || prepared_for_ != state.method)
+    if (!prepared_ || prepared_for_ != state.method)
         prepare(model, state);
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
     // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
@@ -56,7 +55,7 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
               [&](const Team& team)
               {
                   double way = moved;
-                  for (std::int64_t i = 0; i < cycles; ++i)
+                  for (std::int64_t i = 0; i < cycles && !state.contacts_outdated; ++i)
                       cycle(model, state, team, way);
               });
 }
@@ -72,6 +71,8 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
         {
             renew_contacts(model, state, team);
             way = 0.0;
+            // This cycle is finished; then the caller sorts the blocks, which no cycle may do.
+            team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
         }
     }
     if (!model.loads.empty())

@@ -14,7 +14,9 @@ namespace hdem
 class CycleRunner
 {
   public:
-    /// The stages in the order of core/README.md, `cycles` times. The same bits on any number of threads, and however a run is cut into calls.
+    /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.
+    /// The same bits on any number of threads, and however a run is cut into calls.
+    /// @pre contacts are not outdated
     void run(const Model& model, State& state, std::int64_t cycles, int threads);
 
     /// Find the contacts anew, after blocks were taken away, fixed or freed.

@@ -5,6 +5,7 @@
 #include "core/energy_ledger.h"
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
+#include "core/state/block_sorting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ Simulation::Simulation(Model model, State state, int threads)
 {
     const bool fresh = state_.broad_phase_runs == 0;  // and not from a checkpoint
     if (state_.contacts_outdated)
-        runner_.renew_contacts(model_, state_, threads_);
+        renew_contacts();
     if (fresh)
         state_.ledger.initial = stored_energy(model_, state_).total();
 }
@@ -121,7 +122,7 @@ void Simulation::begin_stage(Index stage)
     if (!def.fix.empty() || !def.free.empty())
         state_.contacts_outdated = true;
     if (state_.contacts_outdated)
-        runner_.renew_contacts(model_, state_, threads_);
+        renew_contacts();
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);
@@ -139,7 +140,19 @@ void Simulation::note_outcome(bool converged)
 
 void Simulation::advance(std::int64_t cycles)
 {
-    runner_.run(model_, state_, cycles, threads_);
+    for (const std::int64_t end = state_.cycle + cycles; state_.cycle < end;)
+    {
+        if (state_.contacts_outdated)
+            renew_contacts();
+        runner_.run(model_, state_, end - state_.cycle, threads_);
+    }
+}
+
+void Simulation::renew_contacts()
+{
+    if (is_order_decayed(model_, state_))
+        sort_blocks(model_, state_);
+    runner_.renew_contacts(model_, state_, threads_);
 }
 
 void Simulation::check_state() const

@@ -49,6 +49,7 @@ class Simulation
 
   private:
     void excavate(const std::string& name);
+    void renew_contacts();
 
     Model model_;
     State state_;

@@ -1,8 +1,13 @@
 #pragma once
 /// Hilbert curve: a number for a point, such that points with near numbers lie near each other.
 
+#include "core/geometry/polygon.h"
+
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace hdem
 {
@@ -26,5 +31,23 @@ namespace hdem
         }
     }
     return number;
+}
+
+/// Numbers of the points in their order along the curve through a square around `box`; of equal ones the first comes first.
+/// @pre all points lie in the box
+[[nodiscard]] inline std::vector<Index> curve_order(const std::vector<Vec2>& points, const Box& box)
+{
+    const double side = std::max((box.high - box.low).maxCoeff(), 1e-300);
+    std::vector<std::uint64_t> number(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        const Vec2 at = (points[i] - box.low) / side * 2147483647.0;
+        number[i] = hilbert_number(static_cast<std::uint32_t>(std::clamp(at.x(), 0.0, 2147483647.0)),
+                                   static_cast<std::uint32_t>(std::clamp(at.y(), 0.0, 2147483647.0)));
+    }
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return number[a] != number[b] ? number[a] < number[b] : a < b; });
+    return order;
 }
 }  // namespace hdem

@@ -1,21 +1,9 @@
 #include "core/model/block_order.h"
 
-#include <utility>
-
 namespace hdem
 {
 namespace
 {
-template <typename T>
-void permute(const std::vector<Index>& from, std::vector<T>& values)
-{
-    std::vector<T> permuted;
-    permuted.reserve(values.size());
-    for (const Index i : from)
-        permuted.push_back(std::move(values[i]));
-    values = std::move(permuted);
-}
-
 Shapes permuted(const std::vector<Index>& from, const Shapes& old)
 {
     Shapes shapes;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace hdem
 {
@@ -58,23 +57,6 @@ double size_ratio(const std::vector<RockBlock>& blocks, const Model& model)
             around.add(points);
         }
     return around.area() / (model.mean_size * model.mean_size);
-}
-
-/// Users' numbers of the blocks in their order along the curve.
-std::vector<Index> curve_order(const std::vector<BlockMoments>& moments, const Box& box)
-{
-    const double side = std::max((box.high - box.low).maxCoeff(), 1e-300);
-    std::vector<std::uint64_t> number(moments.size());
-    for (std::size_t i = 0; i < moments.size(); ++i)
-    {
-        const Vec2 at = (moments[i].of.centroid - box.low) / side * 2147483647.0;
-        number[i] = hilbert_number(static_cast<std::uint32_t>(std::clamp(at.x(), 0.0, 2147483647.0)),
-                                   static_cast<std::uint32_t>(std::clamp(at.y(), 0.0, 2147483647.0)));
-    }
-    std::vector<Index> order(moments.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return number[a] != number[b] ? number[a] < number[b] : a < b; });
-    return order;
 }
 
 void add_part(Shapes& shapes, const ConvexPart& part, const Vec2& centroid, Index block)
@@ -220,7 +202,10 @@ Setup build_model(const CaseDef& def)
     moments.reserve(rock.blocks.size());
     for (const RockBlock& block : rock.blocks)
         moments.push_back(block_moments(block));
-    const std::vector<Index> order = curve_order(moments, box);
+    std::vector<Vec2> centroids;
+    for (const BlockMoments& block : moments)
+        centroids.push_back(block.of.centroid);
+    const std::vector<Index> order = curve_order(centroids, box);
     model.shapes.part_begin.push_back(0);
     model.shapes.vertex_begin.push_back(0);
     double total_area = 0.0;

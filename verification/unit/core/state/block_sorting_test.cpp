@@ -1,0 +1,89 @@
+#include "core/state/block_sorting.h"
+#include "verification/unit/case_run.h"
+
+#include <random>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+/// A wall some cycles after its start, with friction and weight in its contacts.
+struct Wall
+{
+    Model model;
+    State state;
+
+    explicit Wall(int side = 75)
+    {
+        CaseRun run(scenes::wall(side, side));
+        run.advance(40);
+        model = run.simulation.model();
+        state = run.simulation.state();
+    }
+
+    /// The same with its blocks in any order in memory.
+    void shuffle()
+    {
+        const Blocks now = state.blocks;
+        const std::vector<Index> slot = model.slot_of_user;
+        std::mt19937_64 random(7);
+        for (BlockMotion& m : state.blocks.motion)
+        {
+            m.x = static_cast<double>(random() >> 40);
+            m.y = static_cast<double>(random() >> 40);
+        }
+        sort_blocks(model, state);
+        for (Index user = 0; user < model.blocks(); ++user)
+            state.blocks.motion[model.slot_of_user[user]] = now.motion[slot[user]];
+    }
+};
+
+TEST(BlockSorting, SeesWhenTheOrderHasDecayed)
+{
+    Wall wall;
+    EXPECT_FALSE(is_order_decayed(wall.model, wall.state));
+    wall.shuffle();
+    EXPECT_TRUE(is_order_decayed(wall.model, wall.state));
+    sort_blocks(wall.model, wall.state);
+    EXPECT_FALSE(is_order_decayed(wall.model, wall.state));
+}
+
+TEST(BlockSorting, LeavesSmallModelsAlone)
+{
+    Wall wall(20);
+    wall.shuffle();
+    EXPECT_FALSE(is_order_decayed(wall.model, wall.state));
+}
+
+TEST(BlockSorting, KeepsNamesNumbersStateAndContactHistory)
+{
+    Wall wall(30);
+    const Wall before = wall;
+    wall.shuffle();
+    EXPECT_NE(wall.model.user_number, before.model.user_number);
+    EXPECT_EQ(state_hash(wall.model, wall.state), state_hash(before.model, before.state));
+    for (Index user = 0; user < wall.model.blocks(); ++user)
+    {
+        const Index now = wall.model.slot_of_user[user], then = before.model.slot_of_user[user];
+        EXPECT_EQ(wall.model.name[now], before.model.name[then]);
+        EXPECT_EQ(wall.state.blocks.displacement(now), before.state.blocks.displacement(then));
+    }
+}
+
+/// A run finds its order decayed, sorts its blocks, and goes on as the run whose blocks were never out of order.
+TEST(BlockSorting, HappensBetweenTwoCyclesOfARun)
+{
+    Wall wall, shuffled;
+    shuffled.shuffle();
+    sort_blocks(wall.model, wall.state);  // along the curve through the centroids, as the run will
+    Simulation expected(wall.model, wall.state), run(shuffled.model, shuffled.state);
+    EXPECT_EQ(run.model().user_number, expected.model().user_number);
+    expected.advance(50);
+    run.advance(50);
+    EXPECT_EQ(state_hash(run.model(), run.state()), state_hash(expected.model(), expected.state()));
+    EXPECT_EQ(run.state().ledger.friction, expected.state().ledger.friction);
+}
+}  // namespace
+}  // namespace hdem
