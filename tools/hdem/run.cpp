@@ -102,7 +102,7 @@ int run_command(const RunOptions& options)
     }
     const RunSummary summary = summarise(start, simulation, stages, session, keeper.wall_seconds());
     write_summary(folder / "summary.json", summary);
-    print_closing(log, summary, session, simulation.count_contacts(), folder);
+    print_closing(log, summary, session, simulation, folder);
     return summary.converged ? exit_done : exit_no_convergence;
 }
 }  // namespace hdem

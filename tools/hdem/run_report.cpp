@@ -161,7 +161,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     return s;
 }
 
-void print_closing(Log& log, const RunSummary& s, const Session& session, const ContactCounts& contacts, const fs::path& folder)
+void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
     const bool aimed = std::ranges::any_of(s.stages, &StageSummary::until_converged);
@@ -182,8 +182,14 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
         "residual {:.2g} ({:.1e} of the largest)",
         e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
         e.impulse_loss, e.contact_changes, e.removed, s.stored.total(), residual(e, s.stored), relative_residual(e, s.stored)));
+    const ContactCounts contacts = simulation.count_contacts();
     log.line(
         fmt::format("contact points: {} stick, {} slip, {} impulse", contacts.points[1], contacts.points[2], contacts.points[3]));
+    const State& state = simulation.state();
+    log.line(fmt::format("contacts found anew {} times; facing edges searched {} times, {:.2g} times a contact and cycle",
+                         state.broad_phase_runs, state.feature_searches,
+                         static_cast<double>(state.feature_searches) /
+                             std::max(static_cast<double>(state.contacts.size()) * static_cast<double>(state.cycle), 1.0)));
     const double seconds = std::max(session.seconds, 1e-9);
     log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
                          "at most {:.0f} MB",

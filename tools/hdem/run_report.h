@@ -25,6 +25,6 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
 RunSummary summarise(const RunStart& start, const Simulation& simulation, const std::vector<StageResult>& stages,
                      const Session& session, double wall_seconds);
 
-void print_closing(Log& log, const RunSummary& summary, const Session& session, const ContactCounts& contacts,
+void print_closing(Log& log, const RunSummary& summary, const Session& session, const Simulation& simulation,
                    const std::filesystem::path& folder);
 }  // namespace hdem
