@@ -31,6 +31,14 @@ Json energy_json(const RunSummary& s)
         {"relative_residual", relative_residual(s.energy, s.stored)},
     };
 }
+
+Json timing_json(const RunSummary& s)
+{
+    Json json = Json::object();
+    for (const StageTiming& t : s.timing)
+        json[t.name] = {{"min", t.least}, {"mean", t.mean}, {"max", t.greatest}, {"share", t.share}};
+    return json;
+}
 }  // namespace
 
 std::string summary_text(const RunSummary& s)
@@ -67,6 +75,7 @@ std::string summary_text(const RunSummary& s)
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
         {"contact_point_updates_per_second", s.contact_point_updates_per_second},
+        {"timing", timing_json(s)},
         {"state_hash", fmt::format("{:016x}", s.state_hash)},
         {"warnings", s.warnings},
     };

@@ -19,6 +19,16 @@ struct StageSummary
     bool converged = false;
 };
 
+/// Wall time of one stage of the cycles, over the threads.
+struct StageTiming
+{
+    std::string name;
+    double least = 0.0;                            ///< [s]
+    double mean = 0.0;
+    double greatest = 0.0;
+    double share = 0.0;                            ///< of the mean in the time of all cycles and their output
+};
+
 /// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
 struct RunSummary
 {
@@ -51,6 +61,7 @@ struct RunSummary
     StoredEnergy stored;                           ///< at the end [J]
     double wall_seconds = 0.0;
     double contact_point_updates_per_second = 0.0;
+    std::vector<StageTiming> timing;               ///< since the start or the last restart; key per stage with min, mean, max, share
     std::uint64_t state_hash = 0;                  ///< written as 16 hexadecimal digits
     std::vector<std::string> warnings;
 };

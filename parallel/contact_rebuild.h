@@ -4,10 +4,11 @@
 #include "core/detection/cell_list.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
-#include "parallel/openmp.h"
 
 namespace hdem
 {
+class Team;
+
 /// Cell list, pairs, contacts: see core/detection. Parts are cut into chunks whose size does not depend on the number of threads; what the chunks find is put one
 /// after another, so that the list is sorted by parts and the same on any number of threads.
 class ContactRebuild

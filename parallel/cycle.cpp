@@ -5,6 +5,7 @@
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
 #include "core/state/block_sorting.h"
+#include "parallel/openmp.h"
 
 #include <algorithm>
 
@@ -16,17 +17,21 @@ namespace
 constexpr Index least_contacts_a_thread = 256;
 /// Impulse points from which colours are shared out; fewer are swept by one thread, in the same order.
 constexpr Index impulses_worth_sharing = 2000;
+constexpr std::int64_t timed_every = 16;
 }  // namespace
 
 void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
 {
+    times_.resize(std::max(times_.size(), static_cast<std::size_t>(threads)));
     with_team(threads, [&](const Team& team) { renew_contacts(model, state, team); });
 }
 
 void CycleRunner::renew_contacts(const Model& model, State& state, const Team& team)
 {
+    StageClock clock(times_[static_cast<std::size_t>(team.member())], 1.0);
     rebuild_.run(model, state, team);
     team.alone([&] { prepare(model, state); });
+    clock.lap(CycleStage::broad);
 }
 
 void CycleRunner::prepare(const Model& model, const State& state)
@@ -51,16 +56,21 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
     // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
     const double moved = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
+    times_.resize(std::max(times_.size(), static_cast<std::size_t>(threads)));
     with_team(std::min(threads, useful),
               [&](const Team& team)
               {
                   double way = moved;
                   for (std::int64_t i = 0; i < cycles && !state.contacts_outdated; ++i)
-                      cycle(model, state, team, way);
+                  {
+                      const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
+                      StageClock clock(times_[static_cast<std::size_t>(team.member())], static_cast<double>(weight));
+                      cycle(model, state, team, way, clock);
+                  }
               });
 }
 
-void CycleRunner::cycle(const Model& model, State& state, const Team& team, double& way)
+void CycleRunner::cycle(const Model& model, State& state, const Team& team, double& way, StageClock& clock)
 {
     const double allowed = 0.5 * skin_width(model);
     if (!(way <= allowed))
@@ -70,6 +80,7 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
         if (!(way <= allowed))
         {
             renew_contacts(model, state, team);
+            clock.skip();
             way = 0.0;
             // This cycle is finished; then the caller sorts the blocks, which no cycle may do.
             team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
@@ -82,9 +93,12 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
                 prescribe_motions(model, state.cycle, state.contacts, state.blocks, state.ledger);
                 apply_loads(model, state.cycle, state.blocks, work_.external, work_.loaded);
             });
+    clock.lap(CycleStage::update);
 
-    evaluate(model, state, team);
+    evaluate(model, state, team, clock);
+    clock.lap(CycleStage::force);
     team.barrier();
+    clock.lap(CycleStage::wait);
     Index impulses = 0;
     if (state.method != Method::force)
         for (const ContactPart& part : partition_.contacts)
@@ -92,8 +106,10 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
     if (impulses == 0)
         move(model, state, team);
     else
-        move_with_impulses(model, state, team, impulses);
+        move_with_impulses(model, state, team, impulses, clock);
+    clock.lap(CycleStage::update);
     team.barrier();
+    clock.lap(CycleStage::wait);
 
     double farthest = 0.0;
     for (const BlockPart& part : partition_.blocks)
@@ -109,14 +125,20 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
     state.time = static_cast<double>(state.cycle) * model.time_step;
 }
 
-void CycleRunner::evaluate(const Model& model, State& state, const Team& team)
+void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
         part.ledger = {};
-        part.searched = part.tally.stale > 0 ? refresh_features(part.range, model, state.blocks, state.contacts, part.ledger) : 0;
+        part.searched = 0;
+        if (part.tally.stale > 0)
+        {
+            clock.lap(CycleStage::force);
+            part.searched = refresh_features(part.range, model, state.blocks, state.contacts, part.ledger);
+            clock.lap(CycleStage::narrow);
+        }
         part.tally = evaluate_contacts(part.range, model, state.method, state.blocks, state.contacts,
                                        work_.loads);  // Eqs. (1)-(10), (24)-(28)
         part.ledger.friction += part.tally.friction;
@@ -157,13 +179,16 @@ void CycleRunner::move(const Model& model, State& state, const Team& team)
     }
 }
 
-void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, Index impulses)
+void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, Index impulses, StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
         change_velocities(model, state, partition_.blocks[i]);
+    clock.lap(CycleStage::update);
     team.barrier();
+    clock.lap(CycleStage::wait);
     apply_impulses(model, state, team, impulses >= impulses_worth_sharing);
+    clock.lap(CycleStage::impulse);
     if (team.is_first())
         add_up_contacts(state);
     for (Index i = mine.begin; i < mine.end; ++i)
@@ -206,10 +231,11 @@ void CycleRunner::apply_impulses(const Model& model, State& state, const Team& t
         ContactPart& part = partition_.contacts[i];
         add_correction_springs(part.range, model, blocks, state.contacts, work_.pseudo, part.ledger);
         add_impulse_work(model, part.impulses, blocks, part.ledger);
+        store_impulses(model, part.impulses, state.contacts);  // Eqs. (29), (30)
     }
     team.barrier();
-    for_colours(team, together,
-                [&](ContactPart& part) { store_impulses(model, part.impulses, state.contacts, blocks.force); });  // Eqs. (29), (30)
-    team.barrier();
+    if (team.is_first())
+        for (const ContactPart& part : partition_.contacts)
+            add_impulse_forces(model, part.impulses, blocks.force);
 }
 }  // namespace hdem

@@ -5,11 +5,15 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 #include "parallel/contact_rebuild.h"
-#include "parallel/openmp.h"
 #include "parallel/partition.h"
+#include "parallel/stage_times.h"
+
+#include <span>
 
 namespace hdem
 {
+class Team;
+
 /// Runs cycles; keeps what they need between them and nothing that would change a result.
 class CycleRunner
 {
@@ -25,15 +29,18 @@ class CycleRunner
     /// Closed contact points summed over all cycles.
     [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
 
+    /// One entry a thread. Every 16th cycle is timed and stands for sixteen; searches for contacts are all timed.
+    [[nodiscard]] std::span<const StageTimes> stage_times() const { return times_; }
+
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
-    void cycle(const Model& model, State& state, const Team& team, double& way);
+    void cycle(const Model& model, State& state, const Team& team, double& way, StageClock& clock);
     void prepare(const Model& model, const State& state);
-    void evaluate(const Model& model, State& state, const Team& team);
+    void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
     void change_velocities(const Model& model, State& state, BlockPart& part);
     void move(const Model& model, State& state, const Team& team);
-    void move_with_impulses(const Model& model, State& state, const Team& team, Index impulses);
+    void move_with_impulses(const Model& model, State& state, const Team& team, Index impulses, StageClock& clock);
     void apply_impulses(const Model& model, State& state, const Team& team, bool together);
     template <typename Stage>
     void for_colours(const Team& team, bool together, const Stage& stage);
@@ -41,6 +48,7 @@ class CycleRunner
     Workspace work_;
     ContactRebuild rebuild_;
     Partition partition_;
+    std::vector<StageTimes> times_;
     double moved_ = 0.0;  ///< since contacts were found [m]
     std::int64_t contact_point_updates_ = 0;
     Method prepared_for_ = Method::force;

@@ -16,6 +16,7 @@ class Team
     Team(int member, int threads) : member_(member), threads_(threads) {}
 
     [[nodiscard]] bool is_first() const { return member_ == 0; }
+    [[nodiscard]] int member() const { return member_; }
     [[nodiscard]] int threads() const { return threads_; }
 
     /// This member's share of `count` pieces of work, consecutive ones. Which thread does a piece never changes its result.

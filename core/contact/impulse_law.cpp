@@ -43,19 +43,23 @@ struct Kick
     }
 };
 
+/// What a kick changes. A block that cannot move is not written to at all: parts of one colour may share it.
+void change_velocity(const BlockInertia& inertia, double x, double y, double moment, double& vx, double& vy, double& w)
+{
+    if (!can_move(inertia))
+        return;
+    vx += inertia.inverse_mass_x * x;
+    vy += inertia.inverse_mass_y * y;
+    w += inertia.inverse_inertia * moment;
+}
+
 void apply(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
 {
     const Kick kick(p, j_t, j_m);
     BlockMotion& ref = blocks.motion[p.ref];
     BlockMotion& inc = blocks.motion[p.inc];
-    const BlockInertia& i_ref = blocks.inertia[p.ref];
-    const BlockInertia& i_inc = blocks.inertia[p.inc];
-    ref.vx -= i_ref.inverse_mass_x * kick.x;
-    ref.vy -= i_ref.inverse_mass_y * kick.y;
-    ref.w -= i_ref.inverse_inertia * kick.w_ref;
-    inc.vx += i_inc.inverse_mass_x * kick.x;
-    inc.vy += i_inc.inverse_mass_y * kick.y;
-    inc.w += i_inc.inverse_inertia * kick.w_inc;
+    change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.vx, ref.vy, ref.w);
+    change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.vx, inc.vy, inc.w);
 }
 
 ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
@@ -228,14 +232,8 @@ void sweep_correction(const Model& model, const Blocks& blocks, std::vector<Impu
         p.correction = std::max(0.0, last + p.mass_normal *
                                                 (v_m + model.contact.correction_fraction * p.excess_overlap / model.time_step));
         const Kick kick(p, 0.0, -(p.correction - last));
-        const BlockInertia& i_ref = blocks.inertia[p.ref];
-        const BlockInertia& i_inc = blocks.inertia[p.inc];
-        ref.x -= i_ref.inverse_mass_x * kick.x;
-        ref.y -= i_ref.inverse_mass_y * kick.y;
-        ref.w -= i_ref.inverse_inertia * kick.w_ref;
-        inc.x += i_inc.inverse_mass_x * kick.x;
-        inc.y += i_inc.inverse_mass_y * kick.y;
-        inc.w += i_inc.inverse_inertia * kick.w_inc;
+        change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.x, ref.y, ref.w);
+        change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.x, inc.y, inc.w);
     }
 }
 
@@ -264,12 +262,19 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
     }
 }
 
-void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts, std::vector<BlockForce>& force)
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts)
 {
     for (const ImpulsePoint& p : points)
     {
         contacts.normal_force(p.end, p.contact) = p.impulse_normal / model.time_step;
         contacts.shear_force(p.end, p.contact) = p.impulse_shear / model.time_step;
+    }
+}
+
+void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force)
+{
+    for (const ImpulsePoint& p : points)
+    {
         const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
         force[p.ref].x -= kick.x;
         force[p.ref].y -= kick.y;

@@ -47,7 +47,9 @@ void sweep_correction(const Model& model, const Blocks& blocks, std::vector<Impu
 /// each force times the change of velocity, as work of gravity and as impulse loss. Before impulses are added to the forces.
 void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger);
 
-/// Impulses count as forces J / dt, Eqs. (29), (30): store them as the points' history and add them to the blocks' sums.
-void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts,
-                    std::vector<BlockForce>& force);
+/// Impulses count as forces J / dt, Eqs. (29), (30): store them as the points' history.
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts);
+
+/// Add the same forces to the blocks' sums, those of blocks that cannot move too: no two threads at once.
+void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force);
 }  // namespace hdem

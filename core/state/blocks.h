@@ -56,6 +56,11 @@ struct alignas(32) BasicInertia
 };
 using BlockInertia = BasicInertia<double>;
 
+[[nodiscard]] inline bool can_move(const BlockInertia& i)
+{
+    return i.inverse_mass_x > 0.0 || i.inverse_mass_y > 0.0 || i.inverse_inertia > 0.0;
+}
+
 struct Blocks
 {
     std::vector<BlockMotion> motion;
@@ -66,11 +71,7 @@ struct Blocks
     std::vector<double> reference_angle;   ///< [rad]
 
     [[nodiscard]] Index size() const { return static_cast<Index>(motion.size()); }
-    [[nodiscard]] bool is_free(Index block) const
-    {
-        const BlockInertia& i = inertia[block];
-        return present[block] != 0 && (i.inverse_mass_x > 0.0 || i.inverse_mass_y > 0.0 || i.inverse_inertia > 0.0);
-    }
+    [[nodiscard]] bool is_free(Index block) const { return present[block] != 0 && can_move(inertia[block]); }
     [[nodiscard]] Vec2 displacement(Index block) const
     {
         return Vec2(motion[block].x, motion[block].y) - reference_position[block];

@@ -5,6 +5,7 @@
 #include "tools/hdem/run_keeper.h"
 #include "tools/hdem/run_report.h"
 #include "tools/hdem/signals.h"
+#include "tools/hdem/timing.h"
 
 #include <fmt/format.h>
 
@@ -79,15 +80,19 @@ int run_command(const RunOptions& options)
 
     const std::unique_ptr<RunRecorder> recorder = make_recorder(start, options, simulation);
     RowObserver rows(simulation, log);
-    Observer* const observers[] = {&rows, recorder.get()};
+    Session session{.first_cycle = simulation.state().cycle};
+    TimedObserver timed_rows(rows, session.output_seconds);
+    TimedObserver timed_recorder(*recorder, session.output_seconds);
+    Observer* const observers[] = {&timed_rows, &timed_recorder};
     RunKeeper keeper({folder, simulation.model().output, begin, options.max_wall}, start.record, *recorder, log);
-    Session session{.first_cycle = simulation.state().cycle, .seconds = 0.0, .cpu_seconds = cpu_seconds()};
+    TimedKeeper timed_keeper(keeper, session.output_seconds);
+    session.cpu_seconds = cpu_seconds();
     const auto first = RunKeeper::Clock::now();
     catch_interrupts();
     std::vector<StageResult> stages;
     try
     {
-        stages = run_stages(simulation, observers, &keeper);
+        stages = run_stages(simulation, observers, &timed_keeper);
         session.seconds = std::chrono::duration<double>(RunKeeper::Clock::now() - first).count();
         session.cpu_seconds = cpu_seconds() - session.cpu_seconds;
         if (keeper.exit_code())

@@ -4,6 +4,7 @@
 #include "core/state/state_hash.h"
 #include "core/version.h"
 #include "io/digest.h"
+#include "tools/hdem/timing.h"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -155,6 +156,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.stored = stored_energy(model, state);
     s.wall_seconds = wall_seconds;
     s.contact_point_updates_per_second = static_cast<double>(simulation.contact_point_updates()) / std::max(session.seconds, 1e-9);
+    s.timing = summarise_times(simulation.stage_times(), session.output_seconds, session.seconds);
     s.state_hash = state_hash(model, state);
     for (const Problem& warning : start.loaded.warnings)
         s.warnings.push_back(warning.text);
@@ -190,6 +192,8 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                          state.broad_phase_runs, state.feature_searches,
                          static_cast<double>(state.feature_searches) /
                              std::max(static_cast<double>(state.contacts.size()) * static_cast<double>(state.cycle), 1.0)));
+    for (const std::string& line : timing_table(s.timing))
+        log.line(line);
     const double seconds = std::max(session.seconds, 1e-9);
     log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
                          "at most {:.0f} MB",

@@ -12,8 +12,9 @@ namespace hdem
 struct Session
 {
     std::int64_t first_cycle = 0;
-    double seconds = 0.0;      ///< in cycles
-    double cpu_seconds = 0.0;  ///< likewise, over all threads
+    double seconds = 0.0;         ///< in cycles
+    double cpu_seconds = 0.0;     ///< likewise, over all threads
+    double output_seconds = 0.0;  ///< of `seconds`, for rows, files and checkpoints
 };
 
 /// Processor time of this program, over all threads [s].

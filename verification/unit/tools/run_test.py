@@ -58,7 +58,7 @@ TERMS = {"at the start": ("initial", 1), "gravity": ("gravity_work", 1), "loads"
 NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
 
 
-class EnergyAtTheEnd(unittest.TestCase):
+class TheEnd(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with tempfile.TemporaryDirectory() as folder:
@@ -66,7 +66,8 @@ class EnergyAtTheEnd(unittest.TestCase):
             done = subprocess.run([HDEM, "run", "small.toml", "-o", "out"], cwd=folder, check=True, capture_output=True, text=True)
             cls.screen = done.stdout
             cls.log = (Path(folder) / "out/run.log").read_text(encoding="utf-8")
-            cls.energy = json.loads((Path(folder) / "out/summary.json").read_text(encoding="utf-8"))["energy"]
+            cls.summary = json.loads((Path(folder) / "out/summary.json").read_text(encoding="utf-8"))
+            cls.energy = cls.summary["energy"]
 
     def line(self, text):
         lines = [line for line in text.splitlines() if line.startswith("energy [J]:")]
@@ -96,6 +97,17 @@ class EnergyAtTheEnd(unittest.TestCase):
         self.assertAlmostEqual(balance, self.energy["residual"], delta=1e-9 * self.energy["gravity_work"])
         self.assertAlmostEqual(self.value("residual"), self.energy["residual"], delta=0.06 * abs(self.energy["residual"]))
         self.assertLess(abs(self.energy["relative_residual"]), 1e-4)
+
+    def test_the_table_of_times_covers_the_run(self):
+        timing = self.summary["timing"]
+        self.assertEqual(list(timing), ["broad", "narrow", "force", "impulse", "update", "wait", "output", "other"])
+        for name, row in timing.items():
+            self.assertTrue(0.0 <= row["min"] <= row["mean"] <= row["max"], name)
+            self.assertRegex(self.log, rf"(?m)^{name} +{row['min']:.3f} +{row['mean']:.3f} +{row['max']:.3f} +{100 * row['share']:.1f} %$")
+        # Cycles are timed by samples, so the sum is not exact.
+        self.assertAlmostEqual(sum(row["share"] for row in timing.values()), 1.0, delta=0.5)
+        self.assertGreater(timing["force"]["mean"], 0.0)
+        self.assertGreater(timing["output"]["mean"], 0.0)
 
 
 if __name__ == "__main__":
