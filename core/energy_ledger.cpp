@@ -14,7 +14,7 @@ StoredEnergy stored_energy(const Model& model, const State& state)
     for (Index i = 0; i < state.blocks.size(); ++i)
     {
         if (state.blocks.present[i] != 0)
-            stored.kinetic += kinetic_energy(model, state.blocks.motion[i], i);
+            stored.kinetic += kinetic_energy(model, state.blocks, i);
         if (state.blocks.is_free(i))
             stored.one_step_fall += 0.5 * model.mass[i] * model.gravity.squaredNorm() * model.time_step * model.time_step;
     }

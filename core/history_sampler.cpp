@@ -32,14 +32,14 @@ const std::vector<KnownOfBlock>& known_of_block()
         {"displacement", {"displacement_y", "m"}, [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).y(); }},
         {"position", {"position_x", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.x() + s.blocks.motion[i].x; }},
         {"position", {"position_y", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.y() + s.blocks.motion[i].y; }},
-        {"velocity", {"velocity_x", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].vx; }},
-        {"velocity", {"velocity_y", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].vy; }},
-        {"speed", {"speed", "m/s"}, [](const Model&, const State& s, Index i) { return std::hypot(s.blocks.motion[i].vx, s.blocks.motion[i].vy); }},
+        {"velocity", {"velocity_x", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).x(); }},
+        {"velocity", {"velocity_y", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).y(); }},
+        {"speed", {"speed", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).norm(); }},
         {"rotation", {"rotation", "rad"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].angle - s.blocks.reference_angle[i]; }},
         {"angular_velocity", {"angular_velocity", "rad/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].w; }},
         {"force", {"force_x", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].x; }},
         {"force", {"force_y", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].y; }},
-        {"kinetic_energy", {"kinetic_energy", "J"}, [](const Model& m, const State& s, Index i) { return kinetic_energy(m, s.blocks.motion[i], i); }},
+        {"kinetic_energy", {"kinetic_energy", "J"}, [](const Model& m, const State& s, Index i) { return kinetic_energy(m, s.blocks, i); }},
     };
     return all;
 }

@@ -83,11 +83,11 @@ void write_block_data(Hdf5Writer& file, const PartCells& parts, const Model& mod
     write_cell_data<std::int32_t>(file, "id", n, [&](std::size_t i) { return model.user_number[parts.block[i]]; });
     write_cell_data<std::int32_t>(file, "material", n, [&](std::size_t i) { return model.material[parts.block[i]]; });
     write_cell_vectors(file, "displacement", n, [&](std::size_t i) { return blocks.displacement(parts.block[i]); });
-    write_cell_vectors(file, "velocity", n, [&](std::size_t i) { return Vec2(motion(i).vx, motion(i).vy); });
-    write_cell_data<float>(file, "speed", n, [&](std::size_t i) { return std::hypot(motion(i).vx, motion(i).vy); });
+    write_cell_vectors(file, "velocity", n, [&](std::size_t i) { return blocks.velocity(parts.block[i]); });
+    write_cell_data<float>(file, "speed", n, [&](std::size_t i) { return blocks.velocity(parts.block[i]).norm(); });
     write_cell_data<float>(file, "rotation", n, [&](std::size_t i) { return motion(i).angle - blocks.reference_angle[parts.block[i]]; });
-    write_cell_data<float>(file, "angular_velocity", n, [&](std::size_t i) { return motion(i).w; });
-    write_cell_data<float>(file, "kinetic_energy", n, [&](std::size_t i) { return kinetic_energy(model, motion(i), parts.block[i]); });
+    write_cell_data<float>(file, "angular_velocity", n, [&](std::size_t i) { return motion(i).w / blocks.pace[parts.block[i]]; });
+    write_cell_data<float>(file, "kinetic_energy", n, [&](std::size_t i) { return kinetic_energy(model, blocks, parts.block[i]); });
     write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return regime_of(blocks.force[parts.block[i]]); });
     write_cell_data<std::uint8_t>(file, "fixed", n, [&](std::size_t i) { return !blocks.is_free(parts.block[i]); });
     write_cell_data<std::uint8_t>(file, "detached", n, [&](std::size_t i) { return detached[parts.block[i]]; });

@@ -26,6 +26,12 @@ SectionSpec convergence_section()
                  {.name = "least_cycles", .effect = "Not tested earlier in a stage.", .range = count_or_none}),
              field<&ConvergenceDef::check_every>(
                  {.name = "check_every", .effect = "Tested at multiples of this many cycles.", .range = count}),
+             field<&ConvergenceDef::loose_distance>(
+                 {.name = "loose_distance",
+                  .unit = "m",
+                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther run ahead of the clock: they slide and "
+                            "fall along their path in fewer cycles. Give a distance they will not reach to keep them with the clock.",
+                  .range = length}),
              field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
                                                         .unit = "m",
                                                         .effect = "A block that moved farther counts as detached in summary.json.",

@@ -138,6 +138,7 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                         [](BlockForce& f) { return std::tie(f.contacts); });
     archive.template rows<double>("/blocks/inverse_inertia", n, blocks.inertia,
                                   [](BlockInertia& i) { return std::tie(i.inverse_mass_x, i.inverse_mass_y, i.inverse_inertia); });
+    archive.template rows<double>("/blocks/pace", n, blocks.pace, itself);
     archive.template rows<std::uint8_t>("/blocks/present", n, blocks.present, itself);
     archive.template rows<double>("/blocks/reference_position", n, blocks.reference_position,
                                   [](Vec2& v) { return std::tie(v.x(), v.y()); });

@@ -1,5 +1,7 @@
 #include "io/state_checks.h"
 
+#include "core/motion/pace.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -57,10 +59,10 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
     return std::nullopt;
 }
 
-/// The block's own inverse mass, or 0 where its motion is prescribed.
-bool is_inertia_of(const BlockInertia& inertia, const BlockInertia& full)
+/// The block's own inverse mass by its clock, or 0 where its motion is prescribed.
+bool is_inertia_of(const BlockInertia& inertia, const BlockInertia& full, double pace)
 {
-    const auto fits = [](double value, double own) { return value == 0.0 || value == own; };
+    const auto fits = [&](double value, double own) { return value == 0.0 || value == pace * pace * own; };
     return fits(inertia.inverse_mass_x, full.inverse_mass_x) && fits(inertia.inverse_mass_y, full.inverse_mass_y) &&
            fits(inertia.inverse_inertia, full.inverse_inertia);
 }
@@ -81,7 +83,9 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
         if (!are_finite({f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y}) ||
             f.contacts > (contact_force | contact_impulse))
             return Damage{"/blocks/force", "not a force"};
-        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i]))
+        if (!is_pace(blocks.pace[i]))
+            return Damage{"/blocks/pace", "not a power of two from 1 to 64"};
+        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i], blocks.pace[i]))
             return Damage{"/blocks/inverse_inertia", "not that of the block"};
         if (!blocks.reference_position[i].allFinite() || !std::isfinite(blocks.reference_angle[i]))
             return Damage{"/blocks/reference_position", "not a finite number"};

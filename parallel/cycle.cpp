@@ -4,6 +4,7 @@
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
+#include "core/motion/pace.h"
 #include "core/state/block_sorting.h"
 #include "parallel/openmp.h"
 
@@ -43,6 +44,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
                                                          state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
     work_.loads.resize(state.contacts.stale.size());
+    work_.pace_bounds.resize(static_cast<std::size_t>(blocks));
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
     work_.external.assign(model.loads.empty() ? 0 : static_cast<std::size_t>(blocks), {});
     prepared_ = true;
@@ -54,6 +56,8 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
     if (!prepared_ || prepared_for_ != state.method)
         prepare(model, state);
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
+    relaxing_ = is_relaxing(model, state);
+    const std::int64_t begin = state.cycle;
     // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
     const double moved = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
     times_.resize(std::max(times_.size(), static_cast<std::size_t>(threads)));
@@ -65,12 +69,12 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
                   {
                       const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
                       StageClock clock(times_[static_cast<std::size_t>(team.member())], static_cast<double>(weight));
-                      cycle(model, state, team, way, clock);
+                      cycle(model, state, team, begin + i, way, clock);
                   }
               });
 }
 
-void CycleRunner::cycle(const Model& model, State& state, const Team& team, double& way, StageClock& clock)
+void CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
 {
     const double allowed = 0.5 * skin_width(model);
     if (!(way <= allowed))
@@ -85,6 +89,17 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, doub
             // This cycle is finished; then the caller sorts the blocks, which no cycle may do.
             team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
         }
+    }
+    if (relaxing_ && now % pace_every == 0)
+    {
+        const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+        for (Index i = mine.begin; i < mine.end; ++i)
+            bound_paces(partition_.blocks[i].range, model, work_.block_contacts, state.contacts, state.blocks, work_.pace_bounds);
+        team.barrier();
+        for (Index i = mine.begin; i < mine.end; ++i)
+            update_paces(partition_.blocks[i].range, work_.block_contacts, state.contacts, work_.pace_bounds,
+                         now % pace_growth_every == 0, state.blocks);
+        team.barrier();
     }
     if (!model.loads.empty())
         team.alone(
@@ -163,7 +178,7 @@ void CycleRunner::change_velocities(const Model& model, State& state, BlockPart&
 {
     part.ledger = {};
     sum_forces(part.range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
-    update_velocities(part.range, model, state.damping, state.blocks, part.ledger);                  // Eqs. (11)-(14), (20)-(22)
+    update_velocities(part.range, model, state.damping, relaxing_, state.blocks, part.ledger);                  // Eqs. (11)-(14), (20)-(22)
 }
 
 void CycleRunner::move(const Model& model, State& state, const Team& team)

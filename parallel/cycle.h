@@ -34,7 +34,7 @@ class CycleRunner
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
-    void cycle(const Model& model, State& state, const Team& team, double& way, StageClock& clock);
+    void cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
     void prepare(const Model& model, const State& state);
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
@@ -53,5 +53,6 @@ class CycleRunner
     std::int64_t contact_point_updates_ = 0;
     Method prepared_for_ = Method::force;
     bool prepared_ = false;
+    bool relaxing_ = false;  ///< the stage looks for a state of rest, and not for the way to it
 };
 }  // namespace hdem

@@ -3,6 +3,7 @@
 #include "core/contact/contact_report.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
+#include "core/motion/pace.h"
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
@@ -111,6 +112,7 @@ void Simulation::begin_stage(Index stage)
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
+    reset_paces(state_.blocks);
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
     for (const std::string& name : def.excavate)

@@ -90,7 +90,10 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.friction = joint.friction_coefficient;
     p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * model.time_step;
     const double spring = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
-    p.excess_overlap = at.overlap - contacts.normal_force(end, contact) / spring - model.contact.allowed_overlap;
+    const double most = std::max(at.v_m, 0.0) * model.time_step +
+                        model.contact.correction_limit * std::min(model.size(p.ref), model.size(p.inc));
+    p.excess_overlap = std::min(
+        at.overlap - contacts.normal_force(end, contact) / spring - model.contact.allowed_overlap, most);
     p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;
     p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * model.time_step,
                                    p.impulse_normal * p.friction + p.cohesive_impulse);

@@ -44,19 +44,25 @@ bool is_external(const Shapes& shapes, Index edge)
     return shapes.edge_source[edge] != edge_internal;
 }
 
+/// Of part `other` from the line of `edge`, < 0 when it reaches behind it. `pose` is that of the other block in the frame of the edge's.
+double edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+{
+    const Vec2 normal = -turned_left(shapes.edge_tangent[edge]);
+    // Least of n.(R v + d - p): turn the normal once rather than each vertex.
+    const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
+    double least = infinity;
+    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+        least = std::min(least, seen.dot(shapes.vertex[v]));
+    return least + normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[edge]);
+}
+
 /// `other` in the frame of `part`: pose of the block of the other part.
 Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept)
 {
     Scan scan;
     for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
     {
-        const Vec2 normal = -turned_left(shapes.edge_tangent[e]);
-        // Least of n.(R v + d - p): turn the normal once rather than each vertex.
-        const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
-        double least = infinity;
-        for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
-            least = std::min(least, seen.dot(shapes.vertex[v]));
-        const double distance = least + normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[e]);
+        const double distance = edge_distance(shapes, e, other, pose);
         scan.distance = std::max(scan.distance, distance);
         if (!is_external(shapes, e))
             continue;
@@ -72,22 +78,41 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
     return scan;
 }
 
-/// External edge of `other` whose outward normal is most opposed to that of `edge`.
-Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+/// External edge of `other` that faces `edge`: of those that end in a vertex which reaches farthest behind it, within `margin`, one that lies over it rather
+/// than beside it, and the one most opposed to it. A straight side may have vertices in its middle: then direction alone does not tell which piece is meant,
+/// and of pieces in one line the longest stretch over the edge wins.
+Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
+    constexpr double in_line = 1e-9;  // of cosines
     const Vec2 t = shapes.edge_tangent[edge];
+    const Vec2 start = shapes.vertex[edge];
+    const auto depth = [&](Index v) { return cross(t, Vec2(pose.moved(shapes.vertex[v]) - start)); };
+    double deepest = -infinity;
+    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+        deepest = std::max(deepest, depth(v));
     Index best = no_index;
-    double most = infinity;
+    double best_length = 0.0, best_along = infinity;
+    bool best_deep = false;
     for (Index e = shapes.vertex_begin[other]; e < shapes.vertex_begin[other + 1]; ++e)
     {
         if (!is_external(shapes, e))
             continue;
+        const Index end = shapes.next_vertex(other, e);
+        const bool deep = std::max(depth(e), depth(end)) >= deepest - margin;
+        const double from = t.dot(pose.moved(shapes.vertex[e]) - start);
+        const double to = t.dot(pose.moved(shapes.vertex[end]) - start);
+        const double length = std::min(std::max(from, to), shapes.edge_length[edge]) - std::max(std::min(from, to), 0.0);
         const double along = t.dot(pose.turned(shapes.edge_tangent[e]));
-        if (along < most)
-        {
-            most = along;
-            best = e;
-        }
+        const bool better = deep != best_deep                               ? deep
+                            : deep && (length > 0.0) != (best_length > 0.0) ? length > 0.0
+                            : std::abs(along - best_along) > in_line        ? along < best_along
+                                                                            : length > best_length;
+        if (best != no_index && !better)
+            continue;
+        best = e;
+        best_length = length;
+        best_along = along;
+        best_deep = deep;
     }
     return best;
 }
@@ -107,6 +132,59 @@ EdgePair make_edges(const Shapes& shapes, Index ref_edge, Index inc_part, Index 
             .p0y = p0.y(),
             .p1x = p1.x(),
             .p1y = p1.y()};
+}
+
+/// Two parts of a contact, and each block as seen from the other.
+struct Pair
+{
+    Index a, b;
+    const BlockMotion& motion_a;
+    const BlockMotion& motion_b;
+    double margin;  ///< distances that differ by less are equal [m]
+    RelativePose b_from_a{motion_a, motion_b};
+    RelativePose a_from_b{motion_b, motion_a};
+};
+
+/// A reference edge with the edge that faces it.
+struct Facing
+{
+    bool ref_is_a;
+    Index ref_edge, inc_edge;
+    EdgePair edges;
+    double overlap;  ///< greatest where they face each other; -infinity: beside each other [m]
+};
+
+Facing face(const Shapes& shapes, const Pair& pair, bool ref_is_a, Index ref_edge)
+{
+    const Index inc_part = ref_is_a ? pair.b : pair.a;
+    Facing f{.ref_is_a = ref_is_a, .ref_edge = ref_edge};
+    f.inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? pair.b_from_a : pair.a_from_b, pair.margin);
+    f.edges = make_edges(shapes, ref_edge, inc_part, f.inc_edge);
+    const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
+    const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
+    const EdgeTouch touch = touch_edges(f.edges, view_edges(f.edges, ref, inc), ref, inc);
+    f.overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
+    return f;
+}
+
+/// The two edges of `facing` are not where the parts overlap: of the edges whose distance is `best`, the one that is. Edges of an almost straight side
+/// are equally far from a corner that enters it, and only one of them is over that corner.
+Facing better_placed(const Shapes& shapes, const Pair& pair, Facing facing, double best)
+{
+    for (const bool on_a : {true, false})
+    {
+        const Index part = on_a ? pair.a : pair.b;
+        const Index other = on_a ? pair.b : pair.a;
+        for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
+        {
+            if (!is_external(shapes, e) ||
+                edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b) < best - pair.margin)
+                continue;
+            if (const Facing f = face(shapes, pair, on_a, e); f.overlap > facing.overlap + pair.margin)
+                facing = f;
+        }
+    }
+    return facing;
 }
 
 /// World position of a contact's points relative to the centroid of `from`.
@@ -175,17 +253,16 @@ double find_features(const Model& model, const std::vector<BlockMotion>& motion,
     const Index b = contact.part_b;
     const Index block_a = shapes.part_block[a];
     const Index block_b = shapes.part_block[b];
-    const RelativePose b_from_a(motion[block_a], motion[block_b]);
-    const RelativePose a_from_b(motion[block_b], motion[block_a]);
-    const Scan on_a = scan_edges(shapes, a, b, b_from_a, contact.ref_edge);
-    const Scan on_b = scan_edges(shapes, b, a, a_from_b, contact.ref_edge);
+    const double size = std::min(model.size(block_a), model.size(block_b));
+    const double floor = model.contact.length_floor * size;
+    const double margin = 0.1 * floor;
+    const Pair pair{.a = a, .b = b, .motion_a = motion[block_a], .motion_b = motion[block_b], .margin = margin};
+    const Scan on_a = scan_edges(shapes, a, b, pair.b_from_a, contact.ref_edge);
+    const Scan on_b = scan_edges(shapes, b, a, pair.a_from_b, contact.ref_edge);
     const double distance = std::max(on_a.distance, on_b.distance);
     if (on_a.edge == no_index || on_b.edge == no_index)
         return infinity;
 
-    const double size = std::min(model.size(block_a), model.size(block_b));
-    const double floor = model.contact.length_floor * size;
-    const double margin = 0.1 * floor;
     // Near ties go to the longer edge.
     const double lead = shapes.edge_length[on_a.edge] >= shapes.edge_length[on_b.edge] ? margin : -margin;
     bool ref_is_a = on_a.external_distance + lead >= on_b.external_distance;
@@ -197,22 +274,23 @@ double find_features(const Model& model, const std::vector<BlockMotion>& motion,
         ref_edge = contact.ref_edge;
         ref_is_a = on_a.kept_distance > -infinity;
     }
-    const Index inc_part = ref_is_a ? b : a;
-    const Index inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? b_from_a : a_from_b);
+    Facing facing = face(shapes, pair, ref_is_a, ref_edge);
+    if (best < 0.0 && facing.overlap < -best - margin)
+        facing = better_placed(shapes, pair, facing, best);
 
-    if (ref_edge != contact.ref_edge || inc_edge != contact.inc_edge)
+    if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge)
     {
         const Contact old = contact;
-        contact.ref = ref_is_a ? block_a : block_b;
-        contact.inc = ref_is_a ? block_b : block_a;
-        contact.swapped = !ref_is_a;
-        contact.ref_edge = ref_edge;
-        contact.inc_edge = inc_edge;
-        contact.edges = make_edges(shapes, ref_edge, inc_part, inc_edge);
+        contact.ref = facing.ref_is_a ? block_a : block_b;
+        contact.inc = facing.ref_is_a ? block_b : block_a;
+        contact.swapped = !facing.ref_is_a;
+        contact.ref_edge = facing.ref_edge;
+        contact.inc_edge = facing.inc_edge;
+        contact.edges = facing.edges;
         contact.length_floor = floor;
         contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
-        contact.law = model.joints.find(shapes.edge_source[ref_edge], shapes.edge_source[inc_edge], model.material[contact.ref],
-                                        model.material[contact.inc]);
+        contact.law = model.joints.find(shapes.edge_source[facing.ref_edge], shapes.edge_source[facing.inc_edge],
+                                        model.material[contact.ref], model.material[contact.inc]);
         if (old.ref_edge != no_index)
             carry_history(motion, old, contact);
         start_points(motion, model.time_step, contact);

@@ -5,10 +5,13 @@
 
 namespace hdem
 {
-double kinetic_energy(const Model& model, const BlockMotion& motion, Index block)
+double kinetic_energy(const Model& model, const Blocks& blocks, Index block)
 {
-    return 0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) +
-           0.5 * model.inertia[block] * motion.w * motion.w;
+    const BlockMotion& motion = blocks.motion[block];
+    const double pace = blocks.pace[block];
+    return (0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) +
+            0.5 * model.inertia[block] * motion.w * motion.w) /
+           (pace * pace);
 }
 
 void add_equilibrium(IndexRange range, const Model& model, const State& state, Equilibrium& sums)
@@ -28,12 +31,12 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
             continue;
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];
-        sums.kinetic_energy += kinetic_energy(model, blocks.motion[i], i);
+        sums.kinetic_energy += kinetic_energy(model, blocks, i);
         sums.unbalanced_force += std::hypot(inertia.inverse_mass_x > 0.0 ? force.x : 0.0,
                                             inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
         sums.applied_force += applied[i - range.begin].norm();
         sums.free_mass += model.mass[i];
-        sums.greatest_speed = std::max(sums.greatest_speed, std::hypot(blocks.motion[i].vx, blocks.motion[i].vy));
+        sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
     }
 }
 

@@ -24,7 +24,7 @@ struct Equilibrium
 /// Reads motion and the cycle's forces; adds in block order.
 void add_equilibrium(IndexRange range, const Model& model, const State& state, Equilibrium& sums);
 
-[[nodiscard]] double kinetic_energy(const Model& model, const BlockMotion& motion, Index block);
+[[nodiscard]] double kinetic_energy(const Model& model, const Blocks& blocks, Index block);
 
 /// Displacements since the reference poses, of present free blocks.
 struct DisplacementReport

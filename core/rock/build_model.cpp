@@ -157,6 +157,7 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
     blocks.motion.resize(n);
     blocks.force.resize(n);
     blocks.inertia.resize(n);
+    blocks.pace.assign(n, 1.0);
     blocks.present.assign(n, 1);
     for (Index i = 0; i < model.blocks(); ++i)
     {

@@ -101,6 +101,7 @@ void sort_blocks(Model& model, State& state)
     permute(from, blocks.motion);
     permute(from, blocks.force);
     permute(from, blocks.inertia);
+    permute(from, blocks.pace);
     permute(from, blocks.present);
     permute(from, blocks.reference_position);
     permute(from, blocks.reference_angle);

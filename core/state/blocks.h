@@ -66,12 +66,15 @@ struct Blocks
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
+    std::vector<double> pace;              ///< of each block's own clock, see core/motion/pace.h; a power of two, 1 as a rule [-]
     std::vector<std::uint8_t> present;     ///< 0 once excavated
     std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
     std::vector<double> reference_angle;   ///< [rad]
 
     [[nodiscard]] Index size() const { return static_cast<Index>(motion.size()); }
     [[nodiscard]] bool is_free(Index block) const { return present[block] != 0 && can_move(inertia[block]); }
+    /// By the clock of the rock [m/s].
+    [[nodiscard]] Vec2 velocity(Index block) const { return Vec2(motion[block].vx, motion[block].vy) / pace[block]; }
     [[nodiscard]] Vec2 displacement(Index block) const
     {
         return Vec2(motion[block].x, motion[block].y) - reference_position[block];

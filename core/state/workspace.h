@@ -87,6 +87,7 @@ struct Workspace
 {
     ContactLoads loads;
     BlockContacts block_contacts;
+    std::vector<double> pace_bounds;  ///< see core/motion/pace.h, per block
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
     std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step

@@ -41,7 +41,7 @@ NearBlocks look_at_near_blocks(const CaseRun& run)
     int counted = 0;
     for (const Index i : state.next_to_excavation)
     {
-        const double energy = kinetic_energy(run.model(), state.blocks.motion[i], i);
+        const double energy = kinetic_energy(run.model(), state.blocks, i);
         near.kinetic_energy += energy / static_cast<double>(state.next_to_excavation.size());
         const Vec2 moved = state.blocks.displacement(i).cwiseAbs();
         if (!state.blocks.is_free(i) || moved.norm() > run.model().convergence.detached_distance)

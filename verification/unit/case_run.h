@@ -67,7 +67,7 @@ inline double mechanical_energy(const Model& model, const State& state)
         if (!state.blocks.is_free(i))
             continue;
         const BlockMotion& m = state.blocks.motion[i];
-        energy += kinetic_energy(model, m, i) - model.mass[i] * model.gravity.dot(Vec2(m.x, m.y));
+        energy += kinetic_energy(model, state.blocks, i) - model.mass[i] * model.gravity.dot(Vec2(m.x, m.y));
     }
     return energy;
 }

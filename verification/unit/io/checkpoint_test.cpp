@@ -123,6 +123,24 @@ TEST_P(Checkpoint, GivesTheUnbrokenRunToTheLastBitFromAnyCycle)
     }
 }
 
+TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksAheadOfTheClock)
+{
+    const ScratchFolder folder("checkpoint_pace");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.stages = {{.name = "dig", .until_converged = true, .max_cycles = 1500, .excavate = {"tunnel"}}};
+    scene.convergence.mean_speed = 1e-9;
+    scene.convergence.loose_distance = 1e-4;
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {601, 1203})
+    {
+        run_until(scene, cycle, folder.path());
+        EXPECT_EQ(restart(scene, folder.path(), 2), unbroken) << "cycle " << cycle;
+    }
+    hdem::Setup setup = build_model(scene);
+    const State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+    EXPECT_GT(*std::max_element(state.blocks.pace.begin(), state.blocks.pace.end()), 1.0);
+}
+
 /// Blocks may be sorted anew while a run goes on; the case alone gives the order at the start.
 TEST(CheckpointReader, BringsTheModelIntoTheOrderOfTheRun)
 {

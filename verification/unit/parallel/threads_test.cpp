@@ -1,5 +1,7 @@
 #include "verification/unit/case_run.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 namespace
@@ -39,6 +41,19 @@ TEST_P(Threads, GiveTheSameRockAndTheSameExcavation)
     scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {10.0, 10.0}, .diameter = 6.0}};
     scene.stages = {{.name = "dig", .cycles = 10, .excavate = {"tunnel"}}};
     expect_hash_of_one_thread(scene, 1500);
+}
+
+/// Blocks that fall ahead of the clock.
+TEST_P(Threads, GiveTheSameFallOfLooseBlocks)
+{
+    CaseDef scene = scenes::joints(20.0, 20.0, 1.0, 3.0);
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {10.0, 10.0}, .diameter = 6.0}};
+    scene.stages = {{.name = "dig", .until_converged = true, .max_cycles = 100'000, .excavate = {"tunnel"}}};
+    scene.convergence.loose_distance = 1e-4;
+    expect_hash_of_one_thread(scene, 2000);
+    CaseRun run(scene);
+    run.advance(2000);
+    EXPECT_GT(*std::max_element(run.state().blocks.pace.begin(), run.state().blocks.pace.end()), 1.0);
 }
 
 TEST_P(Threads, GiveTheSameWallOfTenThousandBricks)

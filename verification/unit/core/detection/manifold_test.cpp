@@ -78,6 +78,69 @@ TEST(Manifold, OfACornerOnACornerStillCarries)
     EXPECT_GT(pair.force(pair.b).norm(), least);
 }
 
+/// Greatest overlap of a pair's contact; 0 when its edges are beside each other.
+double overlap_of(const BlockPair& pair)
+{
+    const EdgeTouch touch = pair.touch(pair.state.contacts.get(0));
+    return touch.length > 0.0 ? std::max({0.0, touch.point[0].overlap, touch.point[1].overlap}) : 0.0;
+}
+
+/// Middle of the upper side of the slab.
+Vec2 top_of(const BlockPair& pair)
+{
+    Vec2 low(1e9, 1e9), high(-1e9, -1e9);
+    for (const Vec2& p : pair.outline(pair.a))
+    {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    return {0.5 * (low.x() + high.x()), high.y()};
+}
+
+/// A side with vertices in its middle, in one line or almost: an outline that joints have cut leaves such ones.
+const std::vector<Polygon> split_slabs{{{-2, -1}, {2, -1}, {2, 0}, {0.3, 0}, {-0.5, 0}, {-2, 0}},
+                                       {{-2, -1}, {2, -1}, {2, 0}, {0.3, 5e-5}, {-0.5, 5e-5}, {-2, 0}}};
+
+/// The piece under the corner is the reference wherever it is, whichever piece was it before.
+TEST(Manifold, OfACornerThatSlidesOverASplitSideKeepsItsOverlap)
+{
+    for (const Polygon& slab : split_slabs)
+    {
+        BlockPair pair(test::pair_scene(slab, unit_square));
+        const Vec2 top = top_of(pair);
+        const double depth = 1e-3;
+        for (const double sense : {1.0, -1.0})
+            for (double x = -1.9; x <= 1.9; x += 0.01)
+            {
+                pair.place(pair.b, top + Vec2(sense * x, std::sqrt(0.5) - depth), radians(45.0));
+                pair.search();
+                ASSERT_EQ(pair.state.contacts.size(), 1);
+                EXPECT_NEAR(overlap_of(pair), depth, 6e-5) << "at " << sense * x;
+            }
+    }
+}
+
+/// A corner that looks into a split side: the piece that holds the corner faces it, not its neighbour in the same line.
+TEST(Manifold, OfASplitSideOnACornerTakesThePieceOverTheCorner)
+{
+    for (const Polygon& slab : split_slabs)
+    {
+        BlockPair pair(test::pair_scene(slab, rectangle({-0.05, -0.05}, {0.05, 0.05})));
+        const Vec2 top = top_of(pair);
+        // The small block's side runs over the slab's corner, at an angle that makes that side the reference.
+        for (const double side : {1.0, -1.0})
+            for (const double depth : {1e-4, 1e-3, 5e-3})
+            {
+                const double turn = radians(-37.0 * side);
+                const Vec2 down(std::sin(turn), -std::cos(turn));  // outward normal of its lower side
+                pair.place(pair.b, top + Vec2(2.0 * side, 0.0) - (0.05 - depth) * down, turn);
+                pair.search();
+                ASSERT_EQ(pair.state.contacts.size(), 1);
+                EXPECT_NEAR(overlap_of(pair), depth, 6e-5) << side << ' ' << depth;
+            }
+    }
+}
+
 // ---- concave blocks -------------------------------------------------------------------------------------------------
 
 /// Rock 6 m x 3 m over a drift 2 m wide, cut along the drift's walls up to the surface: one rigid block of several parts with a flat
