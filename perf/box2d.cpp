@@ -2,6 +2,8 @@
 /// iterations, beside contact-point updates of hdem: one point through one whole cycle. Only the rate is compared: Box2D is in single precision, gives no true
 /// stresses, and its steps are longer.
 
+#include "perf/counters.h"
+#include "perf/limits.h"
 #include "perf/scene_run.h"
 
 #include <benchmark/benchmark.h>
@@ -73,11 +75,13 @@ void run_steps(benchmark::State& bench, const std::string& scene, Index blocks)
     for (int i = 0; i < 10; ++i)
         world.Step(step_length, velocity_iterations, position_iterations);
     std::int64_t points = 0;
+    Limits limits(1, false);
+    double seconds = 0.0;
     for (auto _ : bench)
     {
-        double seconds = 0.0;
         for (std::int64_t i = 0; i < steps; ++i)
         {
+            limits.look();
             const auto begin = std::chrono::steady_clock::now();
             world.Step(step_length, velocity_iterations, position_iterations);
             seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -85,9 +89,8 @@ void run_steps(benchmark::State& bench, const std::string& scene, Index blocks)
         }
         bench.SetIterationTime(seconds);
     }
-    bench.counters["contact_point_updates_per_second"] = benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsRate);
-    bench.counters["ns_per_contact_point"] = benchmark::Counter(1e-9 * static_cast<double>(points),
-                                                                benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    report_points(bench, static_cast<double>(points));
+    limits.report_operations(bench, static_cast<double>(points), seconds);
     bench.counters["contact_points"] = static_cast<double>(touching_points(world));
     bench.counters["blocks"] = static_cast<double>(settled.model().blocks());
 }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <stdexcept>
+#include <thread>
 #include <tuple>
 
 namespace hdem::perf
@@ -61,6 +62,14 @@ void compress(const Model& model, State& state)
 }
 
 }  // namespace
+
+std::vector<int> thread_counts()
+{
+    std::vector<int> counts{1, 2};
+    while (2 * counts.back() <= static_cast<int>(std::thread::hardware_concurrency()))
+        counts.push_back(2 * counts.back());
+    return counts;
+}
 
 CaseDef make_scene(const std::string& scene, Index blocks, Method method)
 {

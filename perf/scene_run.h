@@ -4,11 +4,24 @@
 #include "parallel/simulation.h"
 #include "verification/scenes/scenes.h"
 
+#include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hdem::perf
 {
+struct NamedMethod
+{
+    const char* name;
+    Method method;
+};
+inline constexpr std::array<NamedMethod, 3> named_methods{
+    {{"force", Method::force}, {"impulse", Method::impulse}, {"hybrid", Method::hybrid}}};
+
+/// 1, 2, 4, ... as far as the processors go, and 2 at least.
+[[nodiscard]] std::vector<int> thread_counts();
+
 /// `scene`: wall, voronoi or joints, of about `blocks` blocks. Throws std::invalid_argument for another name.
 [[nodiscard]] CaseDef make_scene(const std::string& scene, Index blocks, Method method);
 

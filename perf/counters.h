@@ -1,0 +1,17 @@
+#pragma once
+/// What every benchmark prints beside its time.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <string>
+
+namespace hdem::perf
+{
+/// contact_point_updates_per_second and ns_per_contact_point, of `points` in all the time that was counted.
+void report_points(benchmark::State& bench, double points);
+
+/// The result's hash as a counter, 53 bits of it. All benchmarks of a `family` (a scene and a method on any number of threads, again and again) must
+/// end with the same: one that does not becomes an error, and its speed is not printed.
+void report_hash(benchmark::State& bench, const std::string& family, std::uint64_t hash);
+}  // namespace hdem::perf
