@@ -9,8 +9,6 @@
 #include <benchmark/benchmark.h>
 #include <box2d/box2d.h>
 
-#include <chrono>
-
 namespace hdem::perf
 {
 namespace
@@ -76,21 +74,21 @@ void run_steps(benchmark::State& bench, const std::string& scene, Index blocks)
         world.Step(step_length, velocity_iterations, position_iterations);
     std::int64_t points = 0;
     Limits limits(1, false);
-    double seconds = 0.0;
+    Elapsed time;
     for (auto _ : bench)
     {
         for (std::int64_t i = 0; i < steps; ++i)
         {
             limits.look();
-            const auto begin = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             world.Step(step_length, velocity_iterations, position_iterations);
-            seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            time += watch.elapsed();
             points += touching_points(world);
         }
-        bench.SetIterationTime(seconds);
+        bench.SetIterationTime(time.wall);
     }
     report_points(bench, static_cast<double>(points));
-    limits.report_operations(bench, static_cast<double>(points), seconds);
+    limits.report_operations(bench, static_cast<double>(points), time);
     bench.counters["contact_points"] = static_cast<double>(touching_points(world));
     bench.counters["blocks"] = static_cast<double>(settled.model().blocks());
 }

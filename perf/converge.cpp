@@ -67,7 +67,12 @@ class Watch final : public Keeper
   public:
     explicit Watch(Limits& limits) : limits_(limits) { look(); }
 
-    [[nodiscard]] double seconds_looking() const { return seconds_; }
+    /// Since the time it was made, without the time of looking.
+    [[nodiscard]] Elapsed running() const
+    {
+        const Elapsed all = since_.elapsed();
+        return {all.wall - looking_.wall, all.processor - looking_.processor};
+    }
     [[nodiscard]] std::int64_t next_cycle(std::int64_t) const override { return std::numeric_limits<std::int64_t>::max(); }
     bool keep(const Simulation&) override
     {
@@ -79,15 +84,16 @@ class Watch final : public Keeper
   private:
     void look()
     {
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         limits_.look();
+        looking_ += watch.elapsed();
         last_ = Clock::now();
-        seconds_ += std::chrono::duration<double>(last_ - begin).count();
     }
 
     Limits& limits_;
+    Stopwatch since_;
+    Elapsed looking_;
     Clock::time_point last_;
-    double seconds_ = 0.0;
 };
 
 void run_to_rest(benchmark::State& bench, const Rest& rest, Method method, const std::string& family, int threads)
@@ -105,23 +111,21 @@ void run_to_rest(benchmark::State& bench, const Rest& rest, Method method, const
         observers.push_back(&rest_watch);
     StageResult last;
     Limits limits(threads, false);
-    double seconds = 0.0;
+    Elapsed time;
     for (auto _ : bench)
     {
         Watch watch(limits);
-        const double before = watch.seconds_looking();
-        const auto begin = Clock::now();
         last = run_stages(run, observers, &watch).back();
-        seconds = std::chrono::duration<double>(Clock::now() - begin).count() - (watch.seconds_looking() - before);
-        bench.SetIterationTime(seconds);
+        time = watch.running();
+        bench.SetIterationTime(time.wall);
     }
     const std::int64_t cycles = own_criteria ? last.cycles : rest_watch.last_moving() + 1;
     if (own_criteria ? !last.converged : cycles >= last.cycles)
         bench.SkipWithError("not at rest within its limit of cycles");
     const auto updates = static_cast<double>(run.contact_point_updates());
     report_points(bench, updates);
-    limits.report_operations(bench, updates, seconds);
-    limits.report_roofline(bench, updates, seconds);
+    limits.report_operations(bench, updates, time);
+    limits.report_roofline(bench, updates, time);
     bench.counters["cycles"] = static_cast<double>(cycles);
     bench.counters["blocks"] = static_cast<double>(run.model().blocks());
     report_hash(bench, family, state_hash(run.model(), run.state()));

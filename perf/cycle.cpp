@@ -7,8 +7,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-
 namespace hdem::perf
 {
 namespace
@@ -27,22 +25,22 @@ void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks,
     const double bytes = static_cast<double>(resident_bytes() - resident);
     const std::int64_t before = run.contact_point_updates();
     Limits limits(threads, blocks >= blocks_beyond_caches);
-    double seconds = 0.0;
+    Elapsed time;
     for (auto _ : bench)
     {
         for (std::int64_t piece = 0; piece < pieces; ++piece)
         {
             limits.look();
-            const auto begin = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             run.advance(cycles * (piece + 1) / pieces - cycles * piece / pieces);
-            seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            time += watch.elapsed();
         }
-        bench.SetIterationTime(seconds);
+        bench.SetIterationTime(time.wall);
     }
     const auto updates = static_cast<double>(run.contact_point_updates() - before);
     report_points(bench, updates);
-    limits.report_operations(bench, updates, seconds);
-    limits.report_roofline(bench, updates, seconds);
+    limits.report_operations(bench, updates, time);
+    limits.report_roofline(bench, updates, time);
     bench.counters["contact_points"] = static_cast<double>(run.count_contacts().closed());
     bench.counters["blocks"] = static_cast<double>(run.model().blocks());
     if (blocks >= 100'000)  // below, freed memory is used again, and pages are too coarse a measure

@@ -7,13 +7,32 @@
 
 namespace hdem::perf
 {
-/// Seconds for `triad_bytes` of STREAM's triad a = b + s c (McCalpin 1995), counted as there: two arrays read, one written. 384 MB, far beyond any cache.
-double time_triad(int threads);
+/// How long something took: by the clock, and on processors, all threads together. On one thread the second does not count the time that others had.
+struct Elapsed
+{
+    double wall = 0.0;       ///< [s]
+    double processor = 0.0;  ///< [s]
+    Elapsed& operator+=(const Elapsed& other);
+};
+
+/// Runs from its making on.
+class Stopwatch
+{
+  public:
+    Stopwatch();
+    [[nodiscard]] Elapsed elapsed() const;
+
+  private:
+    Elapsed begin_;
+};
+
+/// STREAM's triad a = b + s c (McCalpin 1995), `triad_bytes` counted as there: two arrays read, one written. 384 MB, far beyond any cache.
+Elapsed time_triad(int threads);
 inline constexpr Index triad_size = 16'000'000;
 inline constexpr double triad_bytes = 24.0 * triad_size;
 
-/// Seconds for `flops_each` independent multiplications and additions on registers, per thread. Without fused multiply-add, which the laws do without too.
-double time_flops(int threads);
+/// `flops_each` independent multiplications and additions on registers, per thread. Without fused multiply-add, which the laws do without too.
+Elapsed time_flops(int threads);
 inline constexpr int flops_rounds = 500'000;
 inline constexpr int flops_chains = 8;
 inline constexpr double flops_each = 2.0 * 4 * flops_chains * flops_rounds;
@@ -34,10 +53,10 @@ class Limits
     void look();
 
     /// flops_per_second of the machine, and machine_operations_per_point: the double operations that it could have done in the time of one of
-    /// `points` in `seconds`. That figure stays when the machine as a whole is slower.
-    void report_operations(benchmark::State& bench, double points, double seconds) const;
+    /// `points`. On one thread also cpu_operations_per_point, both by processor time: what else runs on the machine counts least in that.
+    void report_operations(benchmark::State& bench, double points, const Elapsed& time) const;
     /// roofline_share of the speed that operations and, with memory, bytes_per_second allow. For closed points through cycles of hdem.
-    void report_roofline(benchmark::State& bench, double points, double seconds) const;
+    void report_roofline(benchmark::State& bench, double points, const Elapsed& time) const;
 
   private:
     [[nodiscard]] double flops() const;
@@ -45,7 +64,7 @@ class Limits
     int threads_;
     bool with_memory_;
     int looks_ = 0;
-    double flops_seconds_ = 0.0;
-    double triad_seconds_ = 0.0;
+    Elapsed flops_time_;
+    Elapsed triad_time_;
 };
 }  // namespace hdem::perf

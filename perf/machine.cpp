@@ -7,13 +7,13 @@ namespace hdem::perf
 {
 namespace
 {
-void time_rate(benchmark::State& bench, const char* counter, double amount, double (*time)(int), int threads)
+void time_rate(benchmark::State& bench, const char* counter, double amount, Elapsed (*time)(int), int threads)
 {
     time(threads);
     double seconds = 0.0;
     for (auto _ : bench)
     {
-        const double passed = time(threads);
+        const double passed = time(threads).wall;
         bench.SetIterationTime(passed);
         seconds += passed;
     }
