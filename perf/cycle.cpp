@@ -52,19 +52,27 @@ void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks,
 
 [[maybe_unused]] const bool registered = []
 {
+    const auto add = [](const std::string& scene, Index blocks, const NamedMethod& method, int threads)
+    {
+        const std::string family = "cycle/" + scene + '/' + std::to_string(blocks) + '/' + method.name;
+        benchmark::RegisterBenchmark((family + '/' + std::to_string(threads)).c_str(), [=](benchmark::State& bench)
+                                     { run_cycles(bench, scene, blocks, method.method, family, threads); })
+            ->UseManualTime()
+            ->Iterations(1)  // all runs of a scene end in the same state
+            ->Unit(benchmark::kMillisecond);
+    };
     for (const char* scene : {"wall", "voronoi", "joints"})
+    {
         for (const Index blocks : {1'000, 10'000, 100'000, 1'000'000})
-            for (const auto& [name, method] : named_methods)
+            for (const NamedMethod& method : named_methods)
                 for (const int threads : thread_counts())
-                {
-                    const std::string family = "cycle/" + std::string(scene) + '/' + std::to_string(blocks) + '/' + name;
-                    benchmark::RegisterBenchmark((family + '/' + std::to_string(threads)).c_str(),
-                                                 [=, method = method](benchmark::State& bench)
-                                                 { run_cycles(bench, scene, blocks, method, family, threads); })
-                        ->UseManualTime()
-                        ->Iterations(1)  // all runs of a scene end in the same state
-                        ->Unit(benchmark::kMillisecond);
-                }
+                    add(scene, blocks, method, threads);
+        for (const Index each : {10'000, 100'000})  // weak scaling: so many for each thread
+            for (const NamedMethod& method : named_methods)
+                for (const int threads : thread_counts())
+                    if (threads > 1)
+                        add(scene, each * threads, method, threads);
+    }
     return true;
 }();
 }  // namespace

@@ -26,7 +26,7 @@ class Output:
         except (ValueError, KeyError) as error:
             raise MeasureError(f"{command}: its output is not that of hdem_perf ({error}). Give the program with --program.") from error
         for row in self.rows:
-            row["name"] = re.sub(r"/iterations:\d+|/repeats:\d+|/manual_time", "", row["name"])
+            row["name"] = without_details(row["name"])
             if row.get("error_occurred"):
                 raise MeasureError(f"{row['name']}: {row['error_message']}. No figure of this run can be used.")
 
@@ -40,6 +40,19 @@ def program_or_error(program):
         preset = Path(program).parts[-3] if len(Path(program).parts) > 2 else "release"
         raise MeasureError(f"{program}: no such program. Build it (cmake --preset {preset} && cmake --build --preset {preset}) or give it with --program.")
     return Path(program)
+
+
+def without_details(name):
+    return re.sub(r"/iterations:\d+|/repeats:\d+|/manual_time", "", name)
+
+
+def listed(program, names):
+    """Names of the benchmarks that match the expression; nothing is run."""
+    done = subprocess.run([str(program_or_error(program)), f"--benchmark_filter={names}", "--benchmark_list_tests"], capture_output=True, text=True, check=False)
+    found = [without_details(line) for line in done.stdout.split()]
+    if done.returncode != 0 or not found:
+        raise MeasureError(f"{program}: has no benchmark \"{names}\". Build the program from this tree.")
+    return found
 
 
 def run(program, names, *options, before=(), environment=None):

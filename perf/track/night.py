@@ -57,8 +57,8 @@ def check_hashes(hashes):
             raise measure.MeasureError(f"{case}: {len(found)} different states at the end of the same run. No figure of this night is kept.")
 
 
-def timed(program, names, processes, say):
-    """(case, threads, metric) -> values, one a process."""
+def timed(program, names, processes, say, figures=figures):
+    """(case, threads, metric) -> values, one a process, of the metrics that `figures` takes from a row; and the last process's output."""
     values, hashes = defaultdict(list), defaultdict(set)
     for number in range(1, processes + 1):
         say(f"timings, process {number} of {processes}")

@@ -17,6 +17,7 @@ def write(file, rows, **context):
                     f"document = json.loads({text!r})\n"
                     "wanted = next(a for a in sys.argv if a.startswith('--benchmark_filter=')).split('=', 1)[1]\n"
                     "document['benchmarks'] = [row for row in document['benchmarks'] if re.search(wanted, row['name'])]\n"
-                    "print(json.dumps(document))\n", encoding="utf-8")
+                    "names = '\\n'.join(row['name'] for row in document['benchmarks'])\n"
+                    "print(names if '--benchmark_list_tests' in sys.argv else json.dumps(document))\n", encoding="utf-8")
     file.chmod(file.stat().st_mode | stat.S_IXUSR)
     return file
