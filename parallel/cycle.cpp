@@ -178,7 +178,8 @@ void CycleRunner::change_velocities(const Model& model, State& state, BlockPart&
 {
     part.ledger = {};
     sum_forces(part.range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
-    update_velocities(part.range, model, state.damping, relaxing_, state.blocks, part.ledger);                  // Eqs. (11)-(14), (20)-(22)
+    update_velocities(part.range, model, relaxing_ ? DampingPreset::paper : state.damping, state.blocks,
+                      part.ledger);  // Eqs. (11)-(14), (20)-(22)
 }
 
 void CycleRunner::move(const Model& model, State& state, const Team& team)

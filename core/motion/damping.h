@@ -18,7 +18,6 @@ struct BasicActing
     R t_x = 1.0, t_y = 0.0;            ///< direction of that joint [-]
     decltype(R() < R()) springs{};     ///< has contact points in the force regime
     decltype(R() < R()) impulses{};    ///< has contact points in the impulse regime
-    decltype(R() < R()) ahead{};       ///< runs ahead of the clock (core/motion/pace.h)
 };
 using Acting = BasicActing<double>;
 
@@ -29,9 +28,8 @@ struct BasicBlockDamping
     R local = 0.0;           ///< alpha of Eqs. (13), (14) for translation [-]
     R local_rotation = 0.0;  ///< the same for rotation [-]
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
-    R limit = 0.0;           ///< greatest damping force along (t_x, t_y) [N]
-    R t_x = 1.0, t_y = 0.0;  ///< translation is damped along and across this direction
-    bool along_joint = false;  ///< else by axes
+    bool along_joint =
+        false;  ///< translation is damped along and across the block's most mobilised joint, along it by `reserve` at most
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -53,24 +51,19 @@ using BlockDamping = BasicBlockDamping<double>;
 /// 0.9 % of the way of the first second on a slope of 30 degrees at phi = 20; alpha fading with the mobilised share lost 0.5 % of Newmark's slide,
 /// and left a block that swings on its normal springs undamped.)
 ///
-/// In a stage that runs until it has converged (`relaxing`), `automatic` damps as `paper` does all blocks but those that run ahead of the clock
-/// (core/motion/pace.h): what is asked for is a state of rest close to where the rock began, and a block that swings past it has slipped there. Next to the tunnel
-/// blocks then move as far as under `paper`, 0.4 mm less than without.
+/// A stage that runs until it has converged is damped as by `paper` under `automatic` too (is_relaxing): what is asked for then is a state of rest
+/// close to where the rock began, and a block that swings past it has slipped there. Next to the tunnel blocks move 0.4 mm farther otherwise.
 template <typename R>
-[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, DampingPreset preset, bool relaxing,
+[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, DampingPreset preset,
                                                               const DampingDef& damping)
 {
     const bool automatic = preset == DampingPreset::automatic;
     const double alpha = preset == DampingPreset::dynamic ? 0.0 : damping.local;
     const R none = 0.0;
-    const auto by_joint = relaxing ? acting.ahead : acting.x == acting.x;
     const R local = select(acting.impulses, none, select(acting.springs, R(alpha), none));
     return {.local = local,
-            .local_rotation = automatic ? local * (R(1.0) - select(by_joint, acting.mobilised, none)) : local,
+            .local_rotation = automatic ? local * (R(1.0) - acting.mobilised) : local,
             .global = select(acting.impulses, R(2.0 * damping.global_damping_ratio * damping.average_frequency), none),
-            .limit = select(by_joint, acting.reserve, R(std::numeric_limits<double>::infinity())),
-            .t_x = select(by_joint, acting.t_x, R(1.0)),
-            .t_y = select(by_joint, acting.t_y, none),
             .along_joint = automatic};
 }
 
@@ -104,14 +97,14 @@ template <typename R>
     if (!damping.along_joint)
         return {locally_damped(acting.x, vx, damping.local), locally_damped(acting.y, vy, damping.local)};
     const R zero = 0.0;
-    const R along = damping.t_x * acting.x + damping.t_y * acting.y;
-    const R across = damping.t_x * acting.y - damping.t_y * acting.x;
-    const R drag_t = locally_damped(along, damping.t_x * vx + damping.t_y * vy, damping.local, damping.limit) - along;
-    const R drag_m = locally_damped(across, damping.t_x * vy - damping.t_y * vx, damping.local) - across;
+    const R along = acting.t_x * acting.x + acting.t_y * acting.y;
+    const R across = acting.t_x * acting.y - acting.t_y * acting.x;
+    const R drag_t = locally_damped(along, acting.t_x * vx + acting.t_y * vy, damping.local, acting.reserve) - along;
+    const R drag_m = locally_damped(across, acting.t_x * vy - acting.t_y * vx, damping.local) - across;
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
-    return {select(on_axis, locally_damped(acting.x, vx, damping.local, damping.limit),
-                   acting.x + damping.t_x * drag_t - damping.t_y * drag_m),
-            select(on_axis, locally_damped(acting.y, vy, damping.local, damping.limit),
-                   acting.y + damping.t_y * drag_t + damping.t_x * drag_m)};
+    return {select(on_axis, locally_damped(acting.x, vx, damping.local, acting.reserve),
+                   acting.x + acting.t_x * drag_t - acting.t_y * drag_m),
+            select(on_axis, locally_damped(acting.y, vy, damping.local, acting.reserve),
+                   acting.y + acting.t_y * drag_t + acting.t_x * drag_m)};
 }
 }  // namespace hdem

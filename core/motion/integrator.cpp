@@ -227,7 +227,7 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
             }
 }
 
-void update_velocities(IndexRange range, const Model& model, DampingPreset preset, bool relaxing, Blocks& blocks, EnergyLedger& ledger)
+void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger)
 {
     const Pack dt = model.time_step;
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
@@ -237,13 +237,11 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
         range,
         [&](Index i, Index count)
         {
-            BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
-            if (relaxing)
-                acting.ahead = load_some(&blocks.pace[i], count) > Pack(2.0);
+            const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
             const BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
             Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
             const Pack mass = load_some(&model.mass[i], count);
-            const BasicBlockDamping<Pack> damping = conditional_damping(acting, preset, relaxing, model.damping);
+            const BasicBlockDamping<Pack> damping = conditional_damping(acting, preset, model.damping);
             const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, damping);
             const Pack damped_moment = locally_damped(acting.moment, v.c, damping.local_rotation);
             v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, dt, works);

@@ -13,8 +13,9 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most = 64.0;
-constexpr double slide_share = 2.5e-4;  // of the block's size a cycle
+constexpr double slide_share = 7.5e-4;  // of the block's size a cycle
 constexpr double flight_share = 0.05;   // of the way to what is near, a cycle
+constexpr double gentle_share = 0.1;    // of sqrt(g size): impacts below are those of rocking and sliding
 
 void set_pace(double pace, Index block, Blocks& blocks)
 {
@@ -33,36 +34,38 @@ void set_pace(double pace, Index block, Blocks& blocks)
 /// What touches a block, or nearly does.
 struct Surroundings
 {
-    double frequency_squared = 0.0;  ///< bound on that of its own swinging on its closed springs, at the pace of the clock [1/s2]
-    double gap = infinity;           ///< to the nearest open one [m]
+    double frequency_squared = 0.0;  ///< bound on that of its own swinging on their springs, were all of them closed [1/s2]
+    double time_to_hit = infinity;   ///< until the first open one closes hard [s]
 };
+
+/// Squared frequency that one point's two springs can give a block: its share in the trace of M^-1 K.
+double frequency_squared(const Contact& contact, const CoulombSlip& joint, const TouchPoint& p, Index block,
+                         const BlockInertia& inertia)
+{
+    const double lever_n = contact.ref == block ? p.ref_t : p.inc_t;
+    const double lever_s = contact.ref == block ? p.ref_m : p.inc_m;
+    return contact.last_length * (joint.normal_stiffness * (inertia.inverse_mass_x + inertia.inverse_inertia * lever_n * lever_n) +
+                                  joint.shear_stiffness * (inertia.inverse_mass_x + inertia.inverse_inertia * lever_s * lever_s));
+}
 
 Surroundings look_around(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks)
 {
-    const BlockInertia& full = model.full_inertia[block];
-    Surroundings s{.gap = skin_width(model)};
+    Surroundings s;
+    const double pace = blocks.pace[block];
+    const double gentle = gentle_share * std::sqrt(model.gravity.norm() * model.size(block));
     for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
     {
         const Contact contact = contacts.get(list.entry[e] / 2);
-        const CoulombSlip& joint = model.joints.laws[contact.law];
-        const EdgeTouch touch = touch_edges(contact.edges,
-                                            view_edges(contact.edges, blocks.motion[contact.ref], blocks.motion[contact.inc]),
-                                            blocks.motion[contact.ref], blocks.motion[contact.inc]);
+        const BlockMotion& ref = blocks.motion[contact.ref];
+        const BlockMotion& inc = blocks.motion[contact.inc];
+        const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
         for (int k = 0; k < 2; ++k)
         {
-            if (contact.point[k].regime == Regime::open)
-                continue;
             const TouchPoint& p = touch.point[k];
-            const double lever_n = contact.ref == block ? p.ref_t : p.inc_t;
-            const double lever_s = contact.ref == block ? p.ref_m : p.inc_m;
-            s.frequency_squared += contact.last_length *
-                                   (joint.normal_stiffness * (full.inverse_mass_x + full.inverse_inertia * lever_n * lever_n) +
-                                    joint.shear_stiffness * (full.inverse_mass_x + full.inverse_inertia * lever_s * lever_s));
-        }
-        if (contact.point[0].regime == Regime::open && contact.point[1].regime == Regime::open)
-        {
-            const bool beside = contact.last_length <= 0.5 * contact.length_floor;  // overlaps say nothing then
-            s.gap = beside ? 0.0 : std::min(s.gap, std::max(0.0, -std::max(contact.point[0].overlap, contact.point[1].overlap)));
+            s.frequency_squared += frequency_squared(contact, model.joints.laws[contact.law], p, block, model.full_inertia[block]);
+            const double closing = p.v_m / pace;
+            if (contact.point[k].regime == Regime::open && touch.length > 0.0 && closing > gentle)
+                s.time_to_hit = std::min(s.time_to_hit, std::max(0.0, -p.overlap) / closing);
         }
     }
     return s;
@@ -82,10 +85,11 @@ double bound_of(Index block, const Model& model, const BlockContacts& list, cons
     const BlockMotion& motion = blocks.motion[block];
     const double speed = (std::hypot(motion.vx, motion.vy) + std::abs(motion.w) * model.radius[block]) / blocks.pace[block];
     const double step = std::max(speed * model.time_step, 1e-300);
+    if (list.begin[block] == list.begin[block + 1])
+        return flight_share * skin_width(model) / step;
     const Surroundings around = look_around(block, model, list, contacts, blocks);
-    if (around.frequency_squared == 0.0)
-        return flight_share * around.gap / step;
-    return std::min(1.0 / (std::sqrt(around.frequency_squared) * model.time_step), slide_share * model.size(block) / step);
+    return std::min({slide_share * model.size(block) / step, flight_share * around.time_to_hit / model.time_step,
+                     1.0 / (std::sqrt(around.frequency_squared) * model.time_step)});
 }
 
 /// The least bound of a block and the loose ones it touches: blocks that touch keep the same time, or they would slip on each other for no reason. Nor

@@ -15,11 +15,12 @@ namespace hdem
 /// Its path, the work of every force on it, and its kinetic energy stay the same; what takes n cycles takes one. This is the density scaling of
 /// quasi-static codes, for loose blocks alone. In `motion` and `inertia` stand the scaled values; Blocks::velocity gives those of the user.
 ///
-/// A block is loose once it has moved more than `loose_distance` since its stage began. Its pace n, a power of two so that scaling is exact, is the greatest for which
+/// A block is loose once it has moved more than `loose_distance` since its stage began. Its pace n, a power of two so that scaling is exact, is the
+/// greatest, up to 64, for which
 ///
-///   - its contact springs stay far from their limit of stability: n w dt <= 1/2, w from its mass and its closed springs;
-///   - sliding with all its strength used up, or tumbling, it moves at most 2.5e-4 of its size a cycle;
-///   - in flight it moves at most 1/20 of the way to what is near, so that it hits with its true momentum at the true step.
+///   - n w dt <= 1, half of what is stable: w from its mass and the springs of all that touches it or is near;
+///   - it moves at most 7.5e-4 of its size a cycle, and with nothing near it 1/20 of the skin;
+///   - it comes at most 1/20 nearer to what it is about to hit at more than sqrt(g size) / 10: it hits with its true momentum, at the true step.
 ///
 /// Blocks that touch have the same n; one that sticks to standing rock has n = 1.
 ///

@@ -40,49 +40,30 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
         const BlockDamping damping = conditional_damping(Acting{.mobilised = row.mobilised,
                                                                 .springs = (row.contacts & contact_force) != 0,
                                                                 .impulses = (row.contacts & contact_impulse) != 0},
-                                                         row.preset, false, def);
+                                                         row.preset, def);
         EXPECT_DOUBLE_EQ(damping.local, row.local) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
         EXPECT_DOUBLE_EQ(damping.global, row.global) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
     }
 }
 
-/// In a stage that looks for rest only blocks that run ahead of the clock are spared.
-TEST(ConditionalDamping, OfARelaxingStageIsThatOfThePaperButForLooseBlocks)
-{
-    const DampingDef def{.local = 0.8};
-    const Acting acting{.x = 3.0, .y = -4.0, .reserve = 0.5, .mobilised = 1.0, .t_x = 0.6, .t_y = 0.8, .springs = true};
-    Acting ahead = acting;
-    ahead.ahead = true;
-    const auto damp = [&](const Acting& on, DampingPreset preset, bool relaxing)
-    {
-        const BlockDamping damping = conditional_damping(on, preset, relaxing, def);
-        const DampedForce<double> force = damp_translation(on, BlockInertia{1.0, 1.0, 1.0, 0.0}, 1.0, -2.0, damping);
-        return std::array{force.x, force.y, damping.local_rotation};
-    };
-    const auto automatic = DampingPreset::automatic;
-    EXPECT_EQ(damp(acting, automatic, true), damp(acting, DampingPreset::paper, false));
-    EXPECT_EQ(damp(ahead, automatic, true), damp(acting, automatic, false));
-    EXPECT_NE(damp(acting, automatic, true), damp(acting, automatic, false));
-}
-
 TEST(ConditionalDamping, LeavesTurningAloneAsAJointIsMobilised)
 {
     const DampingDef def{.local = 0.8};
-    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, DampingPreset::automatic, false, def).local_rotation, 0.6,
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.6,
                 1e-15);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::automatic, false, def).local_rotation, 0.0);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::paper, false, def).local_rotation, 0.8);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::paper, def).local_rotation, 0.8);
 }
 
 /// A block that slides along (0.6, 0.8) at the limit moves freely along the joint, and is damped across it.
 TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
 {
     const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
+    const BlockDamping damping{.local = 0.8, .along_joint = true};
     const double t_x = 0.6, t_y = 0.8;
     const auto damped = [&](double reserve)
     {
-        const Acting force{.x = 10.0 * t_x - 5.0 * t_y, .y = 10.0 * t_y + 5.0 * t_x, .reserve = reserve, .t_x = t_x, .t_y = t_y, .springs = true};
-        const BlockDamping damping = conditional_damping(force, DampingPreset::automatic, false, {.local = 0.8});
+        const Acting force{.x = 10.0 * t_x - 5.0 * t_y, .y = 10.0 * t_y + 5.0 * t_x, .reserve = reserve, .t_x = t_x, .t_y = t_y};
         // 2 m/s along, 1 m/s across
         const DampedForce<double> f = damp_translation(force, inertia, 2.0 * t_x - 1.0 * t_y, 2.0 * t_y + 1.0 * t_x, damping);
         return Vec2(t_x * f.x + t_y * f.y, t_x * f.y - t_y * f.x);
@@ -98,9 +79,8 @@ TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
 TEST(LocalDamping, LeavesAFixedComponentAlone)
 {
     const BlockInertia inertia{.inverse_mass_y = 1.0};
-    const Acting force{.x = 7.0, .y = 10.0, .reserve = 3.0, .t_x = 0.6, .t_y = 0.8, .springs = true};
-    const BlockDamping damping = conditional_damping(force, DampingPreset::automatic, false, {.local = 0.8});
-    EXPECT_DOUBLE_EQ(damp_translation(force, inertia, 0.0, 1.0, damping).y, 7.0);
+    const Acting force{.x = 7.0, .y = 10.0, .reserve = 3.0, .t_x = 0.6, .t_y = 0.8};
+    EXPECT_DOUBLE_EQ(damp_translation(force, inertia, 0.0, 1.0, {.local = 0.8, .along_joint = true}).y, 7.0);
 }
 
 RC_GTEST_PROP(LocalDamping, TakesPowerAndLeavesABlockAtRestAlone, (int f, int v))
