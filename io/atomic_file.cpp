@@ -19,12 +19,16 @@ const char* advice(int error)
     switch (error)
     {
     case ENOSPC:
-    case EDQUOT: return "The disk or the quota is full: free some space, or write to another folder with -o.";
-    case EFBIG: return "A limit on file sizes was met: see ulimit -f.";
+    case EDQUOT:
+        return "The disk or the quota is full: free some space, or write to another folder with -o.";
+    case EFBIG:
+        return "A limit on file sizes was met: see ulimit -f.";
     case EACCES:
     case EPERM:
-    case EROFS: return "Give a folder that may be written with -o.";
-    default: return "Check the disk, or write to another folder with -o.";
+    case EROFS:
+        return "Give a folder that may be written with -o.";
+    default:
+        return "Check the disk, or write to another folder with -o.";
     }
 }
 
@@ -33,7 +37,9 @@ class Temporary
 {
   public:
     Temporary(const std::filesystem::path& target, const std::filesystem::path& name)
-        : target_(target), name_(name), descriptor_(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+        : target_(target),
+          name_(name),
+          descriptor_(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
     {
         if (descriptor_ < 0)
             fail();
@@ -59,9 +65,9 @@ class Temporary
         }
     }
 
-    void rename(const std::filesystem::path& previous)
+    void rename(const std::filesystem::path& previous, Flush flush)
     {
-        if (::fsync(descriptor_) != 0)
+        if (flush == Flush::now && ::fsync(descriptor_) != 0)
             fail();
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
@@ -110,7 +116,8 @@ void sync_folder(const std::filesystem::path& folder)
 }
 }  // namespace
 
-void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::filesystem::path& previous)
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::filesystem::path& previous,
+                      Flush flush)
 {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code error;
@@ -121,13 +128,27 @@ void write_atomically(const std::filesystem::path& file, std::span<const std::by
     name += ".tmp";
     Temporary temporary(file, name);
     temporary.write(bytes);
-    temporary.rename(previous);
-    sync_folder(folder);
+    temporary.rename(previous, flush);
+    if (flush == Flush::now)
+        sync_folder(folder);
 }
 
-void write_atomically(const std::filesystem::path& file, std::string_view text)
+void write_atomically(const std::filesystem::path& file, std::string_view text, Flush flush)
 {
-    write_atomically(file, std::as_bytes(std::span(text)));
+    write_atomically(file, std::as_bytes(std::span(text)), {}, flush);
+}
+
+void flush_folder(const std::filesystem::path& folder)
+{
+    const std::filesystem::path name = folder.empty() ? "." : folder;
+    const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool flushed = descriptor >= 0 && ::syncfs(descriptor) == 0;
+    const int error = errno;
+    if (descriptor >= 0)
+        ::close(descriptor);
+    if (!flushed && error != ENOENT)
+        throw RunError(
+            fmt::format("{}: cannot be brought to the disk ({}). {}", name.string(), std::strerror(error), advice(error)));
 }
 
 void remove_file(const std::filesystem::path& file)

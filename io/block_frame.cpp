@@ -35,8 +35,8 @@ Vec2 place(const Model& model, const BlockMotion& motion, Index vertex)
 struct PartCells
 {
     VtkCells cells{.type = CellType::polygon, .points = {}};
-    std::vector<Index> block;                ///< per cell
-    std::vector<std::uint8_t> outer_edge;    ///< per vertex: the edge that begins there is on the block's outline
+    std::vector<Index> block;              ///< per cell
+    std::vector<std::uint8_t> outer_edge;  ///< per vertex: the edge that begins there is on the block's outline
 };
 
 PartCells make_cells(const Model& model, const Blocks& blocks)
@@ -110,7 +110,8 @@ void write_outlines(Hdf5Writer& file, const Model& model, const Blocks& blocks)
             ++part;
         const Index block = shapes.part_block[part];
         const bool by_outline = model.excavation[block] != no_index && shapes.edge_source[v] == edge_outline;
-        const bool by_name = model.excavation[block] == no_index && blocks.present[block] == 0 && shapes.edge_source[v] != edge_internal;
+        const bool by_name = model.excavation[block] == no_index && blocks.present[block] == 0 &&
+                             shapes.edge_source[v] != edge_internal;
         if (!by_outline && !by_name)
             continue;
         for (const Index end : {v, shapes.next_vertex(part, v)})
@@ -168,6 +169,6 @@ void write_block_frame(const std::filesystem::path& name, const Model& model, co
     write_bodies(file, model, state.blocks);
     write_names(file, model);
     write_outlines(file, model, state.blocks);
-    file.commit();
+    file.commit({}, Flush::later);
 }
 }  // namespace hdem

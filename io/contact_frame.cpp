@@ -62,6 +62,6 @@ void write_contact_frame(const std::filesystem::path& name, const Model& model, 
     write_cell_data<float>(file, "slip", n, [&](std::size_t i) { return slip_of(state.blocks, contacts[i]); });
     write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return contacts[i].regime; });
     write_frame_header(file, "hdem-contacts", model, state);
-    file.commit();
+    file.commit({}, Flush::later);
 }
 }  // namespace hdem

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace hdem
 {
@@ -35,13 +36,19 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
     return files;
 }
 
-Frame read_frame(const std::filesystem::path& file)
+/// Nothing for a file that was on its way to the disk when the power failed.
+std::optional<Frame> read_frame(const std::filesystem::path& file)
+try
 {
     const Hdf5Reader in(file);
-    return {.number = frame_number(file.filename().string()),
-            .cycle = in.attribute<std::int64_t>("/hdem", "cycle", {}).front(),
-            .time = in.attribute<double>("/hdem", "time", {}).front(),
-            .stage = in.text("/hdem", "stage")};
+    return Frame{.number = frame_number(file.filename().string()),
+                 .cycle = in.attribute<std::int64_t>("/hdem", "cycle", {}).front(),
+                 .time = in.attribute<double>("/hdem", "time", {}).front(),
+                 .stage = in.text("/hdem", "stage")};
+}
+catch (const RunError&)
+{
+    return std::nullopt;
 }
 }  // namespace
 
@@ -50,7 +57,9 @@ std::string frame_file(const std::string& kind, int number)
     return fmt::format("frames/{}_{:06d}.hdf", kind, number);
 }
 
-FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model) : folder_(std::move(folder)), contacts_(model.output.contacts)
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model)
+    : folder_(std::move(folder)),
+      contacts_(model.output.contacts)
 {
     remove_file(folder_ / "blocks.hdf.series");  // first what names the others
     remove_file(folder_ / "contacts.hdf.series");
@@ -60,19 +69,23 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model) : fol
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const State& state)
-    : folder_(std::move(folder)), contacts_(model.output.contacts)
+    : folder_(std::move(folder)),
+      contacts_(model.output.contacts)
 {
     for (const std::filesystem::path& file : files_in(folder_ / "frames"))
     {
         const std::string name = file.filename().string();
         if (frame_number(name) < 0)
             continue;
-        const Frame frame = read_frame(file);
-        if (frame.cycle > state.cycle)
+        const std::optional<Frame> frame = read_frame(file);
+        if (!frame || frame->cycle > state.cycle)
             younger_.push_back(file);
         else if (name.starts_with("blocks_"))
-            frames_.push_back(frame);
+            frames_.push_back(*frame);
     }
+    const int last = frames_.empty() ? -1 : frames_.back().number;
+    std::erase_if(younger_,
+                  [&](const auto& file) { return frame_number(file.filename().string()) <= last; });  // older, but damaged
     write_all_series();
 }
 
@@ -109,6 +122,6 @@ void FrameWriter::write_series(const std::string& kind) const
     nlohmann::ordered_json series = {{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
     for (const Frame& frame : frames_)
         series["files"].push_back({{"name", frame_file(kind, frame.number)}, {"time", frame.time}});
-    write_atomically(folder_ / (kind + ".hdf.series"), series.dump(1) + "\n");
+    write_atomically(folder_ / (kind + ".hdf.series"), series.dump(1) + "\n", Flush::later);
 }
 }  // namespace hdem

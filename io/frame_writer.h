@@ -12,15 +12,15 @@ namespace hdem
 {
 struct Frame
 {
-    int number = 0;             ///< NNNNNN of its files
+    int number = 0;  ///< NNNNNN of its files
     std::int64_t cycle = 0;
-    double time = 0.0;          ///< [s]
-    std::string stage;          ///< name
+    double time = 0.0;  ///< [s]
+    std::string stage;  ///< name
 };
 
 /// Files: FOLDER/frames/blocks_NNNNNN.hdf and contacts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and contacts.hdf.series, which
 /// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series is
-/// written last and names complete files only.
+/// written last and names complete files only. All are written with Flush::later: results.h5 brings them to the disk.
 /// @see verification/unit/io/frame_writer_test.cpp
 class FrameWriter
 {
@@ -28,6 +28,7 @@ class FrameWriter
     /// Contact frames are written when model.output.contacts says so. Frames of an earlier run in the folder are removed.
     FrameWriter(std::filesystem::path folder, const Model& model);
     /// To go on after a restart at `state`: frames of the folder that are not younger than it stay, the others leave the series.
+    /// A file that cannot be read leaves it too; it counts as younger when its number does.
     FrameWriter(std::filesystem::path folder, const Model& model, const State& state);
     /// Remove the files of frames younger than the restart, once nothing names them any more.
     void remove_younger_frames();

@@ -12,9 +12,10 @@ namespace hdem
 {
 namespace
 {
-constexpr std::size_t memory_step = 4U << 20U;    // [bytes] by which the file in memory grows
-constexpr std::uint64_t chunk_bytes = 1U << 20U;  // fits the library's chunk cache
-constexpr unsigned deflate_level = 1;             // higher levels cost much time for little
+constexpr std::size_t memory_step = 4U << 20U;       // [bytes] by which the file in memory grows
+constexpr std::uint64_t chunk_bytes = 1U << 20U;     // fits the library's chunk cache
+constexpr std::uint64_t least_deflated = 1U << 17U;  // bytes; the packer takes longer to begin than a smaller dataset is worth
+constexpr unsigned deflate_level = 1;                // higher levels cost much time for little
 
 /// The bytes of a file that exists in memory only; they are left here when HDF5 closes it.
 ///
@@ -102,7 +103,7 @@ Hdf5Handle storage_of(const Shape& shape, std::uint64_t count, std::size_t size,
     const std::uint64_t row_bytes = count / shape[0] * size;
     chunk[0] = std::clamp<std::uint64_t>(chunk_bytes / row_bytes, 1, shape[0]);
     H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
-    if (packing == Hdf5Writer::Packing::deflated)
+    if (packing == Hdf5Writer::Packing::deflated && count * size >= least_deflated)
     {
         H5Pset_shuffle(properties.id());
         H5Pset_deflate(properties.id(), deflate_level);
@@ -216,7 +217,7 @@ void Hdf5Writer::link(const std::string& path, const std::string& file, const st
         fail_hdf5(name_, path, "made", hdf5_reason());
 }
 
-void Hdf5Writer::commit(const std::filesystem::path& previous)
+void Hdf5Writer::commit(const std::filesystem::path& previous, Flush flush)
 {
     if (H5Fflush(handles_->file.id(), H5F_SCOPE_GLOBAL) < 0)
         fail_hdf5(name_, "/", "finished", hdf5_reason());
@@ -226,7 +227,8 @@ void Hdf5Writer::commit(const std::filesystem::path& previous)
     handles_->file = {};
     if (handles_->memory.bytes == nullptr)
         fail_hdf5(name_, "/", "finished", hdf5_reason());
-    write_atomically(name_, std::span(static_cast<const std::byte*>(handles_->memory.bytes.get()), static_cast<std::size_t>(size)), previous);
+    write_atomically(name_, std::span(static_cast<const std::byte*>(handles_->memory.bytes.get()), static_cast<std::size_t>(size)),
+                     previous, flush);
     handles_->memory.bytes.reset();
 }
 }  // namespace hdem

@@ -1,6 +1,7 @@
 #pragma once
 /// Writes one HDF5 file, which appears under its name complete or not at all.
 
+#include "io/atomic_file.h"
 #include "io/hdf5_types.h"
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace hdem
 /// error with the system's reason (HDF5 cannot close a file that does not fit), and locks of network file systems do not matter.
 ///
 /// Groups on the way to an object are made as needed. Datasets with elements are in chunks with Fletcher-32 checksums: a flipped
-/// bit is an error for the reader, not another number. They are shuffled and deflated at level 1 unless said otherwise.
+/// bit is an error for the reader, not another number. From 128 kB on they are shuffled and deflated at level 1
+/// unless said otherwise.
 /// @see verification/unit/io/hdf5_file_test.cpp
 class Hdf5Writer
 {
@@ -72,10 +74,11 @@ class Hdf5Writer
     void link(const std::string& path, const std::string& file, const std::string& object);
 
     /// @param previous name that an older file is kept under; "": it is replaced
-    void commit(const std::filesystem::path& previous = {});
+    void commit(const std::filesystem::path& previous = {}, Flush flush = Flush::now);
 
   private:
-    void write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type, const Shape& shape, Packing packing);
+    void write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type, const Shape& shape,
+                        Packing packing);
     void set_elements(const std::string& object, const std::string& name, const void* values, ElementType type, const Shape& shape);
 
     struct Handles;

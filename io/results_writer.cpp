@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/version.h"
+#include "io/atomic_file.h"
 #include "io/hdf5_reader.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds least_interval{10};
-constexpr int interval_in_writes = 20;    // writing takes at most 1/20 of the time
+constexpr int interval_in_writes = 20;  // writing takes at most 1/20 of the time
 
 void write_table(Hdf5Writer& file, const Table& table)
 {
@@ -61,21 +62,26 @@ void write_frame_links(Hdf5Writer& file, std::span<const Frame> frames, bool con
 
 bool has_columns(const Hdf5Reader& file, const Table& table)
 {
-    return file.has(table.path) && std::all_of(table.columns.begin(), table.columns.end(), [&](const Column& column) {
-               return file.has(table.path + "/" + column.name);
-           });
+    return file.has(table.path) && std::all_of(table.columns.begin(), table.columns.end(),
+                                               [&](const Column& column) { return file.has(table.path + "/" + column.name); });
 }
 }  // namespace
 
 ResultsWriter::ResultsWriter(std::filesystem::path file, Provenance provenance)
-    : file_(std::move(file)), provenance_(std::move(provenance)), next_write_(Clock::now())
+    : file_(std::move(file)),
+      provenance_(std::move(provenance)),
+      next_write_(Clock::now())
 {
 }
 
 std::size_t ResultsWriter::add_table(std::string path, std::vector<Column> columns)
 {
     const std::size_t n = columns.size();
-    tables_.push_back({.path = std::move(path), .columns = std::move(columns), .cycle = {}, .time = {}, .values = std::vector<std::vector<double>>(n)});
+    tables_.push_back({.path = std::move(path),
+                       .columns = std::move(columns),
+                       .cycle = {},
+                       .time = {},
+                       .values = std::vector<std::vector<double>>(n)});
     return tables_.size() - 1;
 }
 
@@ -133,6 +139,7 @@ void ResultsWriter::write(std::span<const Frame> frames, bool contact_frames)
     file.make_group("/history");
     for (const Table& table : tables_)
         write_table(file, table);
+    flush_folder(file_.parent_path());  // what it links to is on the disk before it
     file.commit();
     const auto end = Clock::now();
     next_write_ = end + std::max<Clock::duration>(least_interval, interval_in_writes * (end - begin));

@@ -39,6 +39,18 @@ TEST(AtomicFile, ReplacesTheOldContentAndLeavesNothingElse)
     EXPECT_FALSE(std::filesystem::exists(folder / "sub/file.txt.tmp"));
 }
 
+TEST(AtomicFile, CanBeReadAtOnceWhenItIsFlushedLater)
+{
+    const ScratchFolder folder("atomic_later");
+    write_atomically(folder / "file.txt", std::string_view("new"), Flush::later);
+    EXPECT_EQ(text_in(folder / "file.txt"), "new");
+    EXPECT_FALSE(std::filesystem::exists(folder / "file.txt.tmp"));
+    flush_folder(folder.path());
+    flush_folder(folder / "absent");  // nothing was written there
+    EXPECT_THAT(message_of([&] { flush_folder(folder / "file.txt"); }),
+                HasSubstr("cannot be brought to the disk (Not a directory)"));
+}
+
 /// A limit on file sizes stands in for a full disk: write() fails half-way.
 TEST(AtomicFile, KeepsTheOldFileWhenTheNewOneDoesNotFit)
 {

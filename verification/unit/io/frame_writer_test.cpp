@@ -13,10 +13,10 @@ using test::ScratchFolder;
 using test::SmallRun;
 using test::text_in;
 using testing::ElementsAre;
+using testing::FloatEq;
 using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
-using testing::FloatEq;
 
 constexpr Index ground = 0;
 constexpr Index l = 1;
@@ -112,7 +112,7 @@ TEST(ContactFrame, HasALineForEachClosedContact)
     const ScratchFolder folder("frame_contacts");
     SmallRun run = test::small_run();
     run.state.blocks.motion[block].y -= 1e-5;
-    run.state.blocks.motion[block].x += 1.5;    // it hangs half over the ground's end
+    run.state.blocks.motion[block].x += 1.5;  // it hangs half over the ground's end
     write_contact_frame(folder / "none.hdf", run.model, run.state);
     EXPECT_TRUE(Hdf5Reader(folder / "none.hdf").read<double>("/VTKHDF/Points", {any_extent, 3}).empty());
 
@@ -215,6 +215,28 @@ TEST(FrameWriter, NewRunsRemoveOldFramesAndRestartsKeepThem)
     EXPECT_TRUE(anew.frames().empty());
     EXPECT_FALSE(std::filesystem::exists(folder / "frames/blocks_000000.hdf"));
     EXPECT_TRUE(std::filesystem::exists(folder / "frames/notes_000000.hdf"));
+}
+
+/// Frames younger than the checkpoint may be empty after a power failure; that must not keep a run from going on.
+TEST(FrameWriter, RestartRemovesDamagedYoungerFramesAndLeavesOlderOnes)
+{
+    const ScratchFolder folder("frame_damaged");
+    SmallRun run = test::small_run();
+    FrameWriter before(folder.path(), run.model);
+    for (run.state.cycle = 0; run.state.cycle < 30; run.state.cycle += 10)
+        before.write(run.model, run.state);
+    std::ofstream(folder / "frames/blocks_000001.hdf") << "half a fr";
+    std::ofstream(folder / "frames/blocks_000003.hdf") << "";
+    std::ofstream(folder / "frames/contacts_000003.hdf") << "half a fr";
+    FrameWriter restarted(folder.path(), run.model, run.state);
+    EXPECT_EQ(restarted.frames().size(), 2U);
+    EXPECT_THAT(text_in(folder / "blocks.hdf.series"), Not(HasSubstr("000001")));
+    restarted.remove_younger_frames();
+    EXPECT_FALSE(std::filesystem::exists(folder / "frames/blocks_000003.hdf"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "frames/contacts_000003.hdf"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "frames/blocks_000001.hdf")) << "not this restart's to remove";
+    EXPECT_TRUE(std::filesystem::exists(folder / "frames/blocks_000002.hdf"));
+    EXPECT_EQ(restarted.write(run.model, run.state).number, 3);
 }
 }  // namespace
 }  // namespace hdem

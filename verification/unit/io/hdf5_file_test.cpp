@@ -103,7 +103,8 @@ TEST(Hdf5File, ErrorsNameFileObjectAndReason)
     const ScratchFolder folder("hdf5_errors");
     Hdf5Writer out(folder / "a.h5");
     out.write("/reals", ramp(6), {2, 3});
-    EXPECT_THAT(message_of([&] { out.write("/reals", ramp(1)); }), AllOf(HasSubstr("a.h5: /reals: cannot be written"), HasSubstr("exists")));
+    EXPECT_THAT(message_of([&] { out.write("/reals", ramp(1)); }),
+                AllOf(HasSubstr("a.h5: /reals: cannot be written"), HasSubstr("exists")));
     EXPECT_THAT(message_of([&] { out.write("/wrong", ramp(5), {2, 3}); }), HasSubstr("5 elements do not fill its shape of 6"));
     EXPECT_THAT(message_of([&] { out.set_attribute("/nowhere", "x", 1.0); }), HasSubstr("/nowhere@x: cannot be written"));
     out.link("/elsewhere", "other.h5", "/reals");
@@ -116,11 +117,18 @@ TEST(Hdf5File, ErrorsNameFileObjectAndReason)
     std::ofstream(folder / "text.h5") << "no HDF5 at all";
     EXPECT_THAT(message_of([&] { const Hdf5Reader in(folder / "text.h5"); }), HasSubstr("text.h5: /: cannot be read"));
     const Hdf5Reader in(folder / "a.h5");
-    EXPECT_THAT(message_of([&] { (void)in.read<double>("/reals", {6}); }), HasSubstr("/reals: cannot be read (shape [2, 3], expected [6])"));
+    EXPECT_THAT(message_of([&] { (void)in.read<double>("/reals", {6}); }),
+                HasSubstr("/reals: cannot be read (shape [2, 3], expected [6])"));
     EXPECT_THAT(message_of([&] { (void)in.read<float>("/reals", {2, 3}); }), HasSubstr("another type of element"));
     EXPECT_THAT(message_of([&] { (void)in.read<std::int64_t>("/reals", {2, 3}); }), HasSubstr("another type of element"));
-    EXPECT_THAT(message_of([&] { (void)in.read<double>("/absent", {any_extent}); }), HasSubstr("/absent: cannot be read (not in this file)"));
-    EXPECT_THAT(message_of([&] { (void)in.read<double>("/elsewhere", {2, 3}); }), HasSubstr("not in this file")) << "an external link was followed";
+    EXPECT_THAT(message_of([&] { (void)in.read<double>("/absent", {any_extent}); }),
+                HasSubstr("/absent: cannot be read (not in this file)"));
+    EXPECT_THAT(message_of(
+                    [&] {
+                        (void)in.read<double>("/elsewhere", {2, 3});
+                    }),
+                HasSubstr("not in this file"))
+        << "an external link was followed";
     EXPECT_THAT(message_of([&] { (void)in.read_texts("/reals"); }), HasSubstr("not a text"));
 }
 
@@ -128,13 +136,13 @@ TEST(Hdf5File, ErrorsNameFileObjectAndReason)
 TEST(Hdf5File, AFlippedBitInTheDataIsAnError)
 {
     const ScratchFolder folder("hdf5_bits");
-    std::vector<double> values = ramp(5000);
+    std::vector<double> values = ramp(20000);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = std::sin(1e3 * values[i]);  // so that the packed data is long
     for (const Hdf5Writer::Packing packing : {Hdf5Writer::Packing::deflated, Hdf5Writer::Packing::plain})
     {
         Hdf5Writer out(folder / "a.h5");
-        out.write("/reals", values, {5000}, packing);
+        out.write("/reals", values, {20000}, packing);
         out.commit();
         const std::string good = text_in(folder / "a.h5");
         int refused = 0;
@@ -143,10 +151,25 @@ TEST(Hdf5File, AFlippedBitInTheDataIsAnError)
             std::string bad = good;
             bad[bad.size() / 2 + static_cast<std::size_t>(i) * 97] ^= 4;
             std::ofstream(folder / "bad.h5", std::ios::binary) << bad;
-            refused += message_of([&] { (void)Hdf5Reader(folder / "bad.h5").read<double>("/reals", {5000}); }) != "no error" ? 1 : 0;
+            refused += message_of([&] { (void)Hdf5Reader(folder / "bad.h5").read<double>("/reals", {20000}); }) != "no error" ? 1
+                                                                                                                              : 0;
         }
         EXPECT_EQ(refused, 50);
     }
+}
+
+TEST(Hdf5File, OnlyLargeDatasetsAreDeflated)
+{
+    const ScratchFolder folder("hdf5_size");
+    const auto size_of = [&](std::uint64_t count)
+    {
+        Hdf5Writer out(folder / "a.h5");
+        out.write("/zeros", std::vector<double>(count), {count});
+        out.commit();
+        return std::filesystem::file_size(folder / "a.h5");
+    };
+    EXPECT_GT(size_of(1000), 8000U);
+    EXPECT_LT(size_of(100'000), 100'000U);
 }
 
 /// Whatever bytes are changed, or the file cut short: an error or some values, never a crash or a huge allocation.
@@ -160,7 +183,8 @@ TEST(Hdf5File, DamagedFilesAreReadOrRefused)
     out.commit();
     const std::string good = text_in(folder / "a.h5");
     std::uint64_t random = 12345;
-    const auto next_random = [&](std::uint64_t n) {
+    const auto next_random = [&](std::uint64_t n)
+    {
         random = random * 6364136223846793005U + 1442695040888963407U;
         return (random >> 33U) % n;
     };
@@ -173,13 +197,17 @@ TEST(Hdf5File, DamagedFilesAreReadOrRefused)
         for (std::uint64_t k = 0; k <= next_random(4) && !bad.empty(); ++k)
             bad[next_random(bad.size())] = static_cast<char>(next_random(256));
         std::ofstream(folder / "bad.h5", std::ios::binary) << bad;
-        refused += message_of([&] {
-            const Hdf5Reader in(folder / "bad.h5");
-            (void)in.children("/");
-            (void)in.read<double>("/group/reals", {any_extent, 2});
-            (void)in.read_texts("/texts");
-            (void)in.text("/group", "title");
-        }) != "no error" ? 1 : 0;
+        refused += message_of(
+                       [&]
+                       {
+                           const Hdf5Reader in(folder / "bad.h5");
+                           (void)in.children("/");
+                           (void)in.read<double>("/group/reals", {any_extent, 2});
+                           (void)in.read_texts("/texts");
+                           (void)in.text("/group", "title");
+                       }) != "no error"
+                       ? 1
+                       : 0;
     }
     EXPECT_GT(refused, 100);
 }
