@@ -84,11 +84,15 @@ struct Hdf5Reader::Handles
         return {extents.begin(), extents.end()};
     }
 
-    /// The library takes memory for a whole chunk: none may be larger than the data, which are checked against what is stored.
-    void check_chunk(const std::string& what, const Hdf5Handle& dataset, const Shape& shape) const
+    /// Elements may lie in other files, named by the dataset. The library takes memory for a whole chunk: none may be larger than the data,
+    /// which are checked against what is stored.
+    void check_storage(const std::string& what, const Hdf5Handle& dataset, const Shape& shape) const
     {
         const Hdf5Handle properties(H5Dget_create_plist(dataset.id()), H5Pclose);
-        if (H5Pget_layout(properties.id()) != H5D_CHUNKED)
+        const H5D_layout_t layout = H5Pget_layout(properties.id());
+        if (H5Pget_external_count(properties.id()) != 0 || (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT))
+            fail(what, "its elements are not in this file");
+        if (layout != H5D_CHUNKED)
             return;
         std::vector<hsize_t> chunk(shape.size() + 1);
         const int rank = H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
@@ -200,7 +204,7 @@ std::uint64_t Hdf5Reader::checked_count(const std::string& path, ElementType typ
     const Shape extents = handles_->shape_of(path, {H5Dget_space(dataset.id()), H5Sclose});
     handles_->check(path, {H5Dget_type(dataset.id()), H5Tclose}, type);
     handles_->check(path, extents, expected);
-    handles_->check_chunk(path, dataset, extents);
+    handles_->check_storage(path, dataset, extents);
     return handles_->count(path, extents, element_size(type), handles_->stored_bytes(dataset));
 }
 
@@ -218,7 +222,7 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& path) const
     const std::size_t size = handles_->check_text(path, type);
     const Shape extents = handles_->shape_of(path, {H5Dget_space(dataset.id()), H5Sclose});
     handles_->check(path, extents, {any_extent});
-    handles_->check_chunk(path, dataset, extents);
+    handles_->check_storage(path, dataset, extents);
     const std::uint64_t n = handles_->count(path, extents, size, handles_->stored_bytes(dataset));
     std::vector<char> bytes(n * size);
     if (n > 0 && H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)

@@ -11,8 +11,9 @@
 
 namespace hdem
 {
-/// Throws RunError with file, object and reason whenever something is not as asked for. Follows hard links only: what is
-/// read lies in this file. Checksums are verified. Locks are not taken: hdem's files never change under their name.
+/// Throws RunError with file, object and reason whenever something is not as asked for. Follows hard links only, and reads no elements
+/// that are stored elsewhere: what is read lies in this file. Checksums are verified. Locks are not taken: hdem's files never change
+/// under their name.
 class Hdf5Reader
 {
   public:

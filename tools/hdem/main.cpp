@@ -3,6 +3,7 @@
 #include "core/check.h"
 #include "core/version.h"
 #include "io/case_format.h"
+#include "io/describe_file.h"
 #include "parallel/simulation.h"
 #include "tools/hdem/options.h"
 #include "tools/hdem/script.h"
@@ -57,9 +58,9 @@ std::string build_facts()
     unsigned minor = 0;
     unsigned release = 0;
     H5get_libversion(&major, &minor, &release);
-    return fmt::format("{}\ncommit    {}{}\ncompiler  {}\nflags     {}\nHDF5      {}.{}.{}\nthreads   {} at hand", version_line(), version().commit,
-                       version().dirty ? ", changed" : "", version().compiler, version().flags, major, minor, release,
-                       default_threads());
+    return fmt::format("{}\ncommit    {}{}\ncompiler  {}\nflags     {}\nHDF5      {}.{}.{}\nthreads   {} at hand", version_line(),
+                       version().commit, version().dirty ? ", changed" : "", version().compiler, version().flags, major, minor,
+                       release, default_threads());
 }
 
 /// A command whose options are read by a script.
@@ -84,12 +85,14 @@ int dispatch(int argc, char** argv)
     bool markdown = false;
     add_run(app, run);
     add_check(app, check);
-    CLI::App* info = app.add_subcommand("info", "Say what a file holds: results, a frame, a case");
+    CLI::App* info = app.add_subcommand("info", "Say what a file holds: results, a frame, a checkpoint, a case");
     std::string file;
-    info->add_option("file", file, "Folder of a run, results.h5, blocks_NNNNNN.hdf, contacts_NNNNNN.hdf or a case")->required();
+    info->add_option("file", file, "Folder of a run, results.h5, blocks_NNNNNN.hdf, contacts_NNNNNN.hdf, checkpoint.h5 or a case")
+        ->required();
     CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
     schema->add_flag("--markdown", markdown, "Print io/case_format.md instead");
-    CLI::App* plot = add_script(app, "plot", "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
+    CLI::App* plot = add_script(app, "plot",
+                                "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
     CLI::App* report = add_script(app, "report", "Make one HTML page of a run: hdem report FOLDER [-o FILE.html]");
     try
     {
@@ -105,7 +108,10 @@ int dispatch(int argc, char** argv)
         return exit_done;
     }
     if (*info)
-        return info_command(file);
+    {
+        fmt::print("{}", describe_file(file));
+        return exit_done;
+    }
     if (*plot)
         return run_script("plot", "plot.py", plot->remaining());
     if (*report)

@@ -65,6 +65,13 @@ class Info(unittest.TestCase):
             self.assertEqual(rows["contacts"], str(opened["VTKHDF/NumberOfCells"][0]))
             self.assertEqual(rows["fields"].split(", "), sorted(opened["VTKHDF/CellData"]))
 
+    def test_of_a_checkpoint_says_where_a_run_would_go_on(self):
+        rows = self.info(self.folder / "checkpoint.h5")
+        self.assertTrue(rows["file"].startswith("checkpoint, format "))
+        self.assertEqual((rows["cycle"], rows["time"], rows["blocks"]), ("1700", "0.17 s", "4"))
+        self.assertEqual(rows["stage"], "number 2, begun at cycle 200")
+        self.assertIn("finished", rows["run"])
+
     def test_of_a_case_says_what_it_asks_for(self):
         code, said = hdem("info", self.folder.parent / "small.toml")
         self.assertEqual(code, 0, said)
@@ -76,7 +83,7 @@ class Info(unittest.TestCase):
         with h5py.File(foreign, "w") as opened:
             opened["x"] = [1.0]
         cut.write_bytes((self.folder / "results.h5").read_bytes()[:3000])
-        for file, expected, words in ((foreign, 2, "none of hdem's"), ("nowhere.h5", 2, "no such file"), (cut, 1, "cut.h5"),
+        for file, expected, words in ((foreign, 2, "none of hdem's"), ("nowhere.h5", 2, "no such file"), (cut, 2, "cut.h5"),
                                       (self.folder / "run.log", 2, "run.log:")):
             code, said = hdem("info", file)
             self.assertEqual(code, expected, said)
