@@ -15,6 +15,21 @@ namespace
 {
 constexpr std::size_t longest_line = 1'000'000;      // bytes; some 25 000 vertices
 constexpr std::size_t largest_file = 4'000'000'000;  // bytes
+
+/// Lead and continuation bytes belong together; what they say is not looked at.
+bool is_utf8(std::string_view text)
+{
+    std::size_t more = 0;
+    for (const char c : text)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool continues = (byte & 0xc0U) == 0x80U;
+        if (continues != (more > 0) || byte > 0xf4)
+            return false;
+        more = continues ? more - 1 : byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : byte >= 0xc0 ? 1 : 0;
+    }
+    return more == 0;
+}
 }  // namespace
 
 std::string_view trimmed(std::string_view text)
@@ -75,6 +90,8 @@ std::string read_lines(std::istream& in, int& last, const std::function<bool(int
             return fmt::format("the line is longer than {} bytes). Is this a text file with a shape a line?", longest_line);
         if (bytes > largest_file)
             return fmt::format("more than {} bytes). Make the model smaller.", largest_file);
+        if (!is_utf8(line))
+            return "the line is not UTF-8 text). Save the file as UTF-8.";
         const std::string_view text = trimmed(line);
         if (!text.empty() && text.front() != '#' && !use(last, text))
             return "";

@@ -51,6 +51,10 @@ Simulation::Simulation(Model model, State state, int threads)
 std::vector<Problem> Simulation::find_problems()
 {
     std::vector<Problem> problems;
+    if (!std::isnormal(model_.time_step))
+        return {{.key = "time.step",
+                 .text = "time: step = " + with_digits("%.4g", model_.time_step) +
+                         " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a step."}};
     const double limit = critical_step();
     if (model_.time_step > limit && state_.method != Method::impulse)
         problems.push_back({.key = "time.step",

@@ -48,6 +48,8 @@ def _attributes(holder):
 
 def _open(file, filetype, holder):
     """Opened for reading; refuses what hdem did not write, or writes in another way by now."""
+    if not Path(file).is_file():
+        raise ResultError(f"{file}: no such file. Give the folder of a run, or a file of its results.")
     try:
         opened = h5py.File(file, "r")
     except OSError as error:

@@ -277,7 +277,13 @@ def main(arguments):
             options.output = folder / f"{name}.png"
         options.output.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(options.output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if options.output.suffix == ".svg" else None)
-    except (ResultError, OSError, ValueError) as error:
+    except (ResultError, ValueError) as error:
+        print(f"error: hdem plot: {error}", file=sys.stderr)
+        return 2
+    except KeyError as error:
+        print(f"error: hdem plot: {options.result}: {error.args[0]}: the file is damaged. Run the case again.", file=sys.stderr)
+        return 2
+    except OSError as error:
         print(f"error: hdem plot: {error}", file=sys.stderr)
         return 1
     print(options.output)

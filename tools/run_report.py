@@ -43,7 +43,13 @@ def main(arguments):
         output = options.output or run.folder / "report.html"
         output.parent.mkdir(parents=True, exist_ok=True)
         output.write_text(text, encoding="utf-8")
-    except (ResultError, OSError, KeyError) as error:
+    except ResultError as error:
+        print(f"error: hdem report: {error}", file=sys.stderr)
+        return 2
+    except KeyError as error:
+        print(f"error: hdem report: {options.result}: {error.args[0]}: a file is damaged. Run the case again.", file=sys.stderr)
+        return 2
+    except OSError as error:
         print(f"error: hdem report: {error}", file=sys.stderr)
         return 1
     print(output)

@@ -5,7 +5,7 @@ _hdem_words()
 {
     case "$1" in
         run) echo "-o --output --restart --overwrite --max-wall --method --threads --set -q --quiet -h --help" ;;
-        check) echo "--set --blocks --wkt -h --help" ;;
+        check) echo "--set --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
         plot) echo "-o --output --colour --frame --excavation --window --range --contacts --history --title --width --dpi -h --help" ;;

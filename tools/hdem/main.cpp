@@ -28,11 +28,12 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--max-wall", options.max_wall,
                     "Stop in time for this long on the wall, with a checkpoint and exit code 5; seconds, or with s, min, h or d")
         ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}}))
-        ->check(CLI::PositiveNumber);
+        ->check([](const std::string& seconds) { return std::stod(seconds) > 0.0 ? "" : "give a time above zero, e.g. 47h"; });
     run->add_option("--method", options.method, "Contact method instead of the case's: force, impulse or hybrid")
         ->check(CLI::IsMember({"force", "impulse", "hybrid"}));
     run->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
-    run->add_option("--set", options.overrides, "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
+    run->add_option("--set", options.overrides,
+                    "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
     run->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
     run->callback(
         [&options, file]
@@ -48,7 +49,6 @@ void add_check(CLI::App& app, CheckOptions& options)
     check->add_option("case", options.case_file, "Case file (TOML)")->required();
     check->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");
     check->add_flag("--blocks", options.list_blocks, "List all blocks: name, material, area, centroid, fixed or free");
-    check->add_option("--wkt", options.wkt_file, "Write the blocks to this file as WKT polygons");
 }
 
 /// The first line as everywhere, then what a report of a defect needs.
@@ -132,6 +132,14 @@ int main(int argc, char** argv)
         for (const hdem::Problem& problem : error.problems())
             fmt::print(stderr, "error: {}\n", problem.text);
         return hdem::exit_bad_input;
+    }
+    catch (const std::bad_alloc&)
+    {
+        fmt::print(
+            stderr,
+            "error: the memory is too small for this model. Give fewer blocks: greater spacings of the joint sets, or a smaller "
+            "domain.\n");
+        return hdem::exit_run_failed;
     }
     catch (const std::exception& error)
     {

@@ -38,10 +38,6 @@ struct CheckOptions
     std::string case_file;
     std::vector<std::string> overrides;
     bool list_blocks = false;
-    std::string wkt_file;                     ///< write the blocks there
 };
 int check_command(const CheckOptions& options);
-
-/// @param path a run's folder, results.h5, a frame or a case file
-int info_command(const std::string& path);
 }  // namespace hdem

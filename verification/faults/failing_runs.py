@@ -91,17 +91,31 @@ class Faults(unittest.TestCase):
         folder.chmod(0o777)
         self.expect_the_whole_run(folder)
 
-    def test_overlap_above_its_limit_stops_with_a_frame_of_the_moment(self):
+    def expect_a_stop_with_a_frame_of_the_moment(self, message, *settings):
         folder = self.root / "stopped"
-        failed = run_folder.run(HDEM, self.case, "-o", folder, "--set", "contact.overlap_limit=1e-7")
+        failed = run_folder.run(HDEM, self.case, "-o", folder, *settings)
         self.assertEqual(failed.returncode, 1, failed.stdout)
-        self.assertRegex(failed.stderr, r'error: cycle \d+, time \S+ s: blocks "\w+" and "\w+", contact \d+ at \(\S+, \S+\) m: overlap = '
-                         r".*contact\.overlap_limit.*time\.step")
+        self.assertRegex(failed.stderr, message)
         with run_folder.h5py.File(folder / "results.h5") as results:
             last = int(results["frames/cycle"][-1])
             self.assertEqual(last, int(results["energy/cycle"][-1]))
         self.assertIn(f"cycle {last},", failed.stderr, "the last frame is that of the moment")
         self.assertEqual(run_folder.broken_files(folder), [])
+        return folder
+
+    def test_overlap_above_its_limit_stops_with_a_frame_of_the_moment(self):
+        self.expect_a_stop_with_a_frame_of_the_moment(
+            r'error: cycle \d+, time \S+ s: blocks "\w+" and "\w+", contact \d+ at \(\S+, \S+\) m: overlap = .*contact\.overlap_limit.*time\.step',
+            "--set", "contact.overlap_limit=1e-7")
+
+    def test_state_that_is_not_finite_stops_with_a_frame_of_the_moment(self):
+        with self.case.open("a", encoding="utf-8") as file:
+            file.write('[[load]]\nblocks = ["b60"]\nforce = [1e18, 0.0]\n')
+        weightless = ("time.step=1e-4", "material.rock.density=1e-300", 'contact.method="impulse"')    # 1e318 m/s2
+        folder = self.expect_a_stop_with_a_frame_of_the_moment(
+            r'error: cycle \d+, time \S+ s: block "\w+": position or velocity is not a finite number.*time\.step',
+            *(word for setting in weightless for word in ("--set", setting)))
+        self.assertEqual(run_folder.checkpoint_cycle(folder), -1, "a state that blew up is not kept")
 
 
 if __name__ == "__main__":

@@ -40,9 +40,13 @@ POLYGON, LINE = 7, 3
 
 
 def pvbatch(script, *arguments):
-    """ParaView without a screen."""
-    subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24", "pvbatch", script, *map(str, arguments)], check=True, timeout=300,
-                   env=os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1"}, stdout=subprocess.DEVNULL)
+    """ParaView without a screen, with a folder of its own for MPI and the screen: in a shared one, another program's end may take it away."""
+    with tempfile.TemporaryDirectory(prefix="pv") as own:
+        environment = os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1", "TMPDIR": own}
+        done = subprocess.run(["xvfb-run", "-a", "-e", f"{own}/screen.log", "-s", "-screen 0 1600x1200x24", "pvbatch", script, *map(str, arguments)],
+                              timeout=900, env=environment, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(f"pvbatch {script}: exit code {done.returncode}\n{done.stdout}{done.stderr}{Path(own, 'screen.log').read_text()}")
 
 
 class Frames(unittest.TestCase):

@@ -157,6 +157,16 @@ TEST(PolygonFile, SaysWhichRowOfATableIsWrong)
     EXPECT_THAT(file.problems[2].text, testing::HasSubstr("\"all\" does not say what is fixed"));
 }
 
+/// Names go into files that say they are UTF-8.
+TEST(PolygonFile, RefusesTextInAnotherEncoding)
+{
+    const std::string square = "POLYGON((0 0, 1 0, 1 1, 0 0)); ";
+    EXPECT_EQ(read(square + "B\xc3\xb6schung").blocks.at(0).block.name, "B\xc3\xb6schung");
+    for (const std::string name : {"B\xf6schung", "Bl\xc3", "\xb6", "\xff\xfe"})
+        EXPECT_THAT(read(square + "a\n" + square + name).problems.at(0).text,
+                    testing::HasSubstr("2: block: polygon (the line is not UTF-8 text). Save the file as UTF-8."));
+}
+
 TEST(PolygonFile, RefusesAnEmptyFile)
 {
     EXPECT_THAT(read("").problems.at(0).text, testing::HasSubstr("no polygon"));

@@ -141,6 +141,16 @@ TEST(RunChecks, NameTheBlockWhoseMotionIsNotFinite)
     EXPECT_THAT(error, HasSubstr("time.step"));
 }
 
+TEST(RunChecks, RefuseATimeStepThatVanishes)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.materials[0].density = 1e-320;
+    const hdem::Setup setup = build_model(scene);
+    const std::vector<Problem> problems = Simulation(setup.model, setup.state).find_problems();
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].text, HasSubstr("time: step = 0 s"));
+}
+
 TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
 {
     CaseDef scene = scenes::block_on_ground();

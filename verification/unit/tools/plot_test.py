@@ -111,10 +111,10 @@ class SmallRun(unittest.TestCase):
         xml.etree.ElementTree.parse(self.folder / "one.svg")
 
     def test_errors_say_what_is_wrong(self):
-        for arguments, expected, words in ((["nowhere"], 1, "no such file"), ([self.folder, "--frame", "77"], 1, "has no frame 77"),
-                                           ([self.folder, "--colour", "pink"], 2, "invalid choice"), ([self.folder / "run.log"], 1, "cannot be read"),
-                                           ([self.folder, "--history", "x"], 1, "histories are ball, rest"),
-                                           ([self.folder, "-o", self.folder / "a.xyz"], 1, "xyz")):
+        for arguments, expected, words in ((["nowhere"], 2, "no such file"), ([self.folder, "--frame", "77"], 2, "has no frame 77"),
+                                           ([self.folder, "--colour", "pink"], 2, "invalid choice"), ([self.folder / "run.log"], 2, "cannot be read"), ([self.folder / "frames"], 2, "results.h5: no such file"),
+                                           ([self.folder, "--history", "x"], 2, "histories are ball, rest"),
+                                           ([self.folder, "-o", self.folder / "a.xyz"], 2, "xyz"), ([self.folder, "-o", self.folder / "run.log/a.png"], 1, "run.log")):
             code, said = self.plot(*arguments)
             self.assertEqual(code, expected, said)
             self.assertIn(words, said)

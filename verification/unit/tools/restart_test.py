@@ -93,6 +93,12 @@ class Restart(unittest.TestCase):
         self.assertIn("--max-wall: stopped after cycle", done.stdout)
         self.expect_the_whole_run(folder)
 
+    def test_max_wall_is_a_time_above_zero(self):
+        for text, said in (("-5", "give a time above zero"), ("0h", "give a time above zero"), ("soon", "unit not recognized")):
+            done = run_folder.run(HDEM, self.case, "-o", self.root / "never", f"--max-wall={text}")
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(said, done.stderr)
+
     def test_a_run_cut_short_is_not_overwritten_by_mistake(self):
         folder = self.root / "again"
         run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")

@@ -120,7 +120,7 @@ class PageOfARun(unittest.TestCase):
         (broken / "summary.json").write_text("{")
         empty = Path(self.scratch.name) / "empty"
         empty.mkdir()
-        for arguments, expected, words in ((["nowhere"], 1, "no such file"), ([broken], 1, "summary.json: not JSON"), ([empty], 1, "cannot be read"),
+        for arguments, expected, words in ((["nowhere"], 2, "no such file"), ([broken], 2, "summary.json: not JSON"), ([empty], 2, "results.h5: no such file"),
                                            ([], 2, "required")):
             code, said = report(*arguments)
             self.assertEqual(code, expected, said)
