@@ -41,7 +41,7 @@ void write_record(Hdf5Writer& file, const RunRecord& record)
     std::vector<double> axes;
     for (const Vec2& axis : record.history_axes)
         axes.insert(axes.end(), {axis.x(), axis.y()});
-    file.write("/run/history_axes", axes, {record.history_axes.size(), 2}, Hdf5Writer::Packing::plain);
+    file.write("/run/history_axes", axes, {record.history_axes.size(), 2});
 }
 
 std::string one_text(const Hdf5Reader& file, const std::string& path)

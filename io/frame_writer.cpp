@@ -86,7 +86,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
     const int last = frames_.empty() ? -1 : frames_.back().number;
     std::erase_if(younger_,
                   [&](const auto& file) { return frame_number(file.filename().string()) <= last; });  // older, but damaged
-    write_all_series();
+    write_series();
 }
 
 void FrameWriter::remove_younger_frames()
@@ -106,11 +106,10 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
         write_contact_frame(folder_ / frame_file("contacts", number), model, state);
     write_block_frame(folder_ / frame_file("blocks", number), model, state);
     frames_.push_back(std::move(frame));
-    write_all_series();
     return frames_.back();
 }
 
-void FrameWriter::write_all_series() const
+void FrameWriter::write_series() const
 {
     write_series("blocks");
     if (contacts_)

@@ -19,8 +19,8 @@ struct Frame
 };
 
 /// Files: FOLDER/frames/blocks_NNNNNN.hdf and contacts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and contacts.hdf.series, which
-/// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series is
-/// written last and names complete files only. All are written with Flush::later: results.h5 brings them to the disk.
+/// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series
+/// names complete files only. All are written with Flush::later: results.h5 brings them to the disk.
 /// @see verification/unit/io/frame_writer_test.cpp
 class FrameWriter
 {
@@ -34,12 +34,13 @@ class FrameWriter
     void remove_younger_frames();
 
     const Frame& write(const Model& model, const State& state);
+    /// The .series of all frames until now.
+    void write_series() const;
 
     [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
     [[nodiscard]] bool has_contacts() const { return contacts_; }
 
   private:
-    void write_all_series() const;
     void write_series(const std::string& kind) const;
 
     std::filesystem::path folder_;

@@ -12,9 +12,10 @@ namespace hdem
 {
 namespace
 {
-constexpr std::size_t memory_step = 4U << 20U;       // [bytes] by which the file in memory grows
+constexpr std::size_t memory_step = 256U << 10U;     // [bytes] by which the file in memory grows
 constexpr std::uint64_t chunk_bytes = 1U << 20U;     // fits the library's chunk cache
 constexpr std::uint64_t least_deflated = 1U << 17U;  // bytes; the packer takes longer to begin than a smaller dataset is worth
+constexpr unsigned chunks_of_a_node = 4;             // of the index of a dataset; the usual 64 would be half of a small frame
 constexpr unsigned deflate_level = 1;                // higher levels cost much time for little
 
 /// The bytes of a file that exists in memory only; they are left here when HDF5 closes it.
@@ -75,13 +76,30 @@ Hdf5Handle open_in_memory(const std::string& name, MemoryFile& memory)
     H5Pset_file_image_callbacks(access.id(), &callbacks);
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18,
                          H5F_LIBVER_LATEST);  // checksums of metadata, compact links; readable since HDF5 1.8
-    return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose};
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_istore_k(creation.id(), chunks_of_a_node / 2);
+    return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose};
 }
 
 Hdf5Handle link_properties()
 {
     Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     H5Pset_create_intermediate_group(properties.id(), 1);
+    return properties;
+}
+
+/// Links and attributes stay in the group's header: the library would begin trees and heaps for more than eight.
+void keep_in_header(const Hdf5Handle& creation)
+{
+    H5Pset_link_phase_change(creation.id(), 64, 48);
+    H5Pset_attr_phase_change(creation.id(), 64, 48);
+}
+
+Hdf5Handle group_properties()
+{
+    Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    keep_in_header(properties);
+    H5Pset_est_link_info(properties.id(), 16, 16);
     return properties;
 }
 
@@ -168,7 +186,8 @@ Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
 
 void Hdf5Writer::make_group(const std::string& path)
 {
-    const Hdf5Handle group(H5Gcreate2(handles_->file.id(), path.c_str(), handles_->links.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle group(
+        H5Gcreate2(handles_->file.id(), path.c_str(), handles_->links.id(), group_properties().id(), H5P_DEFAULT), H5Gclose);
     if (group.id() < 0)
         fail_hdf5(name_, path, "made", hdf5_reason());
 }

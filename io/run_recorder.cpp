@@ -185,6 +185,7 @@ void RunRecorder::write_frame(const Model& model, const State& state)
 
 void RunRecorder::write_results()
 {
+    frames_.write_series();
     results_.write(frames_.frames(), frames_.has_contacts());
 }
 

@@ -13,6 +13,7 @@ void write_vtk_grid(Hdf5Writer& file, const VtkCells& cells, const State& state)
     std::iota(connectivity.begin(), connectivity.end(), 0);
 
     file.make_group("/VTKHDF");
+    file.make_group("/VTKHDF/CellData");
     file.set_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
     file.set_text("/VTKHDF", "Type", "UnstructuredGrid", Hdf5Writer::TextCode::ascii);  // ParaView 5.11 reads fixed length only
     file.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{points});

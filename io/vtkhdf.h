@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace hdem
@@ -40,8 +39,7 @@ void write_cell_data(Hdf5Writer& file, const std::string& name, std::size_t n, c
     std::vector<T> values(n);
     for (std::size_t i = 0; i < n; ++i)
         values[i] = static_cast<T>(value(i));
-    constexpr auto packing = std::is_floating_point_v<T> ? Hdf5Writer::Packing::plain : Hdf5Writer::Packing::deflated;
-    file.write("/VTKHDF/CellData/" + name, values, {n}, packing);
+    file.write("/VTKHDF/CellData/" + name, values, {n});
 }
 
 /// The same with a vector in the plane, written as x, y, 0.

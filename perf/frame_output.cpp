@@ -32,7 +32,7 @@ void write_frames(benchmark::State& bench, const std::string& scene, Index block
 [[maybe_unused]] const bool registered = []
 {
     for (const char* scene : {"voronoi", "joints"})
-        for (const Index blocks : {10'000, 100'000})
+        for (const Index blocks : {500, 10'000, 100'000})
             benchmark::RegisterBenchmark(("frame/" + std::string(scene) + "/" + std::to_string(blocks)).c_str(),
                                          [=](benchmark::State& bench) { write_frames(bench, scene, blocks); })
                 ->UseRealTime()

@@ -59,7 +59,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(run_folder.differing_results(folder, self.root / "whole"), [])
 
     def test_full_disk_ends_the_run_and_keeps_its_last_checkpoint(self):
-        with Disk(self.root / "disk", "1m") as disk:
+        with Disk(self.root / "disk", "600k") as disk:
             folder = disk.folder / "out"
             failed = run_folder.run(HDEM, self.case, "-o", folder)
             self.assertEqual(failed.returncode, 1, failed.stdout)

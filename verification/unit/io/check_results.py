@@ -97,7 +97,7 @@ def compare(file, table):
             if "unit" in dataset.attrs and dataset.attrs["unit"].decode() != unit:
                 problems.append(f"{path} has the unit {dataset.attrs['unit'].decode()}, described as {unit}")
             deflated = dataset.shuffle and dataset.compression == "gzip"
-            plain = kind != "text" if file.name.startswith("checkpoint") else kind == "float32" and dataset.ndim == 1
+            plain = kind != "text" if file.name.startswith("checkpoint") else kind.startswith("float")
             plain = plain or dataset.size * dataset.dtype.itemsize < LEAST_DEFLATED
             if dataset.size and not (dataset.fletcher32 and deflated != plain):
                 problems.append(f"{path} is not packed as described")

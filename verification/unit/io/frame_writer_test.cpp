@@ -165,6 +165,7 @@ TEST(FrameWriter, SeriesNamesTheFramesWithTheirTimes)
     writer.write(run.model, run.state);
     run.state.time = 0.25;
     EXPECT_EQ(writer.write(run.model, run.state).number, 1);
+    writer.write_series();
     for (const std::string kind : {"blocks", "contacts"})
     {
         const auto series = nlohmann::json::parse(text_in(folder / (kind + ".hdf.series")));
@@ -181,7 +182,9 @@ TEST(FrameWriter, WritesNoContactsWhenTheCaseSaysSo)
     const ScratchFolder folder("frame_no_contacts");
     SmallRun run = test::small_run();
     run.model.output.contacts = false;
-    FrameWriter(folder.path(), run.model).write(run.model, run.state);
+    FrameWriter writer(folder.path(), run.model);
+    writer.write(run.model, run.state);
+    writer.write_series();
     EXPECT_TRUE(std::filesystem::exists(folder / "frames/blocks_000000.hdf"));
     EXPECT_FALSE(std::filesystem::exists(folder / "frames/contacts_000000.hdf"));
     EXPECT_FALSE(std::filesystem::exists(folder / "contacts.hdf.series"));
