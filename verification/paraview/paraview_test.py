@@ -22,8 +22,8 @@ try:
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
-if not all(map(shutil.which, ("pvbatch", "xvfb-run"))):
-    print("skipped: no pvbatch or no xvfb-run; tools/setup --paraview installs them")
+if not all(map(shutil.which, ("pvbatch", "Xvfb"))):
+    print("skipped: no pvbatch or no Xvfb; tools/setup --paraview installs them")
     sys.exit(77)
 
 HERE = Path(__file__).resolve().parent
@@ -39,14 +39,30 @@ FIELDS = {"blocks": {"id", "displacement", "velocity", "rotation", "speed", "reg
 POLYGON, LINE = 7, 3
 
 
-def pvbatch(script, *arguments):
-    """ParaView without a screen, with a folder of its own for MPI and the screen: in a shared one, another program's end may take it away."""
+class Screen:
+    """One that is none. It must not begin anew when a window closes: the next window would find no screen for a moment."""
+
+    def __init__(self, scratch):
+        with open(f"{scratch}/screen.log", "w", encoding="utf-8") as log:
+            ready, tell = os.pipe()
+            self.server = subprocess.Popen(["Xvfb", "-displayfd", str(tell), "-screen", "0", "1600x1200x24", "-noreset", "-nolisten", "tcp"], pass_fds=[tell],
+                                           stdout=log, stderr=log)
+            os.close(tell)
+        with os.fdopen(ready) as number:    # told once it takes connections
+            self.display = ":" + number.readline().strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+def pvbatch(screen, script, *arguments):
+    """ParaView, with a folder of its own for MPI: in a shared one, another program's end may take it away."""
     with tempfile.TemporaryDirectory(prefix="pv") as own:
-        environment = os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1", "TMPDIR": own}
-        done = subprocess.run(["xvfb-run", "-a", "-e", f"{own}/screen.log", "-s", "-screen 0 1600x1200x24", "pvbatch", script, *map(str, arguments)],
-                              timeout=900, env=environment, capture_output=True, text=True, check=False)
+        environment = os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1", "TMPDIR": own, "DISPLAY": screen.display}
+        done = subprocess.run(["pvbatch", script, *map(str, arguments)], timeout=900, env=environment, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            raise RuntimeError(f"pvbatch {script}: exit code {done.returncode}\n{done.stdout}{done.stderr}{Path(own, 'screen.log').read_text()}")
+            raise RuntimeError(f"pvbatch {script}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
 
 
 class Frames(unittest.TestCase):
@@ -54,7 +70,9 @@ class Frames(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_paraview_test_")
         cls.folder = small_case.run(HDEM, Path(cls.scratch.name))
-        pvbatch(HERE / "dump_arrays.py", cls.folder, cls.folder / "seen.json")
+        cls.screen = Screen(cls.scratch.name)
+        cls.addClassCleanup(cls.screen.close)
+        pvbatch(cls.screen, HERE / "dump_arrays.py", cls.folder, cls.folder / "seen.json")
         cls.seen = json.loads((cls.folder / "seen.json").read_text(encoding="utf-8"))
         cls.run_ = hdem_io.open_run(cls.folder)
 
@@ -89,7 +107,7 @@ class Frames(unittest.TestCase):
 
     def test_picture_shows_the_blocks(self):
         picture = KEPT or self.folder / "picture.png"
-        pvbatch(TOOLS / "paraview_view.py", self.folder, "-o", picture, "--contacts", "--size", "700", "500")
+        pvbatch(self.screen, TOOLS / "paraview_view.py", self.folder, "-o", picture, "--contacts", "--size", "700", "500")
         pixels = matplotlib.image.imread(picture)[..., :3]
         self.assertEqual(pixels.shape[:2], (500, 700))
         share = np.mean(np.any(pixels < 0.95, axis=-1))
