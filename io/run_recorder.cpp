@@ -10,6 +10,9 @@ namespace hdem
 {
 namespace
 {
+/// Above, a copy takes much memory, and a frame is rarely worth more than a few cycles.
+constexpr Index most_blocks_copied = 20'000;
+
 Equilibrium equilibrium_of(const Model& model, const State& state)
 {
     Equilibrium sums;
@@ -179,12 +182,24 @@ void RunRecorder::sample_energies(const Model& model, const State& state)
 
 void RunRecorder::write_frame(const Model& model, const State& state)
 {
-    if (frames_.frames().empty() || frames_.frames().back().cycle != state.cycle)
+    await_frame();
+    if (!frames_.frames().empty() && frames_.frames().back().cycle == state.cycle)
+        return;
+    if (model.blocks() > most_blocks_copied)
         frames_.write(model, state);
+    else
+        frame_ = std::async(std::launch::async, [this, model, state] { frames_.write(model, state); });
+}
+
+void RunRecorder::await_frame()
+{
+    if (frame_.valid())
+        frame_.get();
 }
 
 void RunRecorder::write_results()
 {
+    await_frame();
     frames_.write_series();
     results_.write(frames_.frames(), frames_.has_contacts());
 }

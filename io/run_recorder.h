@@ -6,11 +6,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <span>
 #include <vector>
 
 namespace hdem
 {
+/// Frames of small models are written beside the cycles that follow, from a copy of the state; whatever else it writes waits for them.
 class RunRecorder : public Observer
 {
   public:
@@ -33,7 +35,7 @@ class RunRecorder : public Observer
     void save() { write_results(); }
     /// What histories between two blocks remember, one for each history; for a checkpoint.
     [[nodiscard]] std::vector<Vec2> history_axes() const;
-    /// A frame of this state, unless the last one shows the same cycle.
+    /// A frame of this state, unless the last one shows the same cycle. Throws RunError, also of the frame before.
     void write_frame(const Model& model, const State& state);
     /// Last words: a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
     /// to go on from a checkpoint: it would not have these rows without the break.
@@ -46,6 +48,7 @@ class RunRecorder : public Observer
     void sample_all(const Model& model, const State& state);
     void sample_energies(const Model& model, const State& state);
     void write_results();
+    void await_frame();
 
     FrameWriter frames_;
     ResultsWriter results_;
@@ -59,5 +62,6 @@ class RunRecorder : public Observer
     bool has_tables_ = false;
     std::int64_t take_over_ = -1;            ///< rows up to this cycle come from the file
     std::vector<double> row_;
+    std::future<void> frame_;                ///< on its way to the disk; the last member: it ends before the others go
 };
 }  // namespace hdem
