@@ -49,7 +49,7 @@ TEST(Pace, KeepsTheEnergyInEveryChange)
     CaseRun run(falling(0.01));
     double greatest = 1.0;
     const Index block = run.slot("block");
-    for (int i = 0; i < 2000; ++i)
+    for (int i = 0; i < 4000; ++i)
     {
         run.advance();
         const Blocks& blocks = run.state().blocks;
