@@ -78,12 +78,12 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
     return scan;
 }
 
-/// External edge of `other` that faces `edge`: of those that end in a vertex which reaches farthest behind it, within `margin`, one that lies over it rather
-/// than beside it, and the one most opposed to it. A straight side may have vertices in its middle: then direction alone does not tell which piece is meant,
-/// and of pieces in one line the longest stretch over the edge wins.
+/// External edge of `other` that faces `edge`: of those that end in a vertex which reaches farthest behind it, within `margin`, the one most opposed to it.
+/// A straight side may have vertices in its middle: of pieces (almost) in one line it is the one with the longest stretch over the edge. (Never a steep side just
+/// because it lies over the edge and the flat one beside it: a corner on a corner would carry as much as a face.)
 Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
-    constexpr double in_line = 1e-9;  // of cosines
+    constexpr double in_line = 0.02;  // of cosines
     const Vec2 t = shapes.edge_tangent[edge];
     const Vec2 start = shapes.vertex[edge];
     const auto depth = [&](Index v) { return cross(t, Vec2(pose.moved(shapes.vertex[v]) - start)); };
@@ -103,10 +103,9 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
         const double to = t.dot(pose.moved(shapes.vertex[end]) - start);
         const double length = std::min(std::max(from, to), shapes.edge_length[edge]) - std::max(std::min(from, to), 0.0);
         const double along = t.dot(pose.turned(shapes.edge_tangent[e]));
-        const bool better = deep != best_deep                               ? deep
-                            : deep && (length > 0.0) != (best_length > 0.0) ? length > 0.0
-                            : std::abs(along - best_along) > in_line        ? along < best_along
-                                                                            : length > best_length;
+        const bool better = deep != best_deep                        ? deep
+                            : std::abs(along - best_along) > in_line ? along < best_along
+                                                                     : length > best_length;
         if (best != no_index && !better)
             continue;
         best = e;
