@@ -47,9 +47,15 @@ def reason_against(reference):
 
 
 def tried(runner, geometry):
-    """All runs of a geometry that belongs to the ensemble, the reference alone of another one."""
+    """Whether a geometry belongs to the ensemble: the reference alone says so."""
     trial = Trial(geometry, {REFERENCE: runner.run(geometry, REFERENCE, MAX_CYCLES)})
     trial.reason = reason_against(trial.runs[REFERENCE])
+    return trial
+
+
+def compared(runner, geometry):
+    """With all runs of a geometry that belongs to the ensemble."""
+    trial = tried(runner, geometry)
     if not trial.reason:
         trial.runs = {name: trial.runs.get(name) or runner.run(geometry, name, MAX_CYCLES) for name in VARIANTS}
     return trial
@@ -64,8 +70,8 @@ class Search:
     """Geometries of one orientation that are wanted. The next seed is only begun for a place that no other can take any more, so that
     what is found does not depend on which run ends first."""
 
-    def __init__(self, dips, wanted, is_wanted):
-        self.dips, self.wanted, self.is_wanted = dips, wanted, is_wanted
+    def __init__(self, dips, wanted, trial_of, is_wanted):
+        self.dips, self.wanted, self.trial_of, self.is_wanted = dips, wanted, trial_of, is_wanted
         self.seed = 0
         self.open = wanted    # places that no begun geometry has or may get
 
@@ -84,7 +90,7 @@ def search_all(pool, runner, searches, told):
     found, others, pending = [], [], set()
     while True:
         for search in searches:
-            pending |= {pool.submit(tried, runner, search.next_geometry()) for _ in range(search.open)}
+            pending |= {pool.submit(search.trial_of, runner, search.next_geometry()) for _ in range(search.open)}
         if not pending:
             break
         done, pending = wait(pending, return_when=FIRST_COMPLETED)
@@ -100,7 +106,7 @@ def search_all(pool, runner, searches, told):
 def places(realisations):
     """Orientations take them in turn."""
     count = len(ORIENTATIONS)
-    return [Search(dips, (realisations - i + count - 1) // count, lambda trial: not trial.reason) for i, dips in enumerate(ORIENTATIONS)]
+    return [Search(dips, (realisations - i + count - 1) // count, compared, lambda trial: not trial.reason) for i, dips in enumerate(ORIENTATIONS)]
 
 
 def run_all(runner, realisations, jobs, told):
@@ -110,7 +116,7 @@ def run_all(runner, realisations, jobs, told):
         try:
             accepted, discarded = search_all(pool, runner, places(realisations), told)
             collapses = [trial for trial in discarded if trial.is_collapse][:wanted]
-            more = Search(COLLAPSING, wanted - len(collapses), lambda trial: trial.is_collapse)
+            more = Search(COLLAPSING, wanted - len(collapses), tried, lambda trial: trial.is_collapse)
             collapses += search_all(pool, runner, [more], told)[0]
             return accepted, discarded, list(pool.map(lambda trial: collapsed(runner, trial), collapses))
         except BaseException:
