@@ -12,6 +12,7 @@ def draw(found, file):
     rows = sorted(found["realisations"], key=lambda row: (row["dips_deg"], row["seed"]))
     with plt.rc_context(STYLE):
         figure, panels = plt.subplots(2, 1, figsize=(8.0, 6.0), sharex=True, layout="constrained")
+        panels[1].set_yscale("symlog", linthresh=1e-2)    # from nothing to millimetres
         for name, label, marker, colour in SERIES:
             known = [(i, row["against_force"][name]) for i, row in enumerate(rows) if row["against_force"][name]]
             at = [i for i, _ in known]
@@ -23,7 +24,7 @@ def draw(found, file):
         panels[0].set_ylabel("fewer cycles than force-based [%]")
         panels[0].legend(loc="best")
         panels[1].set_ylabel("mean displacement next to the\nopening differs by [mm]")
-        panels[1].set_ylim(0.0, None)
+        panels[1].set_ylim(bottom=0.0)
         panels[1].set_xticks(range(len(rows)), ["/".join(f"{dip:g}" for dip in row["dips_deg"]) + f" seed {row['seed']}" for row in rows], rotation=90)
         figure.savefig(file)
         plt.close(figure)
