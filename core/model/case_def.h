@@ -157,7 +157,7 @@ struct ContactDef
     double correction_limit = 1.0e-6;          ///< overlap older than a cycle that is taken back at most in one, as a share of the smaller block's size [-]
     double length_floor = 1.0e-3;              ///< least contact length, as a share of the smaller block's size [-]
     double overlap_limit = 0.25;               ///< a run stops when an overlap exceeds this share of the smaller block's size [-]
-    double recycling_distance = 1.0e-5;        ///< features are searched anew once a pair moved this share of the smaller block's size [-]; 0: every cycle
+    double recycling_distance = 1.0e-4;        ///< features are searched anew once a pair moved this share of the smaller block's size [-]; 0: every cycle
     double skin = 0.05;                        ///< pairs closer than this share of the mean block size are tracked [-]
 };
 
