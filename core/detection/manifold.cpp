@@ -83,7 +83,7 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
 /// because it lies over the edge and the flat one beside it: a corner on a corner would carry as much as a face.)
 Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
-    constexpr double in_line = 0.02;  // of cosines
+    constexpr double in_line = 0.999;  // cosine of the angle between two pieces of one side
     const Vec2 t = shapes.edge_tangent[edge];
     const Vec2 start = shapes.vertex[edge];
     const auto depth = [&](Index v) { return cross(t, Vec2(pose.moved(shapes.vertex[v]) - start)); };
@@ -103,9 +103,8 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
         const double to = t.dot(pose.moved(shapes.vertex[end]) - start);
         const double length = std::min(std::max(from, to), shapes.edge_length[edge]) - std::max(std::min(from, to), 0.0);
         const double along = t.dot(pose.turned(shapes.edge_tangent[e]));
-        const bool better = deep != best_deep                        ? deep
-                            : std::abs(along - best_along) > in_line ? along < best_along
-                                                                     : length > best_length;
+        const bool same_side = best != no_index && shapes.edge_tangent[e].dot(shapes.edge_tangent[best]) > in_line;
+        const bool better = deep != best_deep ? deep : (same_side ? length > best_length : along < best_along);
         if (best != no_index && !better)
             continue;
         best = e;
