@@ -23,16 +23,34 @@ constexpr std::int64_t timed_every = 16;
 
 void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
 {
-    times_.resize(std::max(times_.size(), static_cast<std::size_t>(threads)));
-    with_team(threads, [&](const Team& team) { renew_contacts(model, state, team); });
+    samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
+    with_team(threads,
+              [&](const Team& team)
+              {
+                  const ScopedTime time(samples_of(team).all);
+                  renew_contacts(model, state, team);
+              });
 }
 
 void CycleRunner::renew_contacts(const Model& model, State& state, const Team& team)
 {
-    StageClock clock(times_[static_cast<std::size_t>(team.member())], 1.0);
+    StageClock clock(samples_of(team).sampled, 1.0);
     rebuild_.run(model, state, team);
     team.alone([&] { prepare(model, state); });
     clock.lap(CycleStage::broad);
+}
+
+StageSamples& CycleRunner::samples_of(const Team& team)
+{
+    return samples_[static_cast<std::size_t>(team.member())];
+}
+
+std::vector<StageTimes> CycleRunner::stage_times() const
+{
+    std::vector<StageTimes> times;
+    for (const StageSamples& samples : samples_)
+        times.push_back(samples.shared_out());
+    return times;
 }
 
 void CycleRunner::prepare(const Model& model, const State& state)
@@ -60,15 +78,17 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
     const std::int64_t begin = state.cycle;
     // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
     const double moved = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
-    times_.resize(std::max(times_.size(), static_cast<std::size_t>(threads)));
+    samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
     with_team(std::min(threads, useful),
               [&](const Team& team)
               {
+                  StageSamples& samples = samples_of(team);
+                  const ScopedTime time(samples.all);
                   double way = moved;
                   for (std::int64_t i = 0; i < cycles && !state.contacts_outdated; ++i)
                   {
                       const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
-                      StageClock clock(times_[static_cast<std::size_t>(team.member())], static_cast<double>(weight));
+                      StageClock clock(samples.sampled, static_cast<double>(weight));
                       cycle(model, state, team, begin + i, way, clock);
                   }
               });

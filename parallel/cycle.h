@@ -8,7 +8,7 @@
 #include "parallel/partition.h"
 #include "parallel/stage_times.h"
 
-#include <span>
+#include <vector>
 
 namespace hdem
 {
@@ -29,13 +29,16 @@ class CycleRunner
     /// Closed contact points summed over all cycles.
     [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
 
-    /// One entry a thread. Every 16th cycle is timed and stands for sixteen; searches for contacts are all timed.
-    [[nodiscard]] std::span<const StageTimes> stage_times() const { return times_; }
+    /// One entry a thread. All of its time in cycles, shared out to the stages as in every 16th cycle; searches for contacts are all timed.
+    [[nodiscard]] std::vector<StageTimes> stage_times() const;
+    /// Count times from here.
+    void forget_times() { samples_.clear(); }
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
     void cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
     void prepare(const Model& model, const State& state);
+    [[nodiscard]] StageSamples& samples_of(const Team& team);
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
     void change_velocities(const Model& model, State& state, BlockPart& part);
@@ -48,7 +51,7 @@ class CycleRunner
     Workspace work_;
     ContactRebuild rebuild_;
     Partition partition_;
-    std::vector<StageTimes> times_;
+    std::vector<StageSamples> samples_;
     double moved_ = 0.0;  ///< since contacts were found [m]
     std::int64_t contact_point_updates_ = 0;
     Method prepared_for_ = Method::force;

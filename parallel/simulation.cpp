@@ -46,6 +46,7 @@ Simulation::Simulation(Model model, State state, int threads)
         renew_contacts();
     if (fresh)
         state_.ledger.initial = stored_energy(model_, state_).total();
+    runner_.forget_times();
 }
 
 std::vector<Problem> Simulation::find_problems()

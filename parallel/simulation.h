@@ -46,8 +46,8 @@ class Simulation
     [[nodiscard]] double critical_step();  ///< 2 / omega_max [s]
     /// Closed contact points summed over all cycles run by this object.
     [[nodiscard]] std::int64_t contact_point_updates() const { return runner_.contact_point_updates(); }
-    /// Likewise, one entry a thread.
-    [[nodiscard]] std::span<const StageTimes> stage_times() const { return runner_.stage_times(); }
+    /// Likewise, one entry a thread; from the first cycle on, without the contacts that were found to begin with.
+    [[nodiscard]] std::vector<StageTimes> stage_times() const { return runner_.stage_times(); }
 
   private:
     void excavate(const std::string& name);

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 
 namespace hdem
 {
@@ -18,10 +19,47 @@ enum class CycleStage : std::uint8_t
     count
 };
 
-/// Of one thread; on a cache line of its own.
-struct alignas(64) StageTimes
+/// Of one thread.
+struct StageTimes
 {
     std::array<double, static_cast<std::size_t>(CycleStage::count)> seconds{};
+
+    [[nodiscard]] double& of(CycleStage stage) { return seconds[static_cast<std::size_t>(stage)]; }
+    [[nodiscard]] double total() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+};
+
+/// What one thread has measured; on a cache line of its own. All of its time in cycles and in searches for contacts is known, and that of the
+/// searches by itself; of the other stages only samples, which say how they share the rest.
+struct alignas(64) StageSamples
+{
+    StageTimes sampled;  ///< broad: all of it
+    double all = 0.0;    ///< [s]
+
+    /// Adds up to `all`, as soon as a cycle has been sampled.
+    [[nodiscard]] StageTimes shared_out() const
+    {
+        StageTimes times = sampled;
+        const double searches = times.of(CycleStage::broad);
+        const double samples = times.total() - searches;
+        for (double& seconds : times.seconds)
+            seconds *= samples > 0.0 ? (all - searches) / samples : 0.0;
+        times.of(CycleStage::broad) = searches;
+        return times;
+    }
+};
+
+/// Adds the time it lives to a sum.
+class ScopedTime
+{
+  public:
+    explicit ScopedTime(double& seconds) : seconds_(seconds) {}
+    ~ScopedTime() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+    ScopedTime(const ScopedTime&) = delete;
+    ScopedTime& operator=(const ScopedTime&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// Adds the time since the last lap to a stage. Does nothing, and does not look at the clock, without a weight.
@@ -43,7 +81,7 @@ class StageClock
         if (weight_ == 0.0)
             return;
         const auto now = std::chrono::steady_clock::now();
-        times_.seconds[static_cast<std::size_t>(stage)] += weight_ * std::chrono::duration<double>(now - last_).count();
+        times_.of(stage) += weight_ * std::chrono::duration<double>(now - last_).count();
         last_ = now;
     }
 

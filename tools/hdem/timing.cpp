@@ -36,8 +36,6 @@ std::vector<StageTiming> summarise_times(std::span<const StageTimes> threads, do
         rows.push_back(row(stage_names[stage], of_threads, seconds));
     }
     rows.push_back(row("output", {output}, seconds));
-    for (double& r : rest)
-        r = std::max(r, 0.0);  // cycles are timed by samples
     rows.push_back(row("other", rest, seconds));
     return rows;
 }

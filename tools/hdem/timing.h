@@ -5,27 +5,12 @@
 #include "io/summary.h"
 #include "parallel/stages.h"
 
-#include <chrono>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace hdem
 {
-/// Adds the time it lives to a sum.
-class ScopedTime
-{
-  public:
-    explicit ScopedTime(double& seconds) : seconds_(seconds) {}
-    ~ScopedTime() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-    ScopedTime(const ScopedTime&) = delete;
-    ScopedTime& operator=(const ScopedTime&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
 /// An observer whose time counts as output.
 class TimedObserver : public Observer
 {
@@ -72,7 +57,7 @@ class TimedKeeper : public Keeper
     double& seconds_;
 };
 
-/// Rows of the table: the stages of a cycle, output, and other, which is the rest of `seconds`.
+/// Rows of the table: the stages of a cycle, output, and other, which is the rest of `seconds`: the means add up to it.
 [[nodiscard]] std::vector<StageTiming> summarise_times(std::span<const StageTimes> threads, double output, double seconds);
 
 [[nodiscard]] std::vector<std::string> timing_table(std::span<const StageTiming> timing);

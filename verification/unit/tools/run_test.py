@@ -104,6 +104,7 @@ class TheEnd(unittest.TestCase):
         for name, row in timing.items():
             self.assertTrue(0.0 <= row["min"] <= row["mean"] <= row["max"], name)
             self.assertRegex(self.log, rf"(?m)^{name} +{row['min']:.3f} +{row['mean']:.3f} +{row['max']:.3f} +{100 * row['share']:.1f} %$")
+        self.assertAlmostEqual(sum(row["share"] for row in timing.values()), 1.0, places=9)
         self.assertGreater(timing["force"]["mean"], 0.0)
         self.assertGreater(timing["output"]["mean"], 0.0)
 
