@@ -5,14 +5,13 @@
 #include "io/case_problems.h"
 #include "io/case_schema.h"
 #include "io/polygons.h"
+#include "io/text_file.h"
 #include "io/traces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <optional>
 #include <sstream>
 
 namespace hdem
@@ -183,62 +182,35 @@ class Reader
     throw InputError(std::vector<Problem>{{Problem::Severity::error, "", text}});
 }
 
-/// The whole of it, or one byte more than `most`.
-std::string read_all(std::istream& in, std::size_t most)
-{
-    std::string text;
-    std::string piece(1U << 16U, '\0');
-    while (text.size() <= most && (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0))
-        text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
-    text.resize(std::min(text.size(), most + 1));
-    return text;
-}
-
 std::string read_text(const std::filesystem::path& file)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        fail(fmt::format("{}: case: (is a folder). Give a case file, e.g. {}.", file.string(), (file / "case.toml").string()));
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-        fail(fmt::format("{}: case: ({}). Check the name and the rights of the file.", file.string(),
-                         std::filesystem::exists(file, ignored) ? "cannot be opened" : "does not exist"));
-    std::string text = read_all(in, largest_case_file);
-    if (text.size() > largest_case_file)
-        fail(fmt::format("{}: case: (larger than {} bytes). Put many blocks into a blocks_file.", file.string(), largest_case_file));
-    return text;
+    TextFile read = read_text_file(file, largest_case_file);
+    if (!read.obstacle.empty())
+        fail(fmt::format("{}: case: ({}). {}", file.string(), read.obstacle, read.remedy));
+    return std::move(read.text);
 }
 
 /// A file that the case names: from the disk, or from `stored`.
-std::optional<std::string> named_file(const std::string& name, const std::filesystem::path& case_file, const NamedFiles* stored)
+TextFile named_file(const std::string& name, const std::filesystem::path& case_file, const NamedFiles* stored)
 {
-    if (stored != nullptr)
-    {
-        const auto found = stored->find(name);
-        return found == stored->end() ? std::nullopt : std::optional(found->second);
-    }
-    const auto file = case_file.parent_path() / name;
-    std::error_code ignored;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, ignored))
-        return std::nullopt;
-    return read_all(in, largest_named_file);
+    if (stored == nullptr)
+        return read_text_file(case_file.parent_path() / name, largest_named_file);
+    const auto found = stored->find(name);
+    if (found == stored->end())
+        return {.text = {}, .obstacle = "is not stored with the case", .remedy = "The checkpoint is damaged."};
+    return {.text = found->second, .obstacle = {}, .remedy = {}};
 }
 
 /// Text of the file that `key` names; it is kept with the case. Complains where there is none, and returns nothing.
 const std::string* text_named(const std::string& key, const std::string& object, const std::string& name, CaseFile& read,
                               const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems)
 {
-    const auto complain = [&](const std::string& why, const std::string& remedy)
-    { problems.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(name)), why, remedy); };
-    std::optional<std::string> text = named_file(name, case_file, stored);
-    if (!text)
-        complain(fmt::format("{} cannot be opened", printable((case_file.parent_path() / name).string(), 200)),
-                 "A relative name starts at the folder of the case file.");
-    else if (text->size() > largest_named_file)
-        complain(fmt::format("larger than {} bytes", largest_named_file), "Make the model smaller.");
-    else
-        return &(read.files[name] = std::move(*text));
+    TextFile file = named_file(name, case_file, stored);
+    if (file.obstacle.empty())
+        return &(read.files[name] = std::move(file.text));
+    problems.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(name)),
+                 fmt::format("{} {}", printable((case_file.parent_path() / name).string(), 200), file.obstacle),
+                 file.remedy + " A relative name starts at the folder of the case file.");
     return nullptr;
 }
 

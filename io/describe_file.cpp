@@ -185,6 +185,8 @@ std::string describe_file(const fs::path& path)
     const fs::path file = fs::is_directory(path) ? path / "results.h5" : path;
     if (!fs::exists(file))
         refuse(file, "no such file");
+    if (!fs::is_regular_file(file))
+        refuse(file, "not a file that can be read: a pipe, a socket or a device");
     Page page;
     try
     {

@@ -2,13 +2,12 @@
 
 #include "io/atomic_file.h"
 #include "io/provenance.h"
+#include "io/text_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 namespace hdem
@@ -120,13 +119,11 @@ void check_same_case(const RunOptions& options, const RunRecord& record)
 {
     if (options.case_file.empty())
         return;
-    std::ifstream in(options.case_file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in && !in.eof())
-        refuse(fmt::format("{}: case: (cannot be read). Leave it away: the checkpoint holds the case.", options.case_file));
-    if (text != record.case_text)
-        refuse(fmt::format("{}: case: (is not the one that the run began with). Leave it away: the checkpoint holds the case.",
-                           options.case_file));
+    TextFile given = read_text_file(options.case_file, largest_case_file);
+    if (given.obstacle.empty() && given.text != record.case_text)
+        given.obstacle = "is not the one that the run began with";
+    if (!given.obstacle.empty())
+        refuse(fmt::format("{}: case: ({}). Leave it away: the checkpoint holds the case.", options.case_file, given.obstacle));
 }
 
 RunStart start_again(const RunOptions& options)

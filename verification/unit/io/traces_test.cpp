@@ -155,7 +155,7 @@ TEST(TraceCells, ProblemsOfKeysAreLocated)
         return std::string();
     };
     EXPECT_THAT(problem("traces_file = \"none.wkt\"\n"), HasSubstr("case.toml:4:"));
-    EXPECT_THAT(problem("traces_file = \"none.wkt\"\n"), HasSubstr("none.wkt cannot be opened"));
+    EXPECT_THAT(problem("traces_file = \"none.wkt\"\n"), HasSubstr("none.wkt does not exist"));
     EXPECT_THAT(problem("traces_snap = 0.1\n"), HasSubstr("belongs to traces_file"));
     std::ofstream(folder / "t.wkt") << "LINESTRING(0 5, 10 5)\n";
     EXPECT_EQ(problem("traces_file = \"t.wkt\"\n"), "");

@@ -127,7 +127,7 @@ class Restart(unittest.TestCase):
         run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")
         for arguments, words in ((["--set", "joint.default.cohesion=1e3"], "keeps its blocks, joints and laws"),
                                  (["--method", "force"], "keeps its blocks, joints and laws"),
-                                 ([self.root / "nothing.toml"], "cannot be read")):
+                                 ([self.root / "nothing.toml"], "does not exist")):
             refused = run_folder.run(HDEM, *arguments, "--restart", folder)
             self.assertEqual(refused.returncode, 2, refused.stdout)
             self.assertIn(words, refused.stderr)
