@@ -46,7 +46,7 @@ std::unique_ptr<RunRecorder> make_recorder(const RunStart& start, const RunOptio
 /// A run has failed: what led to it goes to the disk, if the disk is not what failed.
 void save_last_moment(Log& log, const RunError& error, const Simulation& simulation, RunRecorder& recorder)
 {
-    log.line(std::string("error: ") + error.what());
+    log.to_file(std::string("error: ") + error.what());  // main tells the screen
     try
     {
         recorder.finish(simulation.model(), simulation.state());

@@ -33,6 +33,11 @@ void Log::line(const std::string& text)
         fmt::print("{}\n", text);
         std::fflush(stdout);
     }
+    to_file(text);
+}
+
+void Log::to_file(const std::string& text)
+{
     fmt::print(file_, "{}\n", text);
     std::fflush(file_);
 }

@@ -27,6 +27,8 @@ class Log
     Log& operator=(const Log&) = delete;
 
     void line(const std::string& text);
+    /// Only to the log file: what the screen is told by others.
+    void to_file(const std::string& text);
     /// Overwritten by the next line; only on a terminal, never in the log.
     void progress(const std::string& text);
     [[nodiscard]] bool is_interactive() const { return interactive_; }

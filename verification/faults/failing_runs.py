@@ -96,6 +96,8 @@ class Faults(unittest.TestCase):
         failed = run_folder.run(HDEM, self.case, "-o", folder, *settings)
         self.assertEqual(failed.returncode, 1, failed.stdout)
         self.assertRegex(failed.stderr, message)
+        for said in (failed.stdout + failed.stderr, (folder / "run.log").read_text(encoding="utf-8")):
+            self.assertEqual(said.count("error: "), 1, "once on the screen, once in the log")
         with run_folder.h5py.File(folder / "results.h5") as results:
             last = int(results["frames/cycle"][-1])
             self.assertEqual(last, int(results["energy/cycle"][-1]))
