@@ -29,8 +29,9 @@ SectionSpec convergence_section()
              field<&ConvergenceDef::loose_distance>(
                  {.name = "loose_distance",
                   .unit = "m",
-                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther run ahead of the clock: they slide and "
-                            "fall along their path in fewer cycles. Give a distance they will not reach to keep them with the clock.",
+                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther in it run ahead of the clock: they slide and "
+                            "fall along their path in fewer cycles, so the time in results is not theirs. To keep them with the clock give a distance "
+                            "they will not reach, e.g. 1e6, or `preset = \"paper\"` or `\"dynamic\"` in [damping].",
                   .range = length}),
              field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
                                                         .unit = "m",
@@ -42,7 +43,8 @@ SectionSpec convergence_section()
 SectionSpec stage_section()
 {
     KeySpec until = spec({.name = "until",
-                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles.",
+                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. It asks where blocks come to rest, not when: under the default "
+                                    "damping, loose ones run ahead of the clock (convergence.loose_distance says how to keep them with it).",
                           .example = "\"converged\"",
                           .choices = {"converged"},
                           .default_note = "cycles or duration is given instead"},

@@ -1,6 +1,7 @@
 #include "tools/hdem/screen.h"
 
 #include "core/check.h"
+#include "core/motion/pace.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -63,7 +64,9 @@ std::string duration_text(double seconds)
     return fmt::format("{} h {:02d} min", whole / 3600, whole % 3600 / 60);
 }
 
-RowObserver::RowObserver(const Simulation& simulation, Log& log) : simulation_(simulation), log_(log) {}
+RowObserver::RowObserver(const Simulation& simulation, Log& log) : simulation_(simulation), log_(log)
+{
+}
 
 std::int64_t RowObserver::next_cycle(std::int64_t now) const
 {
@@ -81,11 +84,17 @@ void RowObserver::begin_stage(const Model& model, const State& state)
     log_.line("");
     if (state.cycle > state.stage_begin_cycle)
         log_.line(fmt::format("goes on after cycle {}", state.cycle));
-    log_.line(stage.until_converged ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
-                                                  simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
-                                    : fmt::format("stage \"{}\": {} cycles", stage.name, most));
-    log_.line(fmt::format("{:>9} {:>11} {:>12} {:>11} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]", "kinetic [J]", "unbalanced", "stick", "slip",
-                          "impulse", "cycles/s", "time left"));
+    log_.line(stage.until_converged
+                  ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
+                                simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
+                  : fmt::format("stage \"{}\": {} cycles", stage.name, most));
+    if (is_relaxing(model, state))
+        log_.line(fmt::format("note: blocks that have moved more than {:.4g} m in this stage run ahead of the clock: the time of a "
+                              "fall is not that of nature. A greater convergence.loose_distance, or damping.preset = \"paper\" or "
+                              "\"dynamic\", keeps them with it.",
+                              model.convergence.loose_distance));
+    log_.line(fmt::format("{:>9} {:>11} {:>12} {:>11} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]", "kinetic [J]",
+                          "unbalanced", "stick", "slip", "impulse", "cycles/s", "time left"));
 }
 
 void RowObserver::observe(const Model& model, const State& state)
@@ -98,14 +107,17 @@ void RowObserver::observe(const Model& model, const State& state)
     const double left = static_cast<double>(last_cycle(stage, state.stage_begin_cycle, model.time_step) - state.cycle) / rate;
     const std::string left_text = (stage.until_converged ? "< " : "") + duration_text(left);
     const Equilibrium now = simulation_.equilibrium();
-    if (log_.is_interactive() && next_multiple(state.cycle - 1, model.output.row_every) != state.cycle && next_cycle(state.cycle - 1) == state.cycle)
+    if (log_.is_interactive() && next_multiple(state.cycle - 1, model.output.row_every) != state.cycle &&
+        next_cycle(state.cycle - 1) == state.cycle)
     {
-        log_.progress(fmt::format("cycle {}  kinetic energy {:.4g} J  {:.0f} cycles/s  time left {}", state.cycle, now.kinetic_energy, rate, left_text));
+        log_.progress(fmt::format("cycle {}  kinetic energy {:.4g} J  {:.0f} cycles/s  time left {}", state.cycle,
+                                  now.kinetic_energy, rate, left_text));
         return;
     }
     const ContactCounts counts = simulation_.count_contacts();
-    log_.line(fmt::format("{:>9} {:>11.5g} {:>12.4e} {:>11.3e} {:>7} {:>7} {:>7} {:>10.0f} {:>12}", state.cycle, state.time, now.kinetic_energy,
-                          now.unbalanced_force_ratio(), counts.points[1], counts.points[2], counts.points[3], rate, left_text));
+    log_.line(fmt::format("{:>9} {:>11.5g} {:>12.4e} {:>11.3e} {:>7} {:>7} {:>7} {:>10.0f} {:>12}", state.cycle, state.time,
+                          now.kinetic_energy, now.unbalanced_force_ratio(), counts.points[1], counts.points[2], counts.points[3],
+                          rate, left_text));
     row_cycle_ = state.cycle;
 }
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What `hdem run` says of the energy at its end: on the screen, in run.log and in summary.json.
+"""What `hdem run` says: notes and warnings at its start, energies and times at its end; on the screen, in run.log and in summary.json.
 
     run_test.py HDEM    the program
 """
@@ -56,6 +56,28 @@ TERMS = {"at the start": ("initial", 1), "gravity": ("gravity_work", 1), "loads"
          "friction": ("friction", -1), "local damping": ("local_damping", -1), "global damping": ("global_damping", -1),
          "impulses": ("impulse_loss", -1), "contact changes": ("contact_changes", -1), "removed": ("removed", -1)}
 NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
+
+
+class TheStart(unittest.TestCase):
+    def said(self, *arguments, until=""):
+        """Standard output and run.log, which are the same, of ten cycles and a second stage."""
+        with tempfile.TemporaryDirectory() as folder:
+            case = CASE.replace("cycles = 2500", "cycles = 10", 1).replace("cycles = 2500", until or "cycles = 10")
+            (Path(folder) / "small.toml").write_text(case, encoding="utf-8")
+            run = subprocess.run([HDEM, "run", "small.toml", "-o", "out", *arguments], cwd=folder, check=False, capture_output=True, text=True)
+            self.assertEqual(run.stderr, "")
+            self.assertEqual(run.stdout, (Path(folder) / "out/run.log").read_text(encoding="utf-8"))
+            return run.stdout
+
+    def test_stages_where_blocks_run_ahead_of_the_clock_say_so(self):
+        note = "note: blocks that have moved more than 0.02 m in this stage run ahead of the clock"
+        until, settings = 'until = "converged"\nmax_cycles = 100', ("--set", "convergence.loose_distance=0.02")
+        said = self.said(*settings, until=until)
+        self.assertEqual(said.count("note: "), 1, said)
+        self.assertRegex(said, rf'stage "stage2": until converged.*\n{note}.*convergence\.loose_distance')
+        for preset in ("paper", "dynamic"):
+            self.assertNotIn("note: ", self.said(*settings, "--set", f'damping.preset="{preset}"', until=until))
+        self.assertNotIn("note: ", self.said(*settings))
 
 
 class TheEnd(unittest.TestCase):
