@@ -4,6 +4,7 @@
     run_test.py HDEM    the program
 """
 import json
+import os
 import re
 import subprocess
 import sys
@@ -68,6 +69,13 @@ class TheStart(unittest.TestCase):
             self.assertEqual(run.stderr, "")
             self.assertEqual(run.stdout, (Path(folder) / "out/run.log").read_text(encoding="utf-8"))
             return run.stdout
+
+    def test_more_threads_than_processors_are_warned_of_once(self):
+        processors = len(os.sched_getaffinity(0))
+        said = self.said("--threads", str(processors + 1))
+        self.assertEqual(said.count("warning: "), 1, said)
+        self.assertRegex(said, rf"(?m)^warning: threads = {processors + 1} \(more than the {processors} processors at hand.* Give --threads {processors}\.$")
+        self.assertNotIn("warning: ", self.said("--threads", str(processors)))
 
     def test_stages_where_blocks_run_ahead_of_the_clock_say_so(self):
         note = "note: blocks that have moved more than 0.02 m in this stage run ahead of the clock"
