@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <ostream>
 
 namespace hdem
@@ -101,19 +100,8 @@ std::variant<Polygon, std::string> parse_wkt(std::string_view text)
         return fmt::format("expected (( after POLYGON, got {}). Write POLYGON((x y, x y, x y, x y)).", scan.here());
 
     Polygon polygon;
-    do
-    {
-        Vec2 point;
-        if (!scan.take_number(point.x()) || !scan.take_number(point.y()))
-            return fmt::format("expected a finite number, got {}). Vertex {} needs x and y.", scan.here(), polygon.size() + 1);
-        if (std::abs(point.x()) > farthest_coordinate || std::abs(point.y()) > farthest_coordinate)
-            return fmt::format("vertex {} is farther than {} m from the origin). Move the model nearer to the origin.",
-                               polygon.size() + 1, farthest_coordinate);
-        polygon.push_back(point);
-    } while (scan.take(','));
-
-    if (!scan.take(')'))
-        return fmt::format("expected , or ) after vertex {}, got {}). Vertices have two coordinates.", polygon.size(), scan.here());
+    if (std::string why = scan.take_points(polygon, "vertex"); !why.empty())
+        return why;
     if (scan.take(','))
         return "has a hole). Blocks have no holes: cut the ring into two polygons.";
     if (!scan.take(')'))

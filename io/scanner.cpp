@@ -67,6 +67,24 @@ bool Scanner::take_number(double& x)
     return true;
 }
 
+std::string Scanner::take_points(Polygon& points, std::string_view kind)
+{
+    do
+    {
+        Vec2 point;
+        if (!take_number(point.x()) || !take_number(point.y()))
+            return fmt::format("expected a finite number, got {}). A {} has x and y, this is number {}.", here(), kind,
+                               points.size() + 1);
+        if (std::abs(point.x()) > farthest_coordinate || std::abs(point.y()) > farthest_coordinate)
+            return fmt::format("{} {} is farther than {} m from the origin). Move the model nearer to the origin.", kind,
+                               points.size() + 1, farthest_coordinate);
+        points.push_back(point);
+    } while (take(','));
+    if (!take(')'))
+        return fmt::format("expected , or ) after {} {}, got {}). A {} has two coordinates.", kind, points.size(), here(), kind);
+    return "";
+}
+
 std::string Scanner::here() const
 {
     return rest.empty() ? "the end of the line" : "\"" + printable(rest, 20) + "\"";

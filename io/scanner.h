@@ -1,6 +1,8 @@
 #pragma once
 /// Reading lines and numbers of text files that others made: bounded, without exceptions, with words for what was found instead.
 
+#include "core/types.h"
+
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -23,6 +25,9 @@ struct Scanner
     bool take(char c);
     /// A finite number that ends where a word ends.
     bool take_number(double& x);
+    /// Points "x y, x y, ..." and the bracket behind them; returns what is wrong with them, or "".
+    /// @param kind  of a point, for messages: "vertex"
+    std::string take_points(Polygon& points, std::string_view kind);
     /// What comes next, for messages.
     [[nodiscard]] std::string here() const;
 };

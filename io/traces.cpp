@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace hdem
 {
 namespace
@@ -38,18 +36,8 @@ std::variant<Polygon, std::string> parse_wkt_line(std::string_view text)
         return fmt::format("expected ( after LINESTRING, got {}). Only plain LINESTRING(x y, ...) is read: no Z, no M, not EMPTY.",
                            scan.here());
     Polygon points;
-    do
-    {
-        Vec2 point;
-        if (!scan.take_number(point.x()) || !scan.take_number(point.y()))
-            return fmt::format("expected a finite number, got {}). Point {} needs x and y.", scan.here(), points.size() + 1);
-        if (std::abs(point.x()) > farthest_coordinate || std::abs(point.y()) > farthest_coordinate)
-            return fmt::format("point {} is farther than {} m from the origin). Move the model nearer to the origin.",
-                               points.size() + 1, farthest_coordinate);
-        points.push_back(point);
-    } while (scan.take(','));
-    if (!scan.take(')'))
-        return fmt::format("expected , or ) after point {}, got {}). Points have two coordinates.", points.size(), scan.here());
+    if (std::string why = scan.take_points(points, "point"); !why.empty())
+        return why;
     if (!trimmed(scan.rest).empty())
         return fmt::format("{} follows the line). Write one LINESTRING a line.", Scanner{trimmed(scan.rest)}.here());
     return points;

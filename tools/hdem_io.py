@@ -16,6 +16,7 @@
 Every number is in SI units; io/hdf5_format.md says what each array means. Files are opened, read and closed at once: a run may
 still be going on. Needs h5py and numpy.
 """
+import sys
 from collections import namedtuple
 from pathlib import Path
 
@@ -28,6 +29,23 @@ FORMAT_MAJOR = 1
 
 class ResultError(Exception):
     """A file that is missing, damaged, or not written by hdem."""
+
+
+def tell(command, result, make):
+    """Makes a file of a run's results for `hdem COMMAND`: prints its path, or why there is none. The exit code."""
+    try:
+        if not result.exists():
+            raise ResultError(f"{result}: no such file or folder")
+        print(make())
+        return 0
+    except (ResultError, ValueError) as error:
+        why, code = error, 2
+    except KeyError as error:
+        why, code = f"{result}: {error.args[0]}: a file is damaged. Run the case again.", 2
+    except OSError as error:
+        why, code = error, 1
+    print(f"error: hdem {command}: {why}", file=sys.stderr)
+    return code
 
 
 class Table(dict):

@@ -18,7 +18,7 @@ try:
     from matplotlib.colors import ListedColormap
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
-    from hdem_io import ResultError, open_run, read_blocks
+    from hdem_io import ResultError, open_run, read_blocks, tell
 except ImportError as missing:
     sys.exit(f"error: hdem plot: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
 
@@ -262,32 +262,25 @@ def draw_history(run, options):
     return figure
 
 
+def make_picture(options):
+    """The file it is in."""
+    single = options.result.suffix == ".hdf"
+    run = None if single else open_run(options.result)
+    figure = draw_history(run, options) if options.history else draw_frame(run, options)
+    output = options.output
+    if output is None:
+        folder = options.result if options.result.is_dir() else options.result.parent
+        name = options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
+        output = folder / f"{name}.png"
+    output.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
+    return output
+
+
 def main(arguments):
     options = parse(arguments)
     plt.rcParams.update(STYLE)
-    try:
-        if not options.result.exists():
-            raise ResultError(f"{options.result}: no such file or folder")
-        single = options.result.suffix == ".hdf"
-        run = None if single else open_run(options.result)
-        figure = draw_history(run, options) if options.history else draw_frame(run, options)
-        if options.output is None:
-            folder = options.result if options.result.is_dir() else options.result.parent
-            name = options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
-            options.output = folder / f"{name}.png"
-        options.output.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(options.output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if options.output.suffix == ".svg" else None)
-    except (ResultError, ValueError) as error:
-        print(f"error: hdem plot: {error}", file=sys.stderr)
-        return 2
-    except KeyError as error:
-        print(f"error: hdem plot: {options.result}: {error.args[0]}: the file is damaged. Run the case again.", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"error: hdem plot: {error}", file=sys.stderr)
-        return 1
-    print(options.output)
-    return 0
+    return tell("plot", options.result, lambda: make_picture(options))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
 try:
     import run_page
-    from hdem_io import ResultError, open_run
+    from hdem_io import ResultError, open_run, tell
 except ImportError as missing:
     sys.exit(f"error: hdem report: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
 
@@ -32,28 +32,20 @@ def read_summary(file):
         raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from error
 
 
+def make_page(options):
+    """The file it is in."""
+    run = open_run(options.result)
+    log = run.folder / "run.log"
+    text = run_page.build(run, read_summary(run.folder / "summary.json"), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
+    output = options.output or run.folder / "report.html"
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(text, encoding="utf-8")
+    return output
+
+
 def main(arguments):
     options = parse(arguments)
-    try:
-        if not options.result.exists():
-            raise ResultError(f"{options.result}: no such file or folder")
-        run = open_run(options.result)
-        log = run.folder / "run.log"
-        text = run_page.build(run, read_summary(run.folder / "summary.json"), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
-        output = options.output or run.folder / "report.html"
-        output.parent.mkdir(parents=True, exist_ok=True)
-        output.write_text(text, encoding="utf-8")
-    except ResultError as error:
-        print(f"error: hdem report: {error}", file=sys.stderr)
-        return 2
-    except KeyError as error:
-        print(f"error: hdem report: {options.result}: {error.args[0]}: a file is damaged. Run the case again.", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"error: hdem report: {error}", file=sys.stderr)
-        return 1
-    print(output)
-    return 0
+    return tell("report", options.result, lambda: make_page(options))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 /// What the tests of the writers share: a model of a ground, a block on it and a concave block, made by hand, and a folder
 /// that goes away.
 
+#include "core/check.h"
 #include "core/geometry/convex_part.h"
 #include "core/geometry/polygon.h"
 #include "core/model/model.h"
@@ -48,6 +49,21 @@ inline std::string text_in(const std::filesystem::path& file)
     std::ostringstream text;
     text << in.rdbuf();
     return text.str();
+}
+
+/// Of the RunError that it ends with.
+template <class Action>
+std::string message_of(const Action& action)
+{
+    try
+    {
+        action();
+    }
+    catch (const RunError& error)
+    {
+        return error.what();
+    }
+    return "no error";
 }
 
 struct SmallRun

@@ -11,24 +11,11 @@ namespace hdem
 {
 namespace
 {
+using test::message_of;
 using test::ScratchFolder;
 using test::text_in;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <class Action>
-std::string message_of(const Action& action)
-{
-    try
-    {
-        action();
-    }
-    catch (const RunError& error)
-    {
-        return error.what();
-    }
-    return "no error";
-}
 
 TEST(AtomicFile, ReplacesTheOldContentAndLeavesNothingElse)
 {

@@ -20,25 +20,12 @@ namespace hdem
 {
 namespace
 {
+using test::message_of;
 using test::ScratchFolder;
 using test::text_in;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-template <class Action>
-std::string message_of(const Action& action)
-{
-    try
-    {
-        action();
-    }
-    catch (const RunError& error)
-    {
-        return error.what();
-    }
-    return "no error";
-}
 
 std::vector<double> ramp(std::size_t n)
 {

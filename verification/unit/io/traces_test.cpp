@@ -66,7 +66,7 @@ TEST(TraceFile, SaysWhatIsWrongAndWhere)
                 HasSubstr("t.wkt:2: trace: line (expected LINESTRING, got \"POINT(1 1)\")"));
     EXPECT_THAT(problem("MULTILINESTRING((0 0, 1 1))"), HasSubstr("on a line of its own"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1 nan)"), HasSubstr("expected a finite number, got \"nan)\""));
-    EXPECT_THAT(problem("LINESTRING(0 0 0, 1 1 1)"), HasSubstr("Points have two coordinates"));
+    EXPECT_THAT(problem("LINESTRING(0 0 0, 1 1 1)"), HasSubstr("A point has two coordinates"));
     EXPECT_THAT(problem("LINESTRING(0 0)"), HasSubstr("a trace has at least 2"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1 1, 1 1)"), HasSubstr("points 2 and 3 are the same"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1e9 1)"), HasSubstr("farther than"));

@@ -17,15 +17,10 @@ try:
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
+import small_case
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-REST = """
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 30.0
+REST = small_case.ROCK + """
 [[stage]]
 cycles = 10
 """

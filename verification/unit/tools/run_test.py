@@ -12,17 +12,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import small_case
+
 HDEM = Path(sys.argv[1]).resolve()
 
 # A block slides to rest and is pushed, another falls on the ground, a third is removed: no term of the ledger but global damping stays zero.
-CASE = """
-title = "Energy of a small run"
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 30.0
+CASE = 'title = "Energy of a small run"' + small_case.ROCK + """
 [time]
 step = 1e-4
 [contact]

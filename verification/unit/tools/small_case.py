@@ -1,15 +1,17 @@
 """A small case that has everything a result can show, for the tests of what reads results."""
 import subprocess
 
-# A concave block on a ground beside a prop that is removed, and a block that falls 0.2 m.
-CASE = """
-title = "Small run"
+ROCK = """
 [material.rock]
 density = 2700.0
 [joint.default]
 normal_stiffness = 1e9
 shear_stiffness = 1e9
 friction_angle_deg = 30.0
+"""
+
+# A concave block on a ground beside a prop that is removed, and a block that falls 0.2 m.
+CASE = 'title = "Small run"' + ROCK + """
 [time]
 step = 1e-4
 [convergence]
