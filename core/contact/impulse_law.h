@@ -20,7 +20,8 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
                             std::vector<ImpulsePoint>& points);
 
 /// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
-/// springs' share between two points is handed over as it is.
+/// springs' share between two points is handed over as it is. After an impact they are far too great, more than the sweeps may take back: then only
+/// the share of all of them that leaves least to do, which adds no energy.
 /// @return energy lost, as for sweep_impulses [J]
 double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
 

@@ -46,7 +46,7 @@ TEST(Scenes, PileFallsIntoAHeapAndTheSameSeedGivesTheSame)
     CaseDef scene = scenes::pile(12, 4, 5);
     CaseRun run(scene);
     EXPECT_EQ(run.simulation.count_contacts().closed(), 0);
-    run.advance(40000);
+    run.advance(80000);
     run.simulation.check_state();
     EXPECT_GE(run.simulation.count_contacts().closed(), 18) << "two points carry a block at rest; three quarters of the twelve are";
     EXPECT_EQ(scenes::pile(12, 4, 5).blocks[7].polygon, scene.blocks[7].polygon);
