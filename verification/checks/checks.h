@@ -36,6 +36,7 @@ std::vector<Check> cyclic_shear_checks();
 std::vector<Check> order_checks();
 std::vector<Check> ledger_checks();
 std::vector<Check> recycling_checks();
+std::vector<Check> robust_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();
