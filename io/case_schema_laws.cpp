@@ -240,7 +240,9 @@ SectionSpec time_section()
             "",
             {field<&TimeDef::step>({.name = "step",
                                     .unit = "s",
-                                    .effect = "Time step Δt. Too large a step blows up: overlaps grow until the run stops.",
+                                    .effect = "Time step Δt. Too large a step blows up: overlaps grow until the run stops. Where it is not given, stages with "
+                                              "`until = \"converged\"` under the default damping take the largest step that is stable with the present "
+                                              "contacts, up to 64 of these in a cycle, unless there are loads or prescribed motions.",
                                     .example = "5e-5",
                                     .range = {.low = 0, .high = 1e6, .low_included = false},
                                     .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness))"}),

@@ -29,9 +29,10 @@ SectionSpec convergence_section()
              field<&ConvergenceDef::loose_distance>(
                  {.name = "loose_distance",
                   .unit = "m",
-                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther in it run ahead of the clock: they slide and "
-                            "fall along their path in fewer cycles, so the time in results is not theirs. To keep them with the clock give a distance "
-                            "they will not reach, e.g. 1e6, or `preset = \"paper\"` or `\"dynamic\"` in [damping].",
+                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther in it are loose. Once the other rock is "
+                            "at rest they run ahead of it, all by one clock, up to 64 times as fast, and the time in results runs with them: they slide "
+                            "and fall along their path in fewer cycles. To keep them with the rock give a distance they will not reach, e.g. 1e6, or "
+                            "`preset = \"paper\"` or `\"dynamic\"` in [damping].",
                   .range = length}),
              field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
                                                         .unit = "m",
@@ -44,7 +45,8 @@ SectionSpec stage_section()
 {
     KeySpec until = spec({.name = "until",
                           .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. It asks where blocks come to rest, not when: under the default "
-                                    "damping, loose ones run ahead of the clock (convergence.loose_distance says how to keep them with it).",
+                                    "damping, loose ones run ahead of rock at rest (convergence.loose_distance), all take the largest stable step where "
+                                    "time.step is not given, and blocks at rest are left out until what they carry changes.",
                           .example = "\"converged\"",
                           .choices = {"converged"},
                           .default_note = "cycles or duration is given instead"},

@@ -97,6 +97,9 @@ void exchange_run(Archive& archive, State& state)
     archive.group("/state");
     archive.template value<std::int64_t>("/state", "cycle", state.cycle);
     archive.template value<double>("/state", "time", state.time);
+    archive.template value<double>("/state", "ahead", state.ahead);
+    archive.template value<double>("/state", "rock_pace", state.pace.rock);
+    archive.template value<double>("/state", "loose_pace", state.pace.loose);
     archive.template value<std::int32_t>("/state", "stage", state.stage);
     archive.template value<std::uint8_t>("/state", "stage_begun", state.stage_begun);
     archive.template value<std::int64_t>("/state", "stage_begin_cycle", state.stage_begin_cycle);
@@ -139,6 +142,8 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
     archive.template rows<double>("/blocks/inverse_inertia", n, blocks.inertia,
                                   [](BlockInertia& i) { return std::tie(i.inverse_mass_x, i.inverse_mass_y, i.inverse_inertia); });
     archive.template rows<double>("/blocks/pace", n, blocks.pace, itself);
+    archive.template rows<double>("/blocks/margin", n, blocks.margin, itself);
+    archive.template rows<std::uint8_t>("/blocks/rest", n, blocks.rest, itself);
     archive.template rows<std::uint8_t>("/blocks/present", n, blocks.present, itself);
     archive.template rows<double>("/blocks/reference_position", n, blocks.reference_position,
                                   [](Vec2& v) { return std::tie(v.x(), v.y()); });

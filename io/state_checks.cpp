@@ -1,6 +1,7 @@
 #include "io/state_checks.h"
 
 #include "core/motion/pace.h"
+#include "core/motion/rest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,9 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
     }
     if (state.stage_begin_cycle != begin || state.cycle < begin || state.cycle > longest_run)
         return Damage{"/state@stage_begin_cycle", "cycles do not add up"};
-    if (state.time != static_cast<double>(state.cycle) * model.time_step)
+    if (!is_pace(state.pace.rock) || !is_pace(state.pace.loose))
+        return Damage{"/state@rock_pace", "not from 1 to 4096"};
+    if (!(state.ahead >= 0.0) || state.time != static_cast<double>(state.cycle) * model.time_step + state.ahead)
         return Damage{"/state@time", "does not belong to the cycle"};
     if (state.method > Method::hybrid || state.damping > DampingPreset::dynamic)
         return Damage{"/state@method", "unknown method or damping"};
@@ -84,7 +87,12 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             f.contacts > (contact_force | contact_impulse))
             return Damage{"/blocks/force", "not a force"};
         if (!is_pace(blocks.pace[i]))
-            return Damage{"/blocks/pace", "not a power of two from 1 to 64"};
+            return Damage{"/blocks/pace", "not from 1 to 4096"};
+        const BlockMotion& m = blocks.motion[i];
+        if (!std::isfinite(blocks.margin[i]) || blocks.margin[i] < 0.0)
+            return Damage{"/blocks/margin", "not a length"};
+        if (blocks.rest[i] > left_out || (blocks.rest[i] >= stopped && (m.vx != 0.0 || m.vy != 0.0 || m.w != 0.0)))
+            return Damage{"/blocks/rest", "does not belong to the velocity"};
         if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i], blocks.pace[i]))
             return Damage{"/blocks/inverse_inertia", "not that of the block"};
         if (!blocks.reference_position[i].allFinite() || !std::isfinite(blocks.reference_angle[i]))

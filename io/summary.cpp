@@ -46,6 +46,9 @@ std::string summary_text(const RunSummary& s)
     Json stages = Json::array();
     for (const StageSummary& stage : s.stages)
         stages.push_back({{"name", stage.name}, {"cycles", stage.cycles}, {"until_converged", stage.until_converged}, {"converged", stage.converged}});
+    Json stage_seconds = Json::array();
+    for (const StageSummary& stage : s.stages)
+        stage_seconds.push_back(stage.wall_seconds);
     const Json json = {
         {"case", s.case_name},
         {"title", s.title},
@@ -74,6 +77,7 @@ std::string summary_text(const RunSummary& s)
         {"detached_blocks", s.detached_blocks},
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
+        {"stage_wall_seconds", stage_seconds},
         {"contact_point_updates_per_second", s.contact_point_updates_per_second},
         {"timing", timing_json(s)},
         {"state_hash", fmt::format("{:016x}", s.state_hash)},

@@ -22,7 +22,12 @@ bool holds(IndexRange range, Index i)
 
 void ContactRebuild::run(const Model& model, State& state, const Team& team)
 {
-    team.alone([&] { begin(model); });
+    team.alone(
+        [&]
+        {
+            begin(model);
+            set_margins(model, state.blocks);
+        });
     const auto count = static_cast<Index>(chunks_.size());
     const auto for_chunks = [&](IndexRange chunks, const auto& stage)
     {

@@ -5,8 +5,10 @@
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
 #include "core/motion/pace.h"
+#include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
 #include "parallel/openmp.h"
+#include "parallel/pace_update.h"
 
 #include <algorithm>
 
@@ -63,28 +65,33 @@ void CycleRunner::prepare(const Model& model, const State& state)
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
     work_.loads.resize(state.contacts.stale.size());
     work_.pace_bounds.resize(static_cast<std::size_t>(blocks));
+    work_.joint_bounds.resize(static_cast<std::size_t>(blocks));
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
     work_.external.assign(model.loads.empty() ? 0 : static_cast<std::size_t>(blocks), {});
     prepared_ = true;
     prepared_for_ = state.method;
+    first_evaluation_ = state.cycle;
 }
 
 void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
-    if (!prepared_ || prepared_for_ != state.method)
+    const bool relaxing = is_relaxing(model, state);
+    if (!prepared_ || prepared_for_ != state.method || relaxing != relaxing_)
         prepare(model, state);
+    relaxing_ = relaxing;
+    rests_ = relaxing && model.loads.empty() && !model.is_driven;
+    limits_ = rest_limits(model);
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
-    relaxing_ = is_relaxing(model, state);
     const std::int64_t begin = state.cycle;
-    // A bound on what blocks have moved since the contacts were found; it only decides when to look closely.
-    const double moved = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
+    // A bound on the share of their margins that blocks have used up since the contacts were found; it only decides when to look closely.
+    const double used = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
     with_team(std::min(threads, useful),
               [&](const Team& team)
               {
                   StageSamples& samples = samples_of(team);
                   const ScopedTime time(samples.all);
-                  double way = moved;
+                  double way = used;
                   for (std::int64_t i = 0; i < cycles && !state.contacts_outdated; ++i)
                   {
                       const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
@@ -96,31 +103,26 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
 
 void CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
 {
-    const double allowed = 0.5 * skin_width(model);
-    if (!(way <= allowed))
+    bool renewed = false;
+    if (!(way <= 1.0))
     {
-        team.alone([&] { moved_ = greatest_move({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
-        way = moved_;
-        if (!(way <= allowed))
+        team.alone([&] { used_ = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
+        way = used_;
+        if (!(way <= 1.0))
         {
             renew_contacts(model, state, team);
+            renewed = true;
             clock.skip();
             way = 0.0;
             // This cycle is finished; then the caller sorts the blocks, which no cycle may do.
             team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
         }
     }
-    if (relaxing_ && now % pace_every == 0)
-    {
-        const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
-        for (Index i = mine.begin; i < mine.end; ++i)
-            bound_paces(partition_.blocks[i].range, model, work_.block_contacts, state.contacts, state.blocks, work_.pace_bounds);
-        team.barrier();
-        for (Index i = mine.begin; i < mine.end; ++i)
-            update_paces(partition_.blocks[i].range, work_.block_contacts, state.contacts, work_.pace_bounds,
-                         now % pace_growth_every == 0, state.blocks);
-        team.barrier();
-    }
+    // Where no loads have been found yet all contacts take part.
+    if (rests_ && now != first_evaluation_)
+        leave_out(state, team);
+    if (relaxing_ && !model.is_driven)
+        update_paces(model, state, team, now, renewed, partition_, work_);
     if (!model.loads.empty())
         team.alone(
             [&]
@@ -139,9 +141,9 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
     if (impulses == 0)
-        move(model, state, team);
+        move(model, state, team, now);
     else
-        move_with_impulses(model, state, team, impulses, clock);
+        move_with_impulses(model, state, team, now, impulses, clock);
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
@@ -157,7 +159,23 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     if (!model.loads.empty())
         add_load_work(model, state.cycle, state.blocks, work_.loaded, state.ledger);
     ++state.cycle;
-    state.time = static_cast<double>(state.cycle) * model.time_step;
+    state.ahead += (state.pace.loose - 1.0) * model.time_step;
+    state.time = static_cast<double>(state.cycle) * model.time_step + state.ahead;
+}
+
+void CycleRunner::leave_out(const State& state, const Team& team)
+{
+    const auto changed = [](const BlockPart& part) { return part.rest_changed; };
+    if (std::none_of(partition_.blocks.begin(), partition_.blocks.end(), changed))
+        return;
+    const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
+    const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
+        find_active_contacts(partition_.contacts[i].range, state.blocks, state.contacts, partition_.contacts[i].active);
+    for (Index i = block_parts.begin; i < block_parts.end; ++i)
+        find_active_blocks(partition_.blocks[i].range, work_.block_contacts, state.contacts, state.blocks,
+                           partition_.blocks[i].active);
+    team.barrier();
 }
 
 void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
@@ -174,8 +192,10 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
             part.searched = refresh_features(part.range, model, state.blocks, state.contacts, part.ledger);
             clock.lap(CycleStage::narrow);
         }
-        part.tally = evaluate_contacts(part.range, model, state.method, state.blocks, state.contacts,
-                                       work_.loads);  // Eqs. (1)-(10), (24)-(28)
+        part.tally = {};
+        for (const IndexRange& range : part.active)
+            part.tally += evaluate_contacts(range, model, {state.method, relaxing_}, state.blocks, state.contacts,
+                                            work_.loads);  // Eqs. (1)-(10), (24)-(28)
         part.ledger.friction += part.tally.friction;
         part.ledger.contact_changes += part.tally.changes;
         part.impulses.clear();
@@ -194,15 +214,30 @@ void CycleRunner::add_up_contacts(State& state)
     }
 }
 
-void CycleRunner::change_velocities(const Model& model, State& state, BlockPart& part)
+void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
 {
+    const bool check = now % rest_every == 0;
+    const DampingPreset preset = relaxing_ ? DampingPreset::paper : state.damping;
     part.ledger = {};
-    sum_forces(part.range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
-    update_velocities(part.range, model, relaxing_ ? DampingPreset::paper : state.damping, state.blocks,
-                      part.ledger);  // Eqs. (11)-(14), (20)-(22)
+    part.rest_changed = now == first_evaluation_;
+    for (const IndexRange& range : part.active)
+    {
+        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
+        if (rests_)
+            part.rest_changed = update_rest(range, model, limits_, check, state.blocks, part.ledger) || part.rest_changed;
+        update_velocities(range, model, preset, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+    }
 }
 
-void CycleRunner::move(const Model& model, State& state, const Team& team)
+double CycleRunner::change_positions(const Model& model, State& state, const BlockPart& part, std::vector<Triple>* pseudo)
+{
+    double way = 0.0;
+    for (const IndexRange& range : part.active)
+        way = std::max(way, update_positions(range, model, state.blocks, pseudo));
+    return way;
+}
+
+void CycleRunner::move(const Model& model, State& state, const Team& team, std::int64_t now)
 {
     if (team.is_first())
         add_up_contacts(state);
@@ -210,16 +245,17 @@ void CycleRunner::move(const Model& model, State& state, const Team& team)
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         BlockPart& part = partition_.blocks[i];
-        change_velocities(model, state, part);
-        part.way = update_positions(part.range, model, state.blocks);
+        change_velocities(model, state, now, part);
+        part.way = change_positions(model, state, part, nullptr);
     }
 }
 
-void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, Index impulses, StageClock& clock)
+void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
+                                     StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
-        change_velocities(model, state, partition_.blocks[i]);
+        change_velocities(model, state, now, partition_.blocks[i]);
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
@@ -228,7 +264,7 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     if (team.is_first())
         add_up_contacts(state);
     for (Index i = mine.begin; i < mine.end; ++i)
-        partition_.blocks[i].way = update_positions(partition_.blocks[i].range, model, state.blocks, &work_.pseudo);
+        partition_.blocks[i].way = change_positions(model, state, partition_.blocks[i], &work_.pseudo);
 }
 
 template <typename Stage>

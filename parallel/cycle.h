@@ -2,6 +2,7 @@
 /// The stages of a cycle in their order, and which thread does what.
 
 #include "core/model/model.h"
+#include "core/motion/rest.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 #include "parallel/contact_rebuild.h"
@@ -41,9 +42,12 @@ class CycleRunner
     [[nodiscard]] StageSamples& samples_of(const Team& team);
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
-    void change_velocities(const Model& model, State& state, BlockPart& part);
-    void move(const Model& model, State& state, const Team& team);
-    void move_with_impulses(const Model& model, State& state, const Team& team, Index impulses, StageClock& clock);
+    void leave_out(const State& state, const Team& team);
+    void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
+    double change_positions(const Model& model, State& state, const BlockPart& part, std::vector<Triple>* pseudo);
+    void move(const Model& model, State& state, const Team& team, std::int64_t now);
+    void move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
+                            StageClock& clock);
     void apply_impulses(const Model& model, State& state, const Team& team, bool together);
     template <typename Stage>
     void for_colours(const Team& team, bool together, const Stage& stage);
@@ -52,10 +56,13 @@ class CycleRunner
     ContactRebuild rebuild_;
     Partition partition_;
     std::vector<StageSamples> samples_;
-    double moved_ = 0.0;  ///< since contacts were found [m]
+    double used_ = 0.0;  ///< share of their margins
     std::int64_t contact_point_updates_ = 0;
     Method prepared_for_ = Method::force;
     bool prepared_ = false;
-    bool relaxing_ = false;  ///< the stage looks for a state of rest, and not for the way to it
+    bool rests_ = false;                 ///< blocks at rest are left out,
+    RestLimits limits_;                  ///< which are those
+    std::int64_t first_evaluation_ = 0;  ///< cycle in which the contacts found last are evaluated first
+    bool relaxing_ = false;              ///< the stage looks for a state of rest, and not for the way to it
 };
 }  // namespace hdem

@@ -16,7 +16,10 @@ void cut(Index size, Index a_part, std::vector<Part>& parts)
 {
     parts.resize(static_cast<std::size_t>((size + a_part - 1) / a_part));
     for (Index i = 0; i < static_cast<Index>(parts.size()); ++i)
+    {
         parts[i].range = {i * a_part, std::min(size, (i + 1) * a_part)};
+        parts[i].active = {parts[i].range};
+    }
 }
 
 /// Least colour that no part before has on a movable block of this one. A block with 64 colours takes no more: such parts get colours of their own.

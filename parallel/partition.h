@@ -1,6 +1,7 @@
 #pragma once
 /// Contacts and blocks cut into pieces of work, and colours for pieces that must not run at the same time.
 
+#include "core/motion/pace.h"
 #include "core/state/energy_terms.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
@@ -16,13 +17,19 @@ struct ContactPart
     Index searched = 0;                  ///< features searched in this cycle
     EnergyLedger ledger;                 ///< of this cycle
     std::vector<ImpulsePoint> impulses;  ///< of this cycle
+    std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
 };
 
 struct BlockPart
 {
     IndexRange range;
-    EnergyLedger ledger;  ///< of this cycle
-    double way = 0.0;     ///< no point of these blocks went farther in this cycle [m]
+    std::vector<IndexRange> active;  ///< blocks that are not left out
+    bool rest_changed = false;       ///< what is left out is to be found anew
+    EnergyLedger ledger;             ///< of this cycle
+    double way = 0.0;                ///< no point of these blocks went farther in this cycle, as a share of the block's margin
+    StandingRock standing;
+    double pace_bound = 0.0;   ///< of the loose blocks that move
+    double stable_step = 0.0;  ///< [s]
 };
 
 struct Partition

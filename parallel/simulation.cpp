@@ -4,6 +4,7 @@
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 #include "core/motion/pace.h"
+#include "core/motion/rest.h"
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
@@ -117,7 +118,8 @@ void Simulation::begin_stage(Index stage)
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
-    reset_paces(state_.blocks);
+    reset_paces(model_, state_);
+    wake_all(state_.blocks);
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
     for (const std::string& name : def.excavate)

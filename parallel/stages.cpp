@@ -49,6 +49,7 @@ class StageRunner
     StageResult run()
     {
         const State& state = simulation_.state();
+        const auto begun = std::chrono::steady_clock::now();
         def_ = &simulation_.model().stages[state.stage];
         begin_ = state.stage_begin_cycle;
         end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
@@ -66,6 +67,7 @@ class StageRunner
             broken_off_ = keeper_ != nullptr && !keeper_->keep(simulation_);
         }
         result.cycles = state.cycle - begin_;
+        result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (broken_off_)
             return result;
         simulation_.check_state();
@@ -115,7 +117,7 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
     {
         const StageOutcome& outcome = state.stages_done[i];
         const StageDef& def = model.stages[i];
-        results.push_back({def.name, begin, outcome.cycles, def.until_converged, outcome.converged});
+        results.push_back({def.name, begin, outcome.cycles, def.until_converged, outcome.converged, 0.0});
         begin += outcome.cycles;
     }
     return results;

@@ -29,7 +29,7 @@ StageScratch::StageScratch(const State& from) : state(from)
 
 void evaluate(const Model& model, StageScratch& scratch)
 {
-    const ContactTally tally = evaluate_contacts(scratch.all_contacts(), model, scratch.state.method, scratch.state.blocks,
+    const ContactTally tally = evaluate_contacts(scratch.all_contacts(), model, {.method = scratch.state.method}, scratch.state.blocks,
                                                  scratch.state.contacts, scratch.loads);
     benchmark::DoNotOptimize(tally.closed);
     sum_forces(scratch.all_blocks(), model, scratch.block_contacts, scratch.loads, {}, scratch.state.blocks);

@@ -15,6 +15,7 @@ struct Threshold
     double scale;
     double gravity_velocity;  ///< dt |g| [m/s]
     double fixed;             ///< given velocity, or negative [m/s]
+    bool rock_keeps_springs;  ///< RegimeRule
     [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
 };
 
@@ -26,7 +27,7 @@ struct Group
     BasicEdgeTouch<Pack> touch;
     const JointLanes* joint;
     Pack length;  ///< each point's share of the contact length
-    Pack length_inverse, last_length_inverse;
+    Pack last_length, length_inverse, last_length_inverse;
     Pack w_ref, w_inc;
     Mask closed[2];
     Mask was_impulse[2];
@@ -72,6 +73,23 @@ Mask are_fast(const Group& g, Pack speed_squared, const Model& model, const Bloc
     return speed_squared > u_th * u_th * margin;
 }
 
+/// Standing rock keeps its springs, see RegimeRule.
+Mask leave_to_springs(Mask fast, const Group& g, Pack speed_squared, const Model& model, const Blocks& blocks)
+{
+    const double distance = model.convergence.loose_distance;
+    const auto keeps = [&](Index a, Index b, double squared)
+    {
+        const bool loose_a = blocks.is_loose(a, distance), loose_b = blocks.is_loose(b, distance);
+        const bool standing = (blocks.is_free(a) && !loose_a) || (blocks.is_free(b) && !loose_b);
+        const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
+        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size;
+    };
+    for (int j = 0; j < lanes; ++j)
+        if (fast.v[j] != 0 && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
+            fast.v[j] = 0;
+    return fast;
+}
+
 template <Method method>
 Mask are_impulsive(const Group& g, const Model& model, const Blocks& blocks, const Threshold& threshold)
 {
@@ -86,7 +104,10 @@ Mask are_impulsive(const Group& g, const Model& model, const Blocks& blocks, con
     }
     // The elastic part only adds: at rest nothing more needs to be known.
     const double least = threshold.least();
-    return any(speed > Pack(least * least)) ? are_fast(g, speed, model, blocks, threshold) : none;
+    if (!any(speed > Pack(least * least)))
+        return none;
+    const Mask fast = are_fast(g, speed, model, blocks, threshold);
+    return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
 }
 
 /// Incident vertices that have left the place at which the features were found.
@@ -122,6 +143,14 @@ enum class Impulses
     maybe
 };
 
+/// Share of the last impulse's force that its spring begins with, from the stretch it was left with.
+inline Pack kept_share(const Group& g, int k, Pack stretch)
+{
+    const Pack zero = 0.0;
+    const Pack kept = max(stretch, zero) * g.joint->law.normal_stiffness * g.last_length;
+    return select(g.last_normal[k] > zero, min(kept / g.last_normal[k], Pack(1.0)), zero);
+}
+
 template <Impulses impulses>
 [[gnu::always_inline]] inline void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
                                                   std::uint8_t* regime, Sums& sums)
@@ -132,14 +161,15 @@ template <Impulses impulses>
     const Pack spring_normal = none ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
     const Pack spring_shear = none ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
     const Pack last_rest = none ? zero : load_lane(l.rest_overlap[k]);
-    const Pack rest = none ? zero
-                           : rest_overlap(g.was_impulse[k], p.overlap, last_rest, g.last_normal[k],
-                                          g.joint->normal_compliance * g.length_inverse);
+    const Pack rest = none ? zero : rest_overlap(p.overlap, last_rest);
+    // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
+    const Pack handed = none ? g.last_shear[k]
+                             : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
+                                      g.last_shear[k]);
     const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
     const Pack curved = Pack(0.5) * dt * turning.t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt,
-                                                 g.last_shear[k]);
+    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt, handed);
     const Mask spring = none ? g.closed[k] : g.closed[k] & !impulsive;
     const Pack normal = select(spring, f.normal, zero);
     const Pack shear = select(spring, f.shear, zero);
@@ -176,10 +206,12 @@ template <Impulses impulses>
 }
 
 template <Method method>
-ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks, Contacts& contacts, ContactLoads& loads)
+ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_springs, const Blocks& blocks, Contacts& contacts,
+                      ContactLoads& loads)
 {
     const double dt = model.time_step;
-    const Threshold threshold{model.threshold_scale, dt * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0)};
+    const Threshold threshold{model.threshold_scale, dt * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
+                              rock_keeps_springs};
     LawLanes laws(model.joints.laws);
     Pack friction = 0.0, changes = 0.0;
     Mask::V closed{}, impulses{}, stale{};
@@ -211,6 +243,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks
 
         const Pack last_length = load_lane(l.last_length);
         const Pack both = Pack(1.0) / (g.length * last_length);  // one division for the two inverses
+        g.last_length = last_length;
         g.length_inverse = both * last_length;
         g.last_length_inverse = both * g.length;
         g.w_ref = ref.w;
@@ -249,17 +282,17 @@ ContactTally evaluate(IndexRange range, const Model& model, const Blocks& blocks
 }
 }  // namespace
 
-ContactTally evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
-                               ContactLoads& loads)
+ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                               Contacts& contacts, ContactLoads& loads)
 {
-    switch (method)
+    switch (rule.method)
     {
     case Method::force:
-        return evaluate<Method::force>(range, model, blocks, contacts, loads);
+        return evaluate<Method::force>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
     case Method::impulse:
-        return evaluate<Method::impulse>(range, model, blocks, contacts, loads);
+        return evaluate<Method::impulse>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
     case Method::hybrid:
-        return evaluate<Method::hybrid>(range, model, blocks, contacts, loads);
+        return evaluate<Method::hybrid>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
     }
     return {};
 }

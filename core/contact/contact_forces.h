@@ -2,6 +2,7 @@
 /// The contact stage of a cycle: overlaps, regime and force of a range of contacts, and their sums per block.
 
 #include "core/model/model.h"
+#include "core/contact/regime.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
@@ -14,7 +15,7 @@ namespace hdem
 ///
 /// Steps 1-3 of a cycle: overlap, length and relative velocity from the stored features (Eq. 3), regime (Eqs. 24-28),
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
-ContactTally evaluate_contacts(IndexRange range, const Model& model, Method method, const Blocks& blocks, Contacts& contacts,
+ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                                ContactLoads& loads);
 
 /// List the contacts of each block, in their order.

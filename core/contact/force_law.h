@@ -47,15 +47,33 @@ template <typename R>
 ///
 /// 0 for a point that has closed in the force regime. A point handed over from the impulse regime may overlap by more than its last
 /// force would press it (impulses do not look at overlaps): a spring that took the whole overlap would release energy that nobody
-/// put in, 3.5 kJ for 1 mm at 7e9 Pa/m and 1 m. So the spring begins with that force at most, and the rest stays until the blocks
-/// move apart.
+/// put in, 3.5 kJ for 1 mm at 7e9 Pa/m and 1 m. So the spring begins with the force that remains of the last impulse (remaining_force) at
+/// most, and the rest stays until the blocks move apart.
 ///
-///   u_0 = max(0, u - F / (K_N L)) at the hand-over;  u_0 <- min(u_0, u) afterwards
-///
-///   compliance  1 / (K_N L) [m/N]
-template <typename R, typename M>
-[[nodiscard]] inline R rest_overlap(M handed_over, R overlap, R last_rest, R last_normal, R compliance)
+///   u_0 = max(0, u - F_rem / (K_N L)) with the last impulse (first_rest_overlap);  u_0 <- min(u_0, u) afterwards
+template <typename R>
+[[nodiscard]] inline R rest_overlap(R overlap, R last_rest)
 {
-    return max(select(handed_over, overlap - last_normal * compliance, min(last_rest, overlap)), R(0.0));
+    return max(min(last_rest, overlap), R(0.0));
+}
+
+/// stiffness: K_N L [N/m]
+[[nodiscard]] inline double first_rest_overlap(double overlap, double remaining_force, double stiffness)
+{
+    return overlap > remaining_force / stiffness ? overlap - remaining_force / stiffness : 0.0;
+}
+
+/// What remains of an impulse as a force on the contact once the blocks no longer collide [N]:
+///
+///   F_rem = J / dt  |g| dt / (|g| dt + (1 + R) v)
+///
+///   v  approach velocity before the impulse, >= 0 [m/s]     weight_velocity  |g| dt, what weight adds to it in a cycle [m/s]
+///
+/// Of what the impulse takes away, (1 + R) v is the collision, over with it, and |g| dt is the weight, which stays: exact for a single block. With J / dt whole,
+/// a block that hits at 10 m/s began its spring with 2e4 times its weight, and stacks that fell gained 5 % of their energy.
+[[nodiscard]] inline double remaining_force(double force, double weight_velocity, double restitution, double approach)
+{
+    const double collision = (1.0 + restitution) * approach;
+    return collision > 0.0 ? force * weight_velocity / (weight_velocity + collision) : force;
 }
 }  // namespace hdem

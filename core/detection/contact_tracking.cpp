@@ -33,10 +33,22 @@ double skin_width(const Model& model)
     return model.contact.skin * model.mean_size;
 }
 
+void set_margins(const Model& model, Blocks& blocks)
+{
+    constexpr double cycles = 64.0;
+    constexpr double most = 8.0;
+    const double least = 0.5 * skin_width(model);
+    for (Index b = 0; b < blocks.size(); ++b)
+    {
+        const BlockMotion& m = blocks.motion[b];
+        const double way = (std::hypot(m.vx, m.vy) + std::abs(m.w) * model.radius[b]) * model.time_step;
+        blocks.margin[b] = way * cycles > least ? std::min(way * cycles, most * least) : least;  // least where `way` is not a number
+    }
+}
+
 void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes)
 {
     const Shapes& shapes = model.shapes;
-    const double half_skin = 0.5 * skin_width(model);
     for (Index part = parts.begin; part < parts.end; ++part)
     {
         const Index block = shapes.part_block[part];
@@ -52,11 +64,12 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
             lower = v == shapes.vertex_begin[part] ? world : Vec2(lower.cwiseMin(world));
             upper = v == shapes.vertex_begin[part] ? world : Vec2(upper.cwiseMax(world));
         }
-        boxes[part] = {lower - Vec2(half_skin, half_skin), upper + Vec2(half_skin, half_skin)};
+        const Vec2 margin(blocks.margin[block], blocks.margin[block]);
+        boxes[part] = {lower - margin, upper + margin};
     }
 }
 
-double greatest_move(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at)
+double margin_used(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<BlockMotion>& rebuilt_at)
 {
     double greatest = 0.0;
     for (Index i = range.begin; i < range.end; ++i)
@@ -65,8 +78,9 @@ double greatest_move(IndexRange range, const Model& model, const Blocks& blocks,
         const BlockMotion& then = rebuilt_at[i];
         const double turned = std::abs(now.angle - then.angle) * model.radius[i];
         const double moved = std::hypot(now.x - then.x, now.y - then.y);
-        if (blocks.present[i] != 0 && !(moved + turned <= greatest))
-            greatest = std::isfinite(moved + turned) ? moved + turned : std::numeric_limits<double>::infinity();
+        const double used = (moved + turned) / blocks.margin[i];
+        if (blocks.present[i] != 0 && !(used <= greatest))
+            greatest = std::isfinite(used) ? used : std::numeric_limits<double>::infinity();
     }
     return greatest;
 }
@@ -75,7 +89,6 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
                     const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger)
 {
     const Shapes& shapes = model.shapes;
-    const double skin = skin_width(model);
     const auto key_of = [&](Index i) { return pair_key(old.part_a[i], old.part_b[i]); };
     Index at = 0;  // in old; found by bisection once, then walked
     if (pairs_range.size() > 0)
@@ -103,11 +116,17 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
         while (at < old.size() && key_of(at) < key)
             ++at;
         Contact contact;
-        if (at < old.size() && key_of(at) == key)
+        const bool known = at < old.size() && key_of(at) == key;
+        if (known)
             contact = old.get(at);
+        if (known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b))
+        {
+            out.push_back(contact);  // neither has moved
+            continue;
+        }
         contact.part_a = part_a;
         contact.part_b = part_b;
-        if (search(model, blocks, contact, ledger) <= skin)
+        if (search(model, blocks, contact, ledger) <= blocks.margin[block_a] + blocks.margin[block_b])
             out.push_back(contact);
         else
             ledger.contact_changes += energy_of(model, blocks, contact);

@@ -7,18 +7,22 @@
 
 namespace hdem
 {
-/// Distance two parts may be apart and still be tracked as a contact [m].
+/// Distance two blocks at rest may be apart and still be tracked as a contact [m].
 [[nodiscard]] double skin_width(const Model& model);
 
-/// Boxes of the parts in `range` at the blocks' poses, widened by half the skin; empty for excavated blocks.
+/// Give each block its margin: half the skin, for fast ones their way in the next 64 cycles, up to eight times as much. Two blocks are tracked as a contact
+/// when they are nearer than their margins together. (A single block that fell had all contacts found anew every 20 cycles.)
+void set_margins(const Model& model, Blocks& blocks);
+
+/// Boxes of the parts in `range` at the blocks' poses, widened by the block's margin; empty for excavated blocks.
 void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes);
 
-/// Greatest way that a block of `range` has moved since the rebuild (turning counts with its radius) [m]. Contacts must be found anew once it
-/// exceeds half of the skin: two blocks may each use up half of it.
-[[nodiscard]] double greatest_move(IndexRange range, const Model& model, const Blocks& blocks,
+/// Greatest share of its margin that a block of `range` has moved since the rebuild; turning counts with its radius. Contacts must be found anew once it
+/// exceeds 1.
+[[nodiscard]] double margin_used(IndexRange range, const Model& model, const Blocks& blocks,
                                    const std::vector<BlockMotion>& rebuilt_at);
 
-/// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than the skin are left out,
+/// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out,
 /// contacts that `old` already has (same parts, ascending) keep their features and history. Appends to `out` in key order.
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
                     const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger);

@@ -194,7 +194,7 @@ struct ConvergenceDef
     double unbalanced_force_ratio = 1.0e-5;     ///< [-]
     std::int64_t least_cycles = 1000;           ///< not tested earlier in a stage
     std::int64_t check_every = 10;              ///< tested at multiples of this many cycles
-    double loose_distance = 0.01;              ///< a block that moved farther in its stage is loose: see core/motion/pace.h [m]
+    double loose_distance = 0.05;              ///< a block that moved farther in its stage is loose: see core/motion/pace.h [m]
     double detached_distance = 0.1;             ///< a block that moved farther counts as detached [m]
 };
 

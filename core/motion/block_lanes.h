@@ -71,11 +71,11 @@ inline constexpr std::ptrdiff_t row_stride = sizeof(Entry) / sizeof(double);
     return {i.a, i.b, i.c, i.d};
 }
 
-[[nodiscard]] inline Pack load_some(const double* from, Index count)
+[[nodiscard]] inline Pack load_some(const double* from, Index count, double otherwise = 0.0)
 {
     if (count == lanes)
         return Pack::load(from);
-    Pack p = 0.0;
+    Pack p = otherwise;
     for (Index i = 0; i < count; ++i)
         p.v[i] = from[i];
     return p;

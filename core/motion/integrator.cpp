@@ -3,6 +3,7 @@
 #include "core/detection/edge_touch.h"
 #include "core/motion/block_lanes.h"
 #include "core/motion/damping.h"
+#include "core/motion/rest.h"
 
 #include <utility>
 
@@ -101,6 +102,14 @@ SpringPower spring_power(IndexRange range, const Contacts& contacts, const Block
         }
     }
     return power;
+}
+
+/// Stopped blocks do not move, whatever acts on them.
+inline void hold_stopped(const std::uint8_t* rest, Index count, BasicInertia<Pack>& inertia)
+{
+    for (Index k = 0; k < count; ++k)
+        if (rest[k] >= stopped)
+            inertia.inverse_mass_x.v[k] = inertia.inverse_mass_y.v[k] = inertia.inverse_inertia.v[k] = 0.0;
 }
 
 /// One component of the motion of four blocks over one step.
@@ -238,7 +247,8 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
         [&](Index i, Index count)
         {
             const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
-            const BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
+            BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
+            hold_stopped(&blocks.rest[i], count, inertia);
             Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
             const Pack mass = load_some(&model.mass[i], count);
             const BasicBlockDamping<Pack> damping = conditional_damping(acting, preset, model.damping);
@@ -270,8 +280,9 @@ double update_positions(IndexRange range, const Model& model, Blocks& blocks, st
                        w.v[k] += p.w;
                        p = {};
                    }
-                   fastest = max(fastest, vx * vx + vy * vy);
-                   rim = max(rim, abs(w) * load_some(&model.radius[i], count));
+                   const Pack share = Pack(1.0) / load_some(&blocks.margin[i], count, 1.0);
+                   fastest = max(fastest, (vx * vx + vy * vy) * share * share);
+                   rim = max(rim, abs(w) * load_some(&model.radius[i], count) * share);
                    step(pose, v.d, vx, vy, w, dt);
                    pose.store(&blocks.motion[i].x, row_stride<BlockMotion>, count);
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);

@@ -31,7 +31,7 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
 
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
 /// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.
-/// @return bound on how far any point of these blocks has moved [m]
+/// @return bound on the share of its margin that any of these blocks has used up
 ///
 /// `pseudo`: velocities of the position correction to be added, one entry a block; used up. Or none.
 double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo = nullptr);

@@ -2,6 +2,7 @@
 
 #include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"
+#include "core/motion/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,25 @@ namespace hdem
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double most = 64.0;
-constexpr double slide_share = 7.5e-4;  // of the block's size a cycle
-constexpr double flight_share = 0.05;   // of the way to what is near, a cycle
-constexpr double gentle_share = 0.1;    // of sqrt(g size): impacts below are those of rocking and sliding
+constexpr double greatest = 64.0;                 // pace, of the rock and beyond it
+constexpr double finest = 1.1892071150027210667;  // 2^(1/4), between two paces
+constexpr double slide_share = 1.5e-3;            // of the block's size a cycle
+constexpr double flight_share = 0.05;             // of the way to what is near, a cycle
+constexpr double
+    stable_swing = 1.4;  // w dt: sqrt(2) less than what is stable beside something immovable, for what it touches may move as well
+constexpr double gentle_share = 0.03;  // of sqrt(g size): impacts below are those of rocking and sliding
+constexpr double move_speeds = 10.0;   // of the criterion's mean speed: blocks that are faster move
 
-void set_pace(double pace, Index block, Blocks& blocks)
+/// Greatest of the paces base, base 2^(1/4), base 2^(2/4), ... that is not above `bound`; base if all are.
+double floor_pace(double base, double bound)
+{
+    double pace = base;
+    while (pace * finest <= std::min(bound, base * greatest))
+        pace *= finest;
+    return pace;
+}
+
+void set_pace(double pace, Index block, const Model& model, Blocks& blocks)
 {
     const double n = pace / blocks.pace[block];
     blocks.pace[block] = pace;
@@ -26,9 +40,11 @@ void set_pace(double pace, Index block, Blocks& blocks)
     motion.vy *= n;
     motion.w *= n;
     BlockInertia& inertia = blocks.inertia[block];
-    inertia.inverse_mass_x *= n * n;
-    inertia.inverse_mass_y *= n * n;
-    inertia.inverse_inertia *= n * n;
+    const BlockInertia& full = model.full_inertia[block];
+    const auto scale = [&](double& inverse, double own) { inverse = inverse > 0.0 ? pace * pace * own : 0.0; };
+    scale(inertia.inverse_mass_x, full.inverse_mass_x);
+    scale(inertia.inverse_mass_y, full.inverse_mass_y);
+    scale(inertia.inverse_inertia, full.inverse_inertia);
 }
 
 /// What touches a block, or nearly does.
@@ -62,21 +78,15 @@ Surroundings look_around(Index block, const Model& model, const BlockContacts& l
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
-            s.frequency_squared += frequency_squared(contact, model.joints.laws[contact.law], p, block, model.full_inertia[block]);
             const double closing = p.v_m / pace;
             if (contact.point[k].regime == Regime::open && touch.length > 0.0 && closing > gentle)
                 s.time_to_hit = std::min(s.time_to_hit, std::max(0.0, -p.overlap) / closing);
+            if (p.overlap < -skin_width(model))
+                continue;
+            s.frequency_squared += frequency_squared(contact, model.joints.laws[contact.law], p, block, model.full_inertia[block]);
         }
     }
     return s;
-}
-
-bool is_loose(Index block, const Model& model, const Blocks& blocks)
-{
-    const BlockInertia& inertia = blocks.inertia[block];
-    const double distance = model.convergence.loose_distance;
-    return blocks.present[block] != 0 && inertia.inverse_mass_x > 0.0 && inertia.inverse_mass_y > 0.0 &&
-           inertia.inverse_inertia > 0.0 && blocks.displacement(block).squaredNorm() > distance * distance;
 }
 
 /// Greatest pace that a loose block by itself may have now.
@@ -86,15 +96,15 @@ double bound_of(Index block, const Model& model, const BlockContacts& list, cons
     const double speed = (std::hypot(motion.vx, motion.vy) + std::abs(motion.w) * model.radius[block]) / blocks.pace[block];
     const double step = std::max(speed * model.time_step, 1e-300);
     if (list.begin[block] == list.begin[block + 1])
-        return flight_share * skin_width(model) / step;
+        return flight_share * 2.0 * blocks.margin[block] / step;
     const Surroundings around = look_around(block, model, list, contacts, blocks);
     return std::min({slide_share * model.size(block) / step, flight_share * around.time_to_hit / model.time_step,
-                     1.0 / (std::sqrt(around.frequency_squared) * model.time_step)});
+                     stable_swing / (std::sqrt(around.frequency_squared) * model.time_step)});
 }
 
 /// The least bound of a block and the loose ones it touches: blocks that touch keep the same time, or they would slip on each other for no reason. Nor
 /// can a block that sticks to standing rock run ahead.
-double common_bound(Index block, const BlockContacts& list, const Contacts& contacts, const std::vector<double>& bounds)
+double joint_bound(Index block, const BlockContacts& list, const Contacts& contacts, const std::vector<double>& bounds)
 {
     double bound = bounds[block];
     for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
@@ -117,40 +127,72 @@ double common_bound(Index block, const BlockContacts& list, const Contacts& cont
 }
 }  // namespace
 
-void bound_paces(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks,
-                 std::vector<double>& bounds)
+StandingRock bound_paces(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts,
+                         const Blocks& blocks, std::vector<double>& bounds)
 {
+    StandingRock standing;
     for (Index b = range.begin; b < range.end; ++b)
-        bounds[b] = is_loose(b, model, blocks) ? std::max(bound_of(b, model, list, contacts, blocks), 1.0) : 0.0;
+    {
+        const bool loose = blocks.is_loose(b, model.convergence.loose_distance);
+        bounds[b] = loose ? std::max(bound_of(b, model, list, contacts, blocks), 1.0) : 0.0;
+        if (!blocks.is_free(b))
+            continue;
+        standing.free_mass += model.mass[b];
+        standing.kinetic_energy += loose ? 0.0 : kinetic_energy(model, blocks, b);
+    }
+    return standing;
 }
 
-void update_paces(IndexRange range, const BlockContacts& list, const Contacts& contacts, const std::vector<double>& bounds,
-                  bool may_grow, Blocks& blocks)
+double join_bounds(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks,
+                   const std::vector<double>& bounds, std::vector<double>& joined)
+{
+    double least = infinity;
+    const double slow = move_speeds * model.convergence.mean_speed;
+    for (Index b = range.begin; b < range.end; ++b)
+    {
+        joined[b] = bounds[b] == 0.0 ? 0.0 : joint_bound(b, list, contacts, bounds);
+        if (bounds[b] > 0.0 && kinetic_energy(model, blocks, b) > 0.5 * model.mass[b] * slow * slow)
+            least = std::min(least, joined[b]);
+    }
+    return least;
+}
+
+double next_loose_pace(const Model& model, const Paces& last, const StandingRock& standing, double bound, bool may_grow)
+{
+    const double slow = model.convergence.mean_speed;
+    if (bound == infinity || standing.kinetic_energy > 0.5 * standing.free_mass * slow * slow)
+        return last.rock;
+    const double most = std::max(may_grow ? 2.0 * last.loose : last.loose, last.rock);
+    return bound < most ? floor_pace(last.rock, bound) : floor_pace(last.rock, most * (1.0 + 1e-9));
+}
+
+double rock_pace(const Model& model, double step)
+{
+    return floor_pace(1.0, step / model.time_step);
+}
+
+void set_paces(IndexRange range, const Model& model, const Paces& paces, const std::vector<double>& joined, Blocks& blocks)
 {
     for (Index b = range.begin; b < range.end; ++b)
     {
-        if (bounds[b] == 0.0)
+        if (!blocks.is_free(b))
             continue;
-        const double bound = common_bound(b, list, contacts, bounds);
-        const double old = blocks.pace[b];
-        double pace = may_grow ? std::min(2.0 * old, most) : old;
-        while (pace > 1.0 && pace > bound)
-            pace *= 0.5;
-        if (pace != old)
-            set_pace(pace, b, blocks);
+        const double pace = joined[b] == 0.0 ? paces.rock : floor_pace(paces.rock, std::min(joined[b], paces.loose * (1.0 + 1e-9)));
+        if (pace != blocks.pace[b])
+            set_pace(pace, b, model, blocks);
     }
+}
+
+void reset_paces(const Model& model, State& state)
+{
+    state.pace = {};
+    for (Index b = 0; b < state.blocks.size(); ++b)
+        if (state.blocks.pace[b] != 1.0)
+            set_pace(1.0, b, model, state.blocks);
 }
 
 bool is_pace(double pace)
 {
-    int exponent = 0;
-    return pace >= 1.0 && pace <= most && std::frexp(pace, &exponent) == 0.5;
-}
-
-void reset_paces(Blocks& blocks)
-{
-    for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.pace[b] != 1.0)
-            set_pace(1.0, b, blocks);
+    return pace >= 1.0 && pace <= greatest * greatest;
 }
 }  // namespace hdem

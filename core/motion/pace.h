@@ -1,5 +1,5 @@
 #pragma once
-/// Loose blocks run ahead of the clock while the rock around them looks for its rest.
+/// A stage that looks for a state of rest: larger steps, and loose blocks ahead of the rock.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -7,35 +7,58 @@
 
 namespace hdem
 {
-/// In a stage that runs until it has converged, what is asked for is where blocks come to rest, not when. Nearly all of the rock does so within a few
-/// thousand cycles; then most cycles pass while single blocks slide out and fall. Such a block gets a clock of its own, n times as fast:
+/// In a stage that runs until it has converged, what is asked for is where blocks come to rest. A block of pace n makes n steps of its motion in one cycle:
 ///
 ///   m -> m / n^2,  I -> I / n^2,  v -> n v,  w -> n w       weight, springs and friction as they are
 ///
 /// Its path, the work of every force on it, and its kinetic energy stay the same; what takes n cycles takes one. This is the density scaling of
-/// quasi-static codes, for loose blocks alone. In `motion` and `inertia` stand the scaled values; Blocks::velocity gives those of the user.
+/// quasi-static codes. In `motion` and `inertia` stand the scaled values; Blocks::velocity gives those of the user. There are two paces:
 ///
-/// A block is loose once it has moved more than `loose_distance` since its stage began. Its pace n, a power of two so that scaling is exact, is the
-/// greatest, up to 64, for which
+/// `rock`, of all blocks. Where the case gives no step, the rock takes the largest that is stable: n dt = 0.8 * 2 / omega_max (stable_step), found anew as
+/// contacts change. With a step given, or with loads, which are laid down in cycles, it is 1. Where motions are prescribed both paces are 1.
 ///
-///   - n w dt <= 1, half of what is stable: w from its mass and the springs of all that touches it or is near;
-///   - it moves at most 7.5e-4 of its size a cycle, and with nothing near it 1/20 of the skin;
-///   - it comes at most 1/20 nearer to what it is about to hit at more than sqrt(g size) / 10: it hits with its true momentum, at the true step.
+/// `loose`, of blocks that moved more than `loose_distance` since the stage began, while the standing rock has come to rest: nearly all of it does within a
+/// few thousand cycles, and then most cycles pass while single blocks slide out and fall. It is the greatest, up to 64, for which each loose block that moves
 ///
-/// Blocks that touch have the same n; one that sticks to standing rock has n = 1.
+///   - has n w dt <= 1.4, stable beside another such block: w from its mass and the springs of all that touches it or is near;
+///   - moves at most 1.5e-3 of its size a cycle, and with nothing near it 1/20 of the skin;
+///   - comes at most 1/20 nearer to what it is about to hit at more than 0.03 sqrt(g size): it hits with its true momentum, at the step of the rock.
 ///
-/// First: what each loose block by itself allows, into `bounds`; 0 for a block that is not loose.
-void bound_paces(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks,
-                 std::vector<double>& bounds);
+/// One clock for all loose blocks keeps the order of events: with a clock each, a block that falls fast hits the rock before others have slid as far as they
+/// should. The standing rock is at rest when its kinetic energy is below that of all free blocks at `mean_speed`: if loose blocks run ahead of
+/// rock that still squeezes, it does not follow. As long as they run ahead the rock stands still, so that the time, which runs with them, is true for both.
 
-/// Second, when all bounds are known.
-void update_paces(IndexRange range, const BlockContacts& list, const Contacts& contacts, const std::vector<double>& bounds,
-                  bool may_grow, Blocks& blocks);
+/// Kinetic energy of the blocks that are not loose, and the mass of all free ones.
+struct StandingRock
+{
+    double kinetic_energy = 0.0;  ///< [J]
+    double free_mass = 0.0;       ///< [kg]
+};
+
+/// First: what each loose block by itself allows, into `bounds`; 0 for a block that is not loose.
+StandingRock bound_paces(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts,
+                         const Blocks& blocks, std::vector<double>& bounds);
+
+/// Second: with what it touches, into `joined`.
+/// @return the least of those that move, infinite without any
+double join_bounds(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks,
+                   const std::vector<double>& bounds, std::vector<double>& joined);
+
+/// Pace of the loose blocks from that of the cycle before.
+/// @param bound  the least of all that move
+[[nodiscard]] double next_loose_pace(const Model& model, const Paces& last, const StandingRock& standing, double bound,
+                                     bool may_grow);
+
+/// Pace of the rock for which `step` is stable [s].
+[[nodiscard]] double rock_pace(const Model& model, double step);
+
+/// Third: that of each block.
+void set_paces(IndexRange range, const Model& model, const Paces& paces, const std::vector<double>& joined, Blocks& blocks);
+
+/// All blocks back to one step a cycle.
+void reset_paces(const Model& model, State& state);
 
 [[nodiscard]] bool is_pace(double pace);
-
-/// All blocks back to the clock.
-void reset_paces(Blocks& blocks);
 
 /// Does the present stage look for a state of rest? Then it runs until it has converged, with hdem's own damping.
 [[nodiscard]] inline bool is_relaxing(const Model& model, const State& state)
@@ -44,7 +67,8 @@ void reset_paces(Blocks& blocks);
 }
 
 /// Cycles between two updates, and between two at which paces may grow: longer than a block swings on its springs, so that one that rocks or
-/// jolts stays with the clock.
+/// jolts stays with the rock.
 inline constexpr std::int64_t pace_every = 4;
 inline constexpr std::int64_t pace_growth_every = 16;
+inline constexpr std::int64_t rock_pace_every = 256;
 }  // namespace hdem

@@ -158,6 +158,8 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
     blocks.force.resize(n);
     blocks.inertia.resize(n);
     blocks.pace.assign(n, 1.0);
+    blocks.rest.assign(n, 0);
+    blocks.margin.assign(n, model.contact.skin * model.mean_size);
     blocks.present.assign(n, 1);
     for (Index i = 0; i < model.blocks(); ++i)
     {
@@ -174,6 +176,20 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
         blocks.reference_position.push_back(at);
         blocks.reference_angle.push_back(0.0);
     }
+}
+
+bool is_driven(const CaseDef& def, const Blocks& blocks)
+{
+    const auto prescribes = [](const LoadDef& load) { return load.velocity_x || load.velocity_y || load.angular_velocity; };
+    bool driven = std::any_of(def.loads.begin(), def.loads.end(), prescribes);
+    for (Index b = 0; b < blocks.size(); ++b)
+    {
+        const BlockMotion& v = blocks.motion[b];
+        const BlockInertia& inertia = blocks.inertia[b];
+        driven = driven || (v.vx != 0.0 && inertia.inverse_mass_x == 0.0) || (v.vy != 0.0 && inertia.inverse_mass_y == 0.0) ||
+                 (v.w != 0.0 && inertia.inverse_inertia == 0.0);
+    }
+    return driven;
 }
 }  // namespace
 
@@ -241,6 +257,8 @@ Setup build_model(const CaseDef& def)
     const double smallest = smallest_free_mass(model, setup.state.blocks);
     model.paper_time_step = paper_time_step(smallest, greatest_stiffness(model.joints), def.time.fraction);
     model.time_step = def.time.step.value_or(model.paper_time_step);
+    model.is_driven = is_driven(def, setup.state.blocks);
+    model.has_own_step = !def.time.step && def.loads.empty() && !model.is_driven;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock.blocks, model);
 
     std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);

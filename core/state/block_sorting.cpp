@@ -102,6 +102,8 @@ void sort_blocks(Model& model, State& state)
     permute(from, blocks.force);
     permute(from, blocks.inertia);
     permute(from, blocks.pace);
+    permute(from, blocks.rest);
+    permute(from, blocks.margin);
     permute(from, blocks.present);
     permute(from, blocks.reference_position);
     permute(from, blocks.reference_angle);

@@ -61,12 +61,18 @@ using BlockInertia = BasicInertia<double>;
     return i.inverse_mass_x > 0.0 || i.inverse_mass_y > 0.0 || i.inverse_inertia > 0.0;
 }
 
+/// Blocks::rest counts up to `stopped`; the cycle after, in which the contacts have been evaluated at rest, the block is left out.
+inline constexpr std::uint8_t stopped = 8;
+inline constexpr std::uint8_t left_out = 9;
+
 struct Blocks
 {
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
-    std::vector<double> pace;              ///< of each block's own clock, see core/motion/pace.h; a power of two, 1 as a rule [-]
+    std::vector<double> pace;              ///< of each block's own clock, see core/motion/pace.h; 1 as a rule [-]
+    std::vector<double> margin;            ///< a block may move so far until contacts must be found anew [m]
+    std::vector<std::uint8_t> rest;        ///< checks in a row that found the block quiet, see core/motion/rest.h
     std::vector<std::uint8_t> present;     ///< 0 once excavated
     std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
     std::vector<double> reference_angle;   ///< [rad]
@@ -78,6 +84,17 @@ struct Blocks
     [[nodiscard]] Vec2 displacement(Index block) const
     {
         return Vec2(motion[block].x, motion[block].y) - reference_position[block];
+    }
+    /// Has it to be looked at in a cycle? Not what is left out, nor what is fixed and does not move.
+    [[nodiscard]] bool takes_part(Index block) const
+    {
+        const BlockMotion& m = motion[block];
+        return is_free(block) ? rest[block] < left_out : m.vx != 0.0 || m.vy != 0.0 || m.w != 0.0;
+    }
+    /// Has a free block moved farther than this since its stage began?
+    [[nodiscard]] bool is_loose(Index block, double distance) const
+    {
+        return is_free(block) && displacement(block).squaredNorm() > distance * distance;
     }
 };
 }  // namespace hdem

@@ -18,6 +18,13 @@ struct StageOutcome
     bool converged = false;
 };
 
+/// How many steps one cycle is for the blocks, see core/motion/pace.h.
+struct Paces
+{
+    double rock = 1.0;
+    double loose = 1.0;  ///< of loose blocks that move; as that of the rock when there is none
+};
+
 struct State
 {
     Blocks blocks;
@@ -26,7 +33,9 @@ struct State
     std::vector<Index> next_to_excavation;      ///< blocks that touched what was excavated, ascending
     EnergyLedger ledger;
     std::int64_t cycle = 0;
-    double time = 0.0;                          ///< [s]
+    double time = 0.0;                          ///< cycle x step + ahead [s]
+    double ahead = 0.0;                         ///< what paces have added to it [s]
+    Paces pace;
     std::int64_t stage_begin_cycle = 0;
     Index stage = 0;                            ///< running, or next to begin
     bool stage_begun = false;                   ///< `stage` runs, or has just come to its end

@@ -46,6 +46,16 @@ struct ContactTally
     Index closed = 0;       ///< closed points
     Index impulses = 0;     ///< of these, in the impulse regime
     Index stale = 0;        ///< contacts whose features are to be searched anew
+
+    ContactTally& operator+=(const ContactTally& other)
+    {
+        friction += other.friction;
+        changes += other.changes;
+        closed += other.closed;
+        impulses += other.impulses;
+        stale += other.stale;
+        return *this;
+    }
 };
 
 /// Which contacts a block has: `entry` holds 2 contact + side (0: the block of part_a, 1: of part_b) from begin[block] to begin[block + 1], ascending.
@@ -68,7 +78,12 @@ struct ImpulsePoint
     double mass_normal = 0.0;  ///< collision masses, Eq. (16) [kg]
     double mass_shear = 0.0;
     double coupling = 0.0;          ///< with the other point of its contact, kept by the first of the two [1/kg]
+    double approach = 0.0;          ///< approach velocity before this cycle, >= 0 [m/s]
     double target = 0.0;            ///< approach velocity that the impulse must leave [m/s]
+    double weight_velocity = 0.0;   ///< what weight adds to it in a cycle [m/s]
+    double restitution = 0.0;       ///< R of Eq. (15) [-]
+    double overlap = 0.0;           ///< [m]
+    double stiffness = 0.0;         ///< K_N L of the point, for the spring that follows [N/m]
     double friction = 0.0;          ///< tan phi [-]
     double cohesive_impulse = 0.0;  ///< c L dt [N s]
     double excess_overlap = 0.0;    ///< to be corrected, if positive [m]
@@ -87,7 +102,8 @@ struct Workspace
 {
     ContactLoads loads;
     BlockContacts block_contacts;
-    std::vector<double> pace_bounds;  ///< see core/motion/pace.h, per block
+    std::vector<double> pace_bounds;   ///< see core/motion/pace.h, per block: by itself,
+    std::vector<double> joint_bounds;  ///< and with what it touches
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
     std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step

@@ -62,7 +62,12 @@ class Outcome:
             return {"failure": self.failure}
         wanted = ("cycles_after_excavation", "converged", "time_step", "kinetic_energy", "kinetic_energy_limit", "mean_displacement",
                   "max_displacement", "detached_blocks", "wall_seconds")
-        return {key: self.summary[key] for key in wanted} | {"cpu_seconds": self.cpu_seconds}
+        return {key: self.summary[key] for key in wanted} | {"cpu_seconds": self.cpu_seconds, "convergence_seconds": self.convergence_seconds}
+
+    @property
+    def convergence_seconds(self):
+        """On the wall, of the stage after the excavation."""
+        return self.summary["stage_wall_seconds"][-1]
 
 
 def digest(file):

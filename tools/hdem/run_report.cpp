@@ -142,7 +142,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
         s.cycles_after_excavation = state.cycle - state.excavation_cycle;
     for (const StageResult& stage : stages)
         s.stages.push_back(
-            {.name = stage.name, .cycles = stage.cycles, .until_converged = stage.until_converged, .converged = stage.converged});
+            {.name = stage.name, .cycles = stage.cycles, .until_converged = stage.until_converged, .converged = stage.converged, .wall_seconds = stage.wall_seconds});
     s.kinetic_energy = now.kinetic_energy;
     s.kinetic_energy_limit = now.kinetic_energy_at(model.convergence.mean_speed);
     s.unbalanced_force_ratio = now.unbalanced_force_ratio();

@@ -68,6 +68,27 @@ RowObserver::RowObserver(const Simulation& simulation, Log& log) : simulation_(s
 {
 }
 
+namespace
+{
+/// How a stage that looks for a state of rest deals with time.
+std::vector<std::string> pace_notes(const Model& model)
+{
+    std::vector<std::string> notes;
+    if (model.has_own_step)
+        notes.push_back(
+            fmt::format("note: no time.step is given: in this stage a cycle takes the largest step that is stable with the "
+                        "present contacts, from 1 to 64 times {:.4g} s.",
+                        model.time_step));
+    if (!model.is_driven)
+        notes.push_back(
+            fmt::format("note: blocks that have moved more than {:.4g} m in this stage run ahead of the rock while it is at "
+                        "rest, and the time with them. A greater convergence.loose_distance, or damping.preset = "
+                        "\"paper\" or \"dynamic\", keeps them with it.",
+                        model.convergence.loose_distance));
+    return notes;
+}
+}  // namespace
+
 std::int64_t RowObserver::next_cycle(std::int64_t now) const
 {
     constexpr std::int64_t progress_every = 200;  // the progress line lives between rows, on a terminal only
@@ -89,10 +110,8 @@ void RowObserver::begin_stage(const Model& model, const State& state)
                                 simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
                   : fmt::format("stage \"{}\": {} cycles", stage.name, most));
     if (is_relaxing(model, state))
-        log_.line(fmt::format("note: blocks that have moved more than {:.4g} m in this stage run ahead of the clock: the time of a "
-                              "fall is not that of nature. A greater convergence.loose_distance, or damping.preset = \"paper\" or "
-                              "\"dynamic\", keeps them with it.",
-                              model.convergence.loose_distance));
+        for (const std::string& note : pace_notes(model))
+            log_.line(note);
     log_.line(fmt::format("{:>9} {:>11} {:>12} {:>11} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]", "kinetic [J]",
                           "unbalanced", "stick", "slip", "impulse", "cycles/s", "time left"));
 }

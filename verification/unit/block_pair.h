@@ -116,11 +116,12 @@ struct BlockPair
     }
 
     /// Contact forces at the present poses, without weights; forces on each block are in state.blocks.force.
-    void evaluate(Method method = Method::force)
+    void evaluate(Method method = Method::force) { evaluate(RegimeRule{.method = method}); }
+    void evaluate(const RegimeRule& rule)
     {
         const IndexRange all{0, state.contacts.size()};
         loads.resize(state.contacts.stale.size());
-        evaluate_contacts(all, model, method, state.blocks, state.contacts, loads);
+        evaluate_contacts(all, model, rule, state.blocks, state.contacts, loads);
         BlockContacts list;
         list_block_contacts(state.contacts, state.blocks.size(), list);
         Model weightless = model;

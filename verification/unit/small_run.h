@@ -108,6 +108,8 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
     blocks.motion.push_back({.x = at.x(), .y = at.y()});
     blocks.force.emplace_back();
     blocks.pace.push_back(1.0);
+    blocks.rest.push_back(0);
+    blocks.margin.push_back(1.0);
     blocks.inertia.push_back(
         fixed ? BlockInertia{} : BlockInertia{1.0 / model.mass.back(), 1.0 / model.mass.back(), 1.0 / model.inertia.back(), 0.0});
     blocks.present.push_back(1);

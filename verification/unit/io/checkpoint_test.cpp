@@ -141,6 +141,25 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksAheadOfTheClock)
     EXPECT_GT(*std::max_element(state.blocks.pace.begin(), state.blocks.pace.end()), 1.0);
 }
 
+TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksThatRest)
+{
+    const ScratchFolder folder("checkpoint_rest");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.stages = {{.name = "dig", .until_converged = true, .max_cycles = 4000, .excavate = {"tunnel"}}};
+    scene.convergence.least_cycles = 5000;
+    scene.convergence.mean_speed = 5e-4;
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {1500, 2703, 3601})
+    {
+        run_until(scene, cycle, folder.path());
+        EXPECT_EQ(restart(scene, folder.path(), 2), unbroken) << "cycle " << cycle;
+    }
+    hdem::Setup setup = build_model(scene);
+    const State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+    EXPECT_GT(std::count(state.blocks.rest.begin(), state.blocks.rest.end(), left_out), setup.model.blocks() / 4);
+    EXPECT_GT(state.pace.rock, 1.0);
+}
+
 /// Blocks may be sorted anew while a run goes on; the case alone gives the order at the start.
 TEST(CheckpointReader, BringsTheModelIntoTheOrderOfTheRun)
 {

@@ -55,10 +55,10 @@ NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
 
 
 class TheStart(unittest.TestCase):
-    def said(self, *arguments, until=""):
+    def said(self, *arguments, until="", case=CASE):
         """Standard output and run.log, which are the same, of ten cycles and a second stage."""
         with tempfile.TemporaryDirectory() as folder:
-            case = CASE.replace("cycles = 2500", "cycles = 10", 1).replace("cycles = 2500", until or "cycles = 10")
+            case = case.replace("cycles = 2500", "cycles = 10", 1).replace("cycles = 2500", until or "cycles = 10")
             (Path(folder) / "small.toml").write_text(case, encoding="utf-8")
             run = subprocess.run([HDEM, "run", "small.toml", "-o", "out", *arguments], cwd=folder, check=False, capture_output=True, text=True)
             self.assertEqual(run.stderr, "")
@@ -72,8 +72,8 @@ class TheStart(unittest.TestCase):
         self.assertRegex(said, rf"(?m)^warning: threads = {processors + 1} \(more than the {processors} processors at hand.* Give --threads {processors}\.$")
         self.assertNotIn("warning: ", self.said("--threads", str(processors)))
 
-    def test_stages_where_blocks_run_ahead_of_the_clock_say_so(self):
-        note = "note: blocks that have moved more than 0.02 m in this stage run ahead of the clock"
+    def test_stages_where_blocks_run_ahead_of_the_rock_say_so(self):
+        note = "note: blocks that have moved more than 0.02 m in this stage run ahead of the rock while it is at rest"
         until, settings = 'until = "converged"\nmax_cycles = 100', ("--set", "convergence.loose_distance=0.02")
         said = self.said(*settings, until=until)
         self.assertEqual(said.count("note: "), 1, said)
@@ -81,6 +81,17 @@ class TheStart(unittest.TestCase):
         for preset in ("paper", "dynamic"):
             self.assertNotIn("note: ", self.said(*settings, "--set", f'damping.preset="{preset}"', until=until))
         self.assertNotIn("note: ", self.said(*settings))
+
+    def test_stages_that_take_the_stable_step_say_so(self):
+        until = 'until = "converged"\nmax_cycles = 100'
+        note = r"(?m)^note: no time\.step is given: in this stage a cycle takes the largest step .* from 1 to 64 times [\d.e-]+ s\.$"
+        load = CASE[CASE.index("[[load]]"):CASE.index("[[stage]]")]
+        free = CASE.replace(load, "").replace("step = 1e-4", "fraction = 0.1")
+        self.assertRegex(self.said(until=until, case=free), note)
+        self.assertNotRegex(self.said(until=until, case=free.replace("fraction = 0.1", "step = 1e-4")), note)
+        self.assertNotRegex(self.said(until=until, case=CASE.replace("step = 1e-4", "fraction = 0.1")), note, "loads are laid down in cycles")
+        driven = self.said(until=until, case=free.replace("fixed = true", "fixed = true\nvelocity = [0.1, 0]"))
+        self.assertNotIn("note: ", driven, "prescribed motions are those of the clock")
 
 
 class TheEnd(unittest.TestCase):

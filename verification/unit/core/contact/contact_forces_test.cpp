@@ -1,4 +1,5 @@
 #include "core/contact/contact_forces.h"
+#include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
 
 #include <cmath>
@@ -56,6 +57,92 @@ TEST(ThresholdVelocity, CountsTheMassOfAFixedBlockWhereTheCaseSaysSo)
         const double threshold = step * 9.81 + weight * std::sqrt(inverse_mass / 7e9);
         EXPECT_EQ(impulse_points(0.999 * threshold, counts), 0) << counts;
         EXPECT_EQ(impulse_points(1.001 * threshold, counts), 2) << counts;
+    }
+}
+
+/// Who answers when block `a` hits block `b` from above.
+class RockKeepsSprings : public testing::Test
+{
+  protected:
+    enum class Is
+    {
+        standing,
+        loose,
+        fixed
+    };
+
+    static test::BlockPair above(Is a, Is b, double speed)
+    {
+        CaseDef scene = test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {2, 1}));
+        for (int k = 0; k < 2; ++k)
+            scene.blocks[k].fix_x = scene.blocks[k].fix_y = scene.blocks[k].fix_rotation = (k == 0 ? a : b) == Is::fixed;
+        test::BlockPair pair(scene);
+        const auto place = [&](Index block, const Vec2& at, Is is)
+        {
+            const double way = (is == Is::loose ? 1.01 : 0.99) * pair.model.convergence.loose_distance;
+            pair.place(block, at, 0.0);
+            pair.state.blocks.reference_position[block] = at + Vec2(way, 0.0);
+        };
+        place(pair.a, {0.0, 1.0 - 1e-6}, a);
+        place(pair.b, {0.0, 0.0}, b);
+        pair.motion(pair.a).vy = -speed;
+        pair.search();
+        return pair;
+    }
+
+    static Regime regime(Is a, Is b, double speed, const RegimeRule& rule)
+    {
+        test::BlockPair pair = above(a, b, speed);
+        pair.evaluate(rule);
+        EXPECT_EQ(pair.state.contacts.size(), 1);
+        EXPECT_EQ(pair.state.contacts.regime[0][0], pair.state.contacts.regime[1][0]);
+        return static_cast<Regime>(pair.state.contacts.regime[0][0]);
+    }
+
+    static Regime relaxing(Is a, Is b, double speed)
+    {
+        return regime(a, b, speed, {.method = Method::hybrid, .rock_keeps_springs = true});
+    }
+
+    static constexpr double fast = 3.0;
+    const double limit = gentle_impact * std::sqrt(9.81 * 1.0);  ///< of the loose block, 1 m large [m/s]
+};
+
+TEST_F(RockKeepsSprings, UnderALooseBlockThatHitsHard)
+{
+    EXPECT_EQ(relaxing(Is::loose, Is::standing, fast), Regime::stick);
+    EXPECT_EQ(relaxing(Is::loose, Is::standing, 1.01 * limit), Regime::stick);
+    EXPECT_EQ(relaxing(Is::loose, Is::standing, 0.99 * limit), Regime::impulse) << "gently";
+}
+
+TEST_F(RockKeepsSprings, WhicheverOfTheTwoIsLoose)
+{
+    const double of_b = gentle_impact * std::sqrt(9.81 * std::sqrt(2.0));  // 2 m2
+    EXPECT_EQ(relaxing(Is::standing, Is::loose, 1.01 * of_b), Regime::stick);
+    EXPECT_EQ(relaxing(Is::standing, Is::loose, 0.99 * of_b), Regime::impulse);
+}
+
+TEST_F(RockKeepsSprings, AmongItself)
+{
+    EXPECT_EQ(relaxing(Is::standing, Is::standing, fast), Regime::stick);
+    EXPECT_EQ(relaxing(Is::standing, Is::standing, 0.01), Regime::stick);
+    EXPECT_EQ(relaxing(Is::standing, Is::fixed, fast), Regime::stick);
+}
+
+TEST_F(RockKeepsSprings, NotWhereNoRockStands)
+{
+    EXPECT_EQ(relaxing(Is::loose, Is::fixed, fast), Regime::impulse);
+    EXPECT_EQ(relaxing(Is::fixed, Is::loose, fast), Regime::impulse) << "one whose motion is prescribed";
+    EXPECT_EQ(relaxing(Is::loose, Is::loose, fast), Regime::impulse);
+}
+
+TEST_F(RockKeepsSprings, InStagesThatLookForRestAndUnderTheHybridMethodOnly)
+{
+    for (const Is b : {Is::standing, Is::loose, Is::fixed})
+    {
+        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::hybrid}), Regime::impulse);
+        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::impulse, .rock_keeps_springs = true}), Regime::impulse);
+        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::force, .rock_keeps_springs = true}), Regime::stick);
     }
 }
 }  // namespace

@@ -64,8 +64,8 @@ TEST(SpringForce, DissipatesTheClosedLoopOfCyclicShear)
 
 TEST(RestOverlap, IsZeroForAPointThatClosedInTheForceRegime)
 {
-    EXPECT_EQ(rest_overlap(false, 1e-5, 0.0, 100.0, 1.0 / 7e9), 0.0);
-    EXPECT_EQ(rest_overlap(false, -1e-5, 0.0, 0.0, 1.0 / 7e9), 0.0);
+    EXPECT_EQ(rest_overlap(1e-5, 0.0), 0.0);
+    EXPECT_EQ(rest_overlap(-1e-5, 0.0), 0.0);
 }
 
 /// A spring handed over from the impulse regime starts with the last force at most, and its rest length only ever shortens.
@@ -74,7 +74,7 @@ RC_GTEST_PROP(RestOverlap, GivesNoMoreForceThanTheLastOneAndOnlyShrinks, ())
     const double overlap = 1e-9 * *rc::gen::inRange(0, 1000000);
     const double last = 0.1 * *rc::gen::inRange(0, 1000000);
     const double stiffness = 7e9 * 0.5;
-    double rest = rest_overlap(true, overlap, 0.0, last, 1.0 / stiffness);
+    double rest = first_rest_overlap(overlap, last, stiffness);
     RC_ASSERT(rest >= 0.0);
     RC_ASSERT(stiffness * (overlap - rest) <= last + 1e-6 * overlap * stiffness);
     RC_ASSERT(rest == 0.0 || std::abs(stiffness * (overlap - rest) - last) <= 1e-9 * stiffness * overlap);
@@ -82,11 +82,22 @@ RC_GTEST_PROP(RestOverlap, GivesNoMoreForceThanTheLastOneAndOnlyShrinks, ())
     for (int i = 0; i < 20; ++i)
     {
         now += 1e-9 * *rc::gen::inRange(-200000, 200000);
-        const double next = rest_overlap(false, now, rest, 0.0, 1.0 / stiffness);
+        const double next = rest_overlap(now, rest);
         RC_ASSERT(next <= rest);
         RC_ASSERT(next == 0.0 || next <= now);
         rest = next;
     }
+}
+/// Of an impulse that stops a block which falls at v and gets g dt more in the cycle, the weight remains, m g.
+TEST(RemainingForce, OfACollisionIsTheWeight)
+{
+    const double mass = 2700.0, g = 9.81, dt = 5e-5;
+    for (const double v : {1e-6, 1e-3, 1.0, 50.0})
+        for (const double r : {0.0, 0.1, 1.0})
+            EXPECT_NEAR(remaining_force(mass * ((1.0 + r) * v + g * dt) / dt, g * dt, r, v), mass * g, 1e-9 * mass * g) << v;
+    EXPECT_EQ(remaining_force(mass * g, g * dt, 0.1, 0.0), mass * g) << "of a block at rest all of it";
+    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 0.0), 100.0) << "without gravity";
+    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 1.0), 0.0);
 }
 }  // namespace
 }  // namespace hdem

@@ -97,7 +97,8 @@ TEST(Skin, IsOutrunAfterHalfOfItByMovingOrTurning)
     const std::vector<BlockMotion> then = pair.state.blocks.motion;
     const double half = 0.5 * skin_width(pair.model);
     const IndexRange all{0, pair.state.blocks.size()};
-    const auto outrun = [&] { return greatest_move(all, pair.model, pair.state.blocks, then) > 0.5 * skin_width(pair.model); };
+    set_margins(pair.model, pair.state.blocks);
+    const auto outrun = [&] { return margin_used(all, pair.model, pair.state.blocks, then) > 1.0; };
     EXPECT_FALSE(outrun());
     pair.motion(pair.a).x += 0.99 * half;
     EXPECT_FALSE(outrun());
@@ -111,11 +112,29 @@ TEST(Skin, IsOutrunAfterHalfOfItByMovingOrTurning)
     EXPECT_FALSE(outrun()) << "excavated";
 }
 
+TEST(Skin, OfAFastBlockReachesAsFarAsItGoesInManyCycles)
+{
+    test::BlockPair pair(test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {1, 1})));
+    const double half = 0.5 * skin_width(pair.model), dt = pair.model.time_step;
+    const auto margin_at = [&](double speed)
+    {
+        pair.motion(pair.a).vx = speed;
+        set_margins(pair.model, pair.state.blocks);
+        return pair.state.blocks.margin[pair.a];
+    };
+    EXPECT_EQ(margin_at(0.0), half);
+    EXPECT_EQ(margin_at(0.5 * half / (64.0 * dt)), half);
+    EXPECT_DOUBLE_EQ(margin_at(3.0 * half / (64.0 * dt)), 3.0 * half);
+    EXPECT_DOUBLE_EQ(margin_at(1e6), 8.0 * half);
+    EXPECT_EQ(margin_at(std::nan("")), half) << "a run that has become unstable ends with its own error";
+}
+
 TEST(Boxes, HoldTheTurnedPartsAndHalfTheSkinAndAreEmptyOnceExcavated)
 {
     test::BlockPair pair(test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {1, 1})));
     pair.place(pair.a, {3.0, 4.0}, radians(45.0));
     pair.state.blocks.present[pair.b] = 0;
+    set_margins(pair.model, pair.state.blocks);
     std::vector<Box> boxes(2);
     compute_boxes({0, 2}, pair.model, pair.state.blocks, boxes);
     const double reach = std::sqrt(0.5) + 0.5 * skin_width(pair.model);

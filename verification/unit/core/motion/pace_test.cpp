@@ -1,8 +1,10 @@
 #include "core/energy_ledger.h"
 #include "core/motion/pace.h"
+#include "core/motion/time_step.h"
 #include "verification/unit/case_run.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hdem
 {
@@ -56,7 +58,7 @@ TEST(Pace, KeepsTheEnergyInEveryChange)
         greatest = std::max(greatest, blocks.pace[block]);
         EXPECT_TRUE(is_pace(blocks.pace[block]));
         EXPECT_EQ(blocks.inertia[block].inverse_mass_x,
-                  run.model().full_inertia[block].inverse_mass_x * blocks.pace[block] * blocks.pace[block]);
+                  blocks.pace[block] * blocks.pace[block] * run.model().full_inertia[block].inverse_mass_x);
         EXPECT_DOUBLE_EQ(kinetic_energy(run.model(), blocks, block),
                          0.5 * run.model().mass[block] * blocks.velocity(block).squaredNorm());
     }
@@ -88,6 +90,142 @@ TEST(Pace, IsForBlocksThatAreLooseInAStageThatLooksForRest)
         EXPECT_EQ(run.state().blocks.pace[run.slot("block")], 1.0);
         EXPECT_NEAR(run.displacement("block").y(), -0.5 * 9.81 * 0.16, 0.01);
     }
+}
+
+TEST(Pace, IsOneForAllLooseBlocks)
+{
+    CaseDef scene = falling(0.01);
+    scenes::add_block(scene, "fast", rectangle({1.5, 2.0}, {2.5, 3.0})).velocity = {0.0, -2.0};
+    CaseRun run(scene);
+    const auto fallen = [&](const char* name) { return -run.displacement(name).y(); };
+    int ahead = 0;
+    while (fallen("fast") < 1.9)
+    {
+        run.advance();
+        if (fallen("block") < 0.05)
+            continue;
+        const double pace = run.state().blocks.pace[run.slot("fast")];
+        ASSERT_EQ(run.state().blocks.pace[run.slot("block")], pace) << "cycle " << run.state().cycle;
+        ahead += pace > 1.0;
+    }
+    EXPECT_GT(ahead, 100);
+    // What the two have fallen belongs to the same time.
+    const double t = run.state().time;
+    EXPECT_NEAR(fallen("block"), 0.5 * 9.81 * t * t, 0.01);
+    EXPECT_NEAR(fallen("fast"), 2.0 * t + 0.5 * 9.81 * t * t, 0.02);
+}
+
+TEST(Pace, AddsUpToTheTime)
+{
+    CaseRun run(falling(0.01));
+    double sum = 0.0;
+    while (run.displacement("block").y() > -1.99)
+    {
+        run.advance();
+        sum += run.state().pace.loose;
+        ASSERT_NEAR(run.state().time, 5e-5 * sum, 1e-12);
+        ASSERT_EQ(run.state().time, static_cast<double>(run.state().cycle) * 5e-5 + run.state().ahead);
+    }
+    EXPECT_GT(run.state().ahead, 0.0);
+    EXPECT_NEAR(run.state().time, std::sqrt(2.0 * 1.99 / 9.81), 2e-3);
+}
+
+/// A block slides without friction at 0.2 m/s: until it has come loose itself, after 0.25 s, nothing falls ahead of it.
+TEST(Pace, StaysWithTheRockUntilThatHasComeToRest)
+{
+    for (const double speed : {0.0, 0.2})
+    {
+        CaseDef scene = falling(0.05);
+        scene.joints[0].friction_angle_deg = 0.0;
+        scenes::add_block(scene, "rock", rectangle({1.0, 0.0}, {2.0, 1.0})).velocity = {speed, 0.0};
+        CaseRun run(scene);
+        double greatest = 1.0;
+        while (run.state().time < 0.24)
+        {
+            run.advance();
+            greatest = std::max(greatest, run.state().blocks.pace[run.slot("block")]);
+        }
+        EXPECT_LT(run.displacement("block").y(), -0.2);
+        EXPECT_EQ(greatest > 1.0, speed == 0.0) << greatest;
+    }
+}
+
+/// Three blocks on each other: no step is given.
+CaseDef stack_at_its_own_step()
+{
+    CaseDef scene = scenes::stack(3);
+    scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 100'000}};
+    return scene;
+}
+
+TEST(Pace, OfTheRockIsTheStableStepOfTheCasesThatGiveNone)
+{
+    CaseDef own = stack_at_its_own_step(), given = own, loaded = own, driven = own, plated = own, timed = own, paper = own;
+    given.time.step = CaseRun(own).model().time_step;
+    loaded.loads.push_back({.blocks = {"block1"}, .force = {1.0, 0.0}});
+    driven.blocks[3].fix_x = true;
+    driven.loads.push_back({.blocks = {"block3"}, .velocity_x = 0.0});
+    scenes::add_fixed_block(plated, "plate", rectangle({5, 5}, {6, 6})).velocity = {0.1, 0.0};
+    timed.stages = {{.name = "rest", .cycles = 100'000}};
+    paper.damping.preset = DampingPreset::paper;
+    for (const CaseDef& scene : {given, loaded, driven, plated, timed, paper})
+    {
+        CaseRun run(scene);
+        run.advance(600);
+        EXPECT_EQ(run.state().pace.rock, 1.0);
+        EXPECT_EQ(run.state().blocks.pace, std::vector<double>(run.state().blocks.pace.size(), 1.0));
+        EXPECT_EQ(run.state().ahead, 0.0);
+    }
+    CaseRun run(own);
+    run.advance(600);
+    const double pace = run.state().pace.rock;
+    const double limit = critical_time_step(run.model(), run.state().blocks, run.state().contacts, 2000);
+    EXPECT_GT(pace, 2.0);
+    EXPECT_LE(run.model().time_step, 0.8 * limit) << "by the present masses, which hold the pace";
+    EXPECT_GE(run.model().time_step, 0.8 * 0.6 * limit / 1.2);
+    for (const char* name : {"block1", "block2", "block3"})
+        EXPECT_EQ(run.state().blocks.pace[run.slot(name)], pace);
+}
+
+/// Within a swing the energy of a great step, whose velocities belong to half a step earlier, goes up and down; from one swing to the next it must not grow.
+TEST(Pace, OfARockAtItsOwnStepAddsNoEnergy)
+{
+    CaseDef scene = scenes::wall(8, 6);
+    scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 100'000}};
+    scene.convergence.mean_speed = 1e-7;  // nothing is left out
+    CaseRun run(scene);
+    const double start = run.energy();
+    double last = std::numeric_limits<double>::infinity();
+    for (int window = 0; window < 80; ++window)
+    {
+        double most = -std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 128; ++i)
+        {
+            run.advance();
+            most = std::max(most, run.energy());
+        }
+        ASSERT_LT(most, last + 1e-3) << "J, of 136 J; cycle " << run.state().cycle;
+        last = most;
+    }
+    EXPECT_LT(last, start - 130.0) << "pressed together by its weight";
+    EXPECT_GT(run.state().pace.rock, 2.0);
+    EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-8);
+    EXPECT_LT(run.simulation.equilibrium().kinetic_energy, 0.01);
+}
+
+TEST(Pace, LeavesOutWhatIsPrescribedOfABlock)
+{
+    CaseDef scene = falling(0.01);
+    scene.blocks[1].fix_x = scene.blocks[1].fix_rotation = true;
+    CaseRun run(scene);
+    run.advance(1100);
+    const Index block = run.slot("block");
+    const BlockInertia& inertia = run.state().blocks.inertia[block];
+    const double pace = run.state().blocks.pace[block];
+    ASSERT_GT(pace, 1.0);
+    EXPECT_EQ(inertia.inverse_mass_x, 0.0);
+    EXPECT_EQ(inertia.inverse_inertia, 0.0);
+    EXPECT_EQ(inertia.inverse_mass_y, pace * pace * run.model().full_inertia[block].inverse_mass_y);
 }
 
 TEST(Pace, BeginsAnewWithEveryStage)

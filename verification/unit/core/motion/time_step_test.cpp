@@ -1,4 +1,6 @@
+#include "core/contact/contact_forces.h"
 #include "core/motion/time_step.h"
+#include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
 
 #include <Eigen/Eigenvalues>
@@ -40,14 +42,19 @@ TEST(CriticalTimeStep, OfABlockThatOnlyMovesUpAndDownIsTwoOverOmega)
     EXPECT_NEAR(critical(CaseRun(scene), 60), 2.0 / std::sqrt(7e9 / 2700.0), 1e-9);  // one degree of freedom: exact
 }
 
-/// A free square of side 1 on ground: sway and rotation are coupled. Springs K_N/2, K_S/2 at two points half a metre to the sides and below.
+/// omega_max^2 of a free square of side 1 on immovable ground: up and down, or rocking, in which sway and rotation are coupled. Springs K_N/2, K_S/2 at
+/// two points half a metre to the sides and below.
+double greatest_on_ground(double mass)
+{
+    const double k_n = 7e9, k_s = 5e8, inertia = mass / 6.0, coupling = 0.5 * k_s / std::sqrt(mass * inertia);
+    Eigen::Matrix2d stiffness;  // by mass: sway, rotation
+    stiffness << k_s / mass, coupling, coupling, (0.25 * k_n + 0.25 * k_s) / inertia;
+    return std::max(stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff(), k_n / mass);
+}
+
 TEST(CriticalTimeStep, OfAFreeBlockIsThatOfItsRockingMode)
 {
-    const double k_n = 7e9, k_s = 5e8, mass = 2700.0, inertia = mass / 6.0;
-    Eigen::Matrix2d stiffness;  // by mass: sway, rotation
-    stiffness << k_s / mass, 0.5 * k_s / std::sqrt(mass * inertia), 0.5 * k_s / std::sqrt(mass * inertia),
-        (0.25 * k_n + 0.25 * k_s) / inertia;
-    const double greatest = std::max(stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff(), k_n / mass);
+    const double greatest = greatest_on_ground(2700.0);
     const CaseRun run(scenes::block_on_ground());
     EXPECT_NEAR(critical(run, 2000), 2.0 / std::sqrt(greatest), 1e-6 * 2.0 / std::sqrt(greatest)) << "converged power iteration";
     const double estimate = critical(run, 60);
@@ -69,11 +76,115 @@ TEST(CriticalTimeStep, OfAChainIsThatOfItsHighestMode)
     }
 }
 
+/// The stiffest mode is the turning of the one against the other, with k_n / 4 each to the two inertias.
+TEST(CriticalTimeStep, OfTwoSquaresOnEachOtherIsThatOfTheirTurning)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "low", scenes::rectangle({0, 0}, {1, 1}));
+    scenes::add_block(scene, "high", scenes::rectangle({0, 1}, {1, 2}));
+    const double limit = 2.0 / std::sqrt(0.25 * 7e9 * 2.0 / (2700.0 / 6.0));
+    EXPECT_NEAR(critical(CaseRun(scene), 2000), limit, 1e-6 * limit);
+    EXPECT_NEAR(critical(CaseRun(scene), 60), limit, 0.05 * limit);
+}
+
 TEST(CriticalTimeStep, IsInfiniteWithoutContacts)
 {
     CaseDef scene = scenes::empty_scene();
     scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
     EXPECT_EQ(critical(CaseRun(scene), 60), std::numeric_limits<double>::infinity());
+}
+
+double stable(const Model& model, const State& state, StepOf which = StepOf::all)
+{
+    BlockContacts list;
+    list_block_contacts(state.contacts, state.blocks.size(), list);
+    return stable_step({0, state.blocks.size()}, which, model, list, state.contacts, state.blocks);
+}
+
+double stable(const CaseRun& run)
+{
+    return stable(run.model(), run.state());
+}
+
+TEST(StableStepBound, OfABlockOnTheGroundIsTheLimit)
+{
+    const double limit = 2.0 / std::sqrt(greatest_on_ground(2700.0));
+    EXPECT_NEAR(stable(CaseRun(scenes::block_on_ground())), limit, 1e-9 * limit);
+}
+
+/// A corner stands on the middle of a face: one normal spring through both centroids, and a shear spring of next to nothing. Then two masses swing on one
+/// spring, omega^2 = k (1/m_a + 1/m_b).
+TEST(StableStepBound, OfOneSpringBetweenTwoBlocksIsTheLimit)
+{
+    const double r = std::sqrt(0.5);
+    CaseDef scene = test::pair_scene(scenes::rectangle({0, 0}, {4, 1}), {{0, -r}, {r, 0}, {0, r}, {-r, 0}});
+    scene.joints[0].shear_stiffness = 1.0;
+    test::BlockPair pair(scene);
+    pair.place(pair.a, {0.0, 0.0}, 0.0);
+    pair.place(pair.b, {0.0, 0.5 + r - 1e-6}, 0.0);
+    pair.search();
+    ASSERT_EQ(pair.state.contacts.size(), 1);
+    const Contact contact = pair.state.contacts.get(0);
+    const double stiffness = 7e9 * point_length(pair.touch(contact).length, contact.length_floor);
+    const double limit = 2.0 / std::sqrt(stiffness * (1.0 / 2700.0 + 1.0 / (4.0 * 2700.0)));
+    EXPECT_NEAR(stable(pair.model, pair.state), limit, 1e-6 * limit);
+    EXPECT_NEAR(critical_time_step(pair.model, pair.state.blocks, pair.state.contacts, 2000), limit, 1e-6 * limit);
+}
+
+/// 0.83 to 0.99 of it in these.
+TEST(StableStepBound, IsBelowTheLimitOfAnyPackingButNotByMuch)
+{
+    const auto expect_below = [](const CaseDef& scene, std::int64_t cycles)
+    {
+        CaseRun run(scene);
+        run.advance(cycles);
+        const double limit = critical(run, 3000);
+        EXPECT_LE(stable(run), limit * (1.0 + 1e-6));
+        EXPECT_GE(stable(run), 0.6 * limit);
+    };
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+    {
+        SCOPED_TRACE(seed);
+        expect_below(scenes::voronoi(8, 8, seed), 2000);
+        expect_below(scenes::pile(40, 8, seed), 25'000);  // has fallen
+    }
+    expect_below(scenes::joints(10.0, 10.0, 1.0, 3.0), 2000);
+}
+
+TEST(StableStepBound, IsInfiniteWithoutContacts)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+    EXPECT_EQ(stable(CaseRun(scene)), std::numeric_limits<double>::infinity());
+}
+
+TEST(StableStepBound, KnowsTheMassesOfPaceOne)
+{
+    const CaseRun run(scenes::stack(3));
+    State state = run.state();
+    for (BlockInertia& inertia : state.blocks.inertia)
+        inertia.inverse_mass_x *= 16.0;
+    EXPECT_EQ(stable(run.model(), state), stable(run));
+}
+
+/// A heap of unit squares and, apart from it, a light block on the ground that gives the smaller step.
+TEST(StableStepBound, MayLeaveOutBlocksThatRestAmongTheirLike)
+{
+    CaseDef scene = scenes::stack(4);
+    scenes::add_block(scene, "light", scenes::rectangle({1.0, 0.0}, {1.2, 0.2}));
+    const CaseRun run(scene);
+    State state = run.state();
+    const auto moving = [&] { return stable(run.model(), state, StepOf::moving); };
+    const double all = stable(run);
+    EXPECT_EQ(moving(), all);
+    state.blocks.rest[run.slot("light")] = left_out;
+    EXPECT_GT(moving(), 1.01 * all);
+    EXPECT_EQ(stable(run.model(), state), all);
+    for (const char* name : {"block1", "block2", "block3"})
+        state.blocks.rest[run.slot(name)] = left_out;
+    EXPECT_LT(moving(), std::numeric_limits<double>::infinity()) << "block3 rests beside block4, which moves";
+    state.blocks.rest[run.slot("block4")] = left_out;
+    EXPECT_EQ(moving(), std::numeric_limits<double>::infinity());
 }
 
 TEST(CriticalTimeStep, IsNamedWhenTheStepIsAboveIt)
