@@ -17,7 +17,7 @@ struct StageSummary
     std::int64_t cycles = 0;
     bool until_converged = false;                  ///< that was its aim
     bool converged = false;
-    double wall_seconds = 0.0;                     ///< of this session [s]
+    double wall_seconds = 0.0;                     ///< since the start or restart [s]
 };
 
 /// Wall time of one stage of the cycles, over the threads.

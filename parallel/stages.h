@@ -31,7 +31,7 @@ struct StageResult
     std::int64_t cycles = 0;
     bool until_converged = false;  ///< that was its aim
     bool converged = false;
-    double wall_seconds = 0.0;  ///< of this session
+    double wall_seconds = 0.0;  ///< since the start or restart
 };
 
 /// Is the rock at rest by all criteria of the case?
