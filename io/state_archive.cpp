@@ -177,7 +177,7 @@ void exchange_contacts(Archive& archive, std::vector<Contact>& contacts, std::ve
                                       [k](Contact& c)
                                       {
                                           PointHistory& p = c.point[k];
-                                          return std::tie(p.normal_force, p.shear_force, p.rest_overlap, p.overlap);
+                                          return std::tie(p.normal_force, p.shear_force, p.rest_overlap, p.overlap, p.tilt_force);
                                       });
 }
 

@@ -134,6 +134,7 @@ struct Sums
          moment_inc = 0.0;            ///< on inc, along and across the edge; moments about the centroids
     Pack used = 0.0, strength = 0.0;  ///< shear force and shear strength of force points
     Pack friction = 0.0, changes = 0.0;
+    Pack normal[2], work = 0.0;  ///< normal forces, and the sum of normal force times stretch
 };
 
 /// Do impulses play a part at four contacts, in this cycle or the last?
@@ -197,12 +198,34 @@ template <Impulses impulses>
     store_lane(l.normal_force[k], none ? normal : select(held, g.last_normal[k], normal));
     store_lane(l.shear_force[k], none ? shear : select(held, g.last_shear[k], shear));
 
+    sums.normal[k] = normal;
+    sums.work += normal * (none ? p.overlap : p.overlap - rest);
     sums.used += abs(shear);
     sums.strength += select(spring, f.strength, zero);
     sums.f_t += shear;
     sums.f_m -= normal;
     sums.moment_inc -= p.inc_t * normal + p.inc_m * shear;
     sums.moment_ref += p.ref_t * normal + p.ref_m * shear;
+}
+
+/// Tilt forces of both points, and their work: half a step under those of the last cycle, half under those of now.
+inline void add_tilt_forces(const Group& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
+{
+    const Pack pull = select(g.touch.length > floor, length_pull(sums.work, g.length_inverse), Pack(0.0));
+    for (int k = 0; k < 2; ++k)
+    {
+        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        const Pack tilt = tilt_force(sums.normal[k], g.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
+        // It acts on the surface of inc, half of the overlap beyond the point.
+        const Pack beyond = Pack(0.5) * p.overlap;
+        const Pack v_t = p.v_t - (g.w_inc - g.w_ref) * beyond;
+        const Pack then = v_t - TurningRate<Pack>(p, g.w_ref, g.w_inc).t * dt;
+        sums.changes -= Pack(0.5) * dt * (tilt * v_t + load_lane(l.tilt_force[k]) * then);
+        store_lane(l.tilt_force[k], tilt);
+        sums.f_t += tilt;
+        sums.moment_inc -= (p.inc_m + beyond) * tilt;
+        sums.moment_ref += (p.ref_m + beyond) * tilt;
+    }
 }
 
 template <Method method>
@@ -257,6 +280,7 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         else
             for (int k = 0; k < 2; ++k)
                 evaluate_point<Impulses::maybe>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+        add_tilt_forces(g, floor, dt, l, sums);
         store_lane(l.last_length, g.length);
         friction += sums.friction;
         changes += sums.changes;

@@ -3,6 +3,8 @@
 
 #include "core/joint/coulomb_slip.h"
 
+#include <limits>
+
 namespace hdem
 {
 /// Force on the incident block: `normal` pushes it out of the reference block, `shear` acts along t.
@@ -41,6 +43,32 @@ template <typename R>
     f.shear = slip_limited(trial, f.strength);
     f.excess = trial - f.shear;
     return f;
+}
+
+/// dV/dL of the normal springs' energy V, see tilt_force [N]. `work`: sum over both points of F_N times stretch [J], `length_inverse` 2 / L [1/m].
+template <typename R>
+[[nodiscard]] inline R length_pull(R work, R length_inverse)
+{
+    return R(0.25) * work * length_inverse;
+}
+
+/// Force along the edge that belongs to a point's normal spring, on inc along t [N].
+///
+/// Both points hold V = sum of 1/2 K_N (L/2) s^2, s their stretches. The normal forces are -dV/ds; but V also changes when inc slides along t:
+///
+///   f slope    at an end of the reference edge the incident edge passes with its slope ds/dt
+///   -+ dV/dL   a vertex of the incident edge takes contact length with it: inwards at the upper end, outwards at the lower (`pull` is given signed)
+///
+/// Not in the paper, which has one length. Without it V is no potential: a block thrown corner first at a joint left with 9 % more energy, undamped with
+/// 32 %. Of the order u / L of the normal force: 1e-5 in rock.
+/// Where a vertex lies on the reference edge's end, as in flush blocks, V has a kink, and rounding would choose the side: dV/dL begins with 0 there and is
+/// whole once the vertex is inside by the overlap.
+/// @see verification/unit/core/contact/force_law_test.cpp
+template <typename R>
+[[nodiscard]] inline R tilt_force(R normal, R slope, R pull, R inside, R overlap)
+{
+    const R tiny = std::numeric_limits<double>::min();
+    return select(inside < R(0.0), normal * slope, pull * inside / max(max(inside, overlap), tiny));
 }
 
 /// Overlap at which a point's normal spring is empty [m], >= 0.

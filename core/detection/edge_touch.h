@@ -15,9 +15,10 @@ struct BasicTouchPoint
     R ref_m = 0.0;
     R inc_t = 0.0;  ///< from the centroid of inc to the point [m]
     R inc_m = 0.0;
-    R v_t = 0.0;                   ///< velocity of inc relative to ref at the point, Eq. (3) [m/s]; along the edge
-    R v_m = 0.0;                   ///< into ref: > 0 when approaching
-    decltype(R() < R()) on_ref{};  ///< an end of the reference edge; else a vertex of the incident one
+    R v_t = 0.0;  ///< velocity of inc relative to ref at the point, Eq. (3) [m/s]; along the edge
+    R v_m = 0.0;  ///< into ref: > 0 when approaching
+    R inside =
+        0.0;  ///< by how far the incident vertex lies within the reference edge's end; < 0: that end is the point, else the vertex [m]
 };
 using TouchPoint = BasicTouchPoint<double>;
 
@@ -28,6 +29,7 @@ struct BasicEdgeTouch
     R ex = 1.0;  ///< reference edge's direction t in the world [-]; m is it turned left
     R ey = 0.0;
     R length = 0.0;  ///< contact length: of the incident edge's part over the reference edge; <= 0: beside each other [m]
+    R slope = 0.0;   ///< of the incident edge, d overlap / d t [-]
     BasicTouchPoint<R> point[2];  ///< 0 at the lower t
 };
 using EdgeTouch = BasicEdgeTouch<double>;
@@ -78,15 +80,15 @@ template <typename R>
     const R high = min(e.length, inc_high);
     touch.length = high - low;
     const R run = v.t1 - v.t0;
-    const R slope = (v.m1 - v.m0) / select(run == R(0.0), R(1.0), run);
+    touch.slope = (v.m1 - v.m0) / select(run == R(0.0), R(1.0), run);
     const R u_t = v.ex * (inc.vx - ref.vx) + v.ey * (inc.vy - ref.vy);
     const R u_m = v.ex * (inc.vy - ref.vy) - v.ey * (inc.vx - ref.vx);
     for (int k = 0; k < 2; ++k)
     {
         const R t = k == 0 ? low : high;
         BasicTouchPoint<R>& p = touch.point[k];
-        p.overlap = v.m0 + slope * (t - v.t0);
-        p.on_ref = k == 0 ? inc_low < R(0.0) : inc_high > e.length;
+        p.overlap = v.m0 + touch.slope * (t - v.t0);
+        p.inside = k == 0 ? inc_low : e.length - inc_high;
         p.ref_t = e.start_t + t;
         p.ref_m = e.start_m + R(0.5) * p.overlap;
         p.inc_t = p.ref_t - v.d_t;
@@ -110,7 +112,7 @@ struct TurningRate
 
     TurningRate(const BasicTouchPoint<R>& p, R w_ref, R w_inc)
     {
-        const R w = w_ref + select(p.on_ref, w_inc, w_ref);
+        const R w = w_ref + select(p.inside < R(0.0), w_inc, w_ref);
         t = w_ref * w_ref * p.ref_t - w_inc * w_inc * p.inc_t + w * p.v_m;
         m = w_ref * w_ref * p.ref_m - w_inc * w_inc * p.inc_m - w * p.v_t;
     }

@@ -3,6 +3,7 @@
 #include "core/detection/edge_touch.h"
 #include "core/geometry/convex_part.h"
 
+#include <cmath>
 #include <limits>
 
 namespace hdem
@@ -221,6 +222,7 @@ void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
         PointHistory& point = contact.point[nearest];
         point.normal_force += old.point[k].normal_force;
         point.shear_force += along > 0.9 ? along * old.point[k].shear_force : 0.0;
+        point.tilt_force += along * old.point[k].tilt_force;
         point.rest_overlap = std::max(point.rest_overlap, old.point[k].rest_overlap);
         point.regime = std::max(point.regime, old.point[k].regime);
     }
@@ -235,6 +237,35 @@ void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& co
     contact.last_length = point_length(touch.length, contact.length_floor);
     for (int k = 0; k < 2; ++k)
         contact.point[k].overlap = touch.point[k].overlap - touch.point[k].v_m * dt;
+}
+
+/// Springs of new features hold no more energy than the old ones did. A corner that turns past the middle between its two sides passes from a face over which
+/// it has 0.1 m to one over which it has 0.7 m: with the whole overlap of now its spring would hold seven times the energy, which nobody put in. What is too
+/// much of the overlap becomes rest overlap, as after impulses (contact/force_law.h); where the new springs hold less, the rest is lost.
+void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombSlip& law, Contact& contact)
+{
+    double old_normal = 0.0, old_shear = 0.0, normal = 0.0, shear = 0.0;  // twice the energies [J]
+    for (int k = 0; k < 2; ++k)
+    {
+        if (old.point[k].regime == Regime::impulse)
+            return;
+        const PointHistory& then = old.point[k];
+        const PointHistory& now = contact.point[k];
+        const double overlap = std::max(now.overlap, 0.0);
+        old_normal += then.normal_force * then.normal_force / (old_law.normal_stiffness * old.last_length);
+        old_shear += then.shear_force * then.shear_force / (old_law.shear_stiffness * old.last_length);
+        normal += law.normal_stiffness * contact.last_length * overlap * overlap;
+        shear += now.shear_force * now.shear_force / (law.shear_stiffness * contact.last_length);
+    }
+    if (old_normal == 0.0)
+        return;
+    const double kept = normal > old_normal ? std::sqrt(old_normal / normal) : 1.0;
+    const double kept_shear = shear > old_shear ? std::sqrt(old_shear / shear) : 1.0;
+    for (PointHistory& point : contact.point)
+    {
+        point.rest_overlap = std::max(point.overlap, 0.0) * (1.0 - kept);
+        point.shear_force *= kept_shear;
+    }
 }
 
 void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
@@ -292,6 +323,8 @@ double find_features(const Model& model, const std::vector<BlockMotion>& motion,
         if (old.ref_edge != no_index)
             carry_history(motion, old, contact);
         start_points(motion, model.time_step, contact);
+        if (old.ref_edge != no_index)
+            limit_energy(model.joints.laws[old.law], old, model.joints.laws[contact.law], contact);
     }
     remember_view(motion, contact);
     return distance;

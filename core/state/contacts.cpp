@@ -64,7 +64,7 @@ Contact Contacts::get(Index i) const
                     .point = {}};
     for (int k = 0; k < 2; ++k)
         contact.point[k] = {l.normal_force[k][at], l.shear_force[k][at], l.rest_overlap[k][at], static_cast<Regime>(regime[k][i]),
-                            l.overlap[k][at]};
+                            l.overlap[k][at],      l.tilt_force[k][at]};
     return contact;
 }
 
@@ -102,6 +102,7 @@ void Contacts::put(Index i, const Contact& contact)
         l.shear_force[k][at] = contact.point[k].shear_force;
         l.overlap[k][at] = contact.point[k].overlap;
         l.rest_overlap[k][at] = contact.point[k].rest_overlap;
+        l.tilt_force[k][at] = contact.point[k].tilt_force;
         regime[k][i] = static_cast<std::uint8_t>(contact.point[k].regime);
     }
 }

@@ -51,7 +51,8 @@ struct PointHistory
     double shear_force = 0.0;   ///< on inc along t [N]
     double rest_overlap = 0.0;  ///< >= 0, overlap at which the normal spring is empty [m]
     Regime regime = Regime::open;
-    double overlap = 0.0;  ///< of the last cycle [m]
+    double overlap = 0.0;     ///< of the last cycle [m]
+    double tilt_force = 0.0;  ///< of the last cycle, on inc along t (contact/force_law.h) [N]
 };
 
 /// One contact as a value: what moves between arrays when contacts are re-sorted, saved or restarted.
@@ -79,7 +80,7 @@ struct alignas(64) ContactLanes
     using Lane = std::array<double, lanes>;
     Lane tx, ty, start_t, start_m, length, p0x, p0y, p1x, p1y;  ///< EdgePair
     Lane length_floor, last_length;
-    std::array<Lane, 2> normal_force, shear_force, overlap, rest_overlap;  ///< PointHistory
+    std::array<Lane, 2> normal_force, shear_force, overlap, rest_overlap, tilt_force;  ///< PointHistory
     std::array<std::array<float, lanes>, 4> seen;
     std::array<float, lanes> moved_limit;
 };
