@@ -27,7 +27,8 @@ struct Group
     BasicEdgeTouch<Pack> touch;
     const JointLanes* joint;
     Pack length;  ///< each point's share of the contact length
-    Pack last_length, length_inverse, last_length_inverse;
+    Pack last_length, length_inverse;
+    Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
     Pack w_ref, w_inc;
     Mask closed[2];
     Mask was_impulse[2];
@@ -164,9 +165,9 @@ template <Impulses impulses>
     const Pack last_rest = none ? zero : load_lane(l.rest_overlap[k]);
     const Pack rest = none ? zero : rest_overlap(p.overlap, last_rest);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
-    const Pack handed = none ? g.last_shear[k]
-                             : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
-                                      g.last_shear[k]);
+    const Pack start = spring_shear * g.shear_share;
+    const Pack handed =
+        none ? start : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest), start);
     const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
     const Pack curved = Pack(0.5) * dt * turning.t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
@@ -183,14 +184,13 @@ template <Impulses impulses>
     const Pack u = none ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
     // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
     const Pack strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
-    const Pack plastic = -v_t * dt - (shear - spring_shear) * (g.joint->shear_compliance * g.length_inverse);
-    const Pack slipped = Pack(0.5) * (spring_shear + shear) * plastic;
+    const Pack plastic = -v_t * dt - (shear - start) * (g.joint->shear_compliance * g.length_inverse);
+    const Pack slipped = Pack(0.5) * (start + shear) * plastic;
     const Mask stays = spring & (spring_normal + abs(spring_shear) > zero);
     sums.friction += select(stays, slipped, zero);
     sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
                     Pack(0.5) * spring_normal * strayed + Pack(0.5) * (spring_shear - shear) * curved * dt +
-                    Pack(0.5) * spring_shear * spring_shear * (g.last_length_inverse - g.length_inverse) *
-                        g.joint->shear_compliance;
+                    Pack(0.5) * (start - spring_shear) * v_t * dt;
     store_lane(l.overlap[k], p.overlap);
     if constexpr (!none)
         if (!none)
@@ -265,10 +265,9 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         impulses -= (g.closed[0].v & impulsive.v) + (g.closed[1].v & impulsive.v);
 
         const Pack last_length = load_lane(l.last_length);
-        const Pack both = Pack(1.0) / (g.length * last_length);  // one division for the two inverses
         g.last_length = last_length;
-        g.length_inverse = both * last_length;
-        g.last_length_inverse = both * g.length;
+        g.length_inverse = Pack(1.0) / g.length;
+        g.shear_share = shear_share(g.length / last_length);
         g.w_ref = ref.w;
         g.w_inc = inc.w;
         Sums sums;

@@ -3,6 +3,7 @@
 
 #include "core/joint/coulomb_slip.h"
 
+#include <cmath>
 #include <limits>
 
 namespace hdem
@@ -43,6 +44,15 @@ template <typename R>
     f.shear = slip_limited(trial, f.strength);
     f.excess = trial - f.shear;
     return f;
+}
+
+/// Share of a shear force that stays when the contact length becomes `ratio` times what it was: its energy F_S^2 / (2 K_S L) stays. With the whole force the energy of
+/// a corner that turns out of a face grew without bound; 15 % of all energy in a stack with a soft block.
+template <typename R>
+[[nodiscard]] inline R shear_share(R ratio)
+{
+    using std::sqrt;
+    return sqrt(ratio);
 }
 
 /// dV/dL of the normal springs' energy V, see tilt_force [N]. `work`: sum over both points of F_N times stretch [J], `length_inverse` 2 / L [1/m].

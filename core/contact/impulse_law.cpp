@@ -96,8 +96,9 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
     const double pace = std::max(blocks.pace[p.ref], blocks.pace[p.inc]);
     p.weight_velocity = model.gravity.norm() * model.time_step * pace * pace;
-    const double most = p.approach * model.time_step +
-                        model.contact.correction_limit * std::min(model.size(p.ref), model.size(p.inc));
+    const double size = std::min(model.size(p.ref), model.size(p.inc));
+    const double most =
+        (p.approach + model.contact.correction_limit * std::sqrt(model.gravity.norm() * size)) * model.time_step;
     p.excess_overlap = std::min(at.overlap - contacts.normal_force(end, contact) / p.stiffness - model.contact.allowed_overlap,
                                 most);
     p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;

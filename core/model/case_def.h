@@ -154,7 +154,7 @@ struct ContactDef
     int impulse_sweeps = 10;
     double correction_fraction = 1.0;          ///< share of the overlap that impulse contacts take back each cycle, Eq. (19)
     double allowed_overlap = 1.0e-7;           ///< overlap that position correction leaves [m]
-    double correction_limit = 1.0e-6;          ///< overlap older than a cycle that is taken back at most in one, as a share of the smaller block's size [-]
+    double correction_limit = 5.0e-3;          ///< speed at which overlap older than a cycle is taken back at most, as a share of sqrt(|g| size) of the smaller block [-]
     double length_floor = 1.0e-3;              ///< least contact length, as a share of the smaller block's size [-]
     double overlap_limit = 0.25;               ///< a run stops when an overlap exceeds this share of the smaller block's size [-]
     double recycling_distance = 1.0e-4;        ///< features are searched anew once a pair moved this share of the smaller block's size [-]; 0: every cycle
