@@ -36,15 +36,20 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
     const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
     const CoulombSlip& joint = model.joints.laws[contact.law];
     const double shear_stiffness = joint.shear_stiffness * contact.last_length;
+    const double dt = model.time_step;
     SpringEnergy energy;
     for (int k = 0; k < 2; ++k)
     {
+        // Ways with the velocities of now as they were when the forces acted.
         const PointHistory& point = contact.point[k];
+        const TouchPoint& p = touch.point[k];
+        const TurningRate<double> turning(p, touch.slope, ref.w, inc.w);
+        energy.normal -= 0.5 * point.tilt_force * (surface_velocity(p, ref.w, inc.w) - turning.surface * dt) * dt;
         if (point.regime != Regime::stick && point.regime != Regime::slip)
             continue;
-        const double curved = 0.5 * model.time_step * TurningRate(touch.point[k], ref.w, inc.w).t;
-        const double stretch = point.shear_force / shear_stiffness - (touch.point[k].v_t - curved) * model.time_step;
-        energy.normal += 0.5 * point.normal_force * (touch.point[k].overlap - point.rest_overlap);
+        const double overlap = point.overlap + (p.v_m - turning.m * dt) * dt;
+        const double stretch = point.shear_force / shear_stiffness - (p.v_t - 0.5 * turning.t * dt) * dt;
+        energy.normal += 0.5 * point.normal_force * (overlap - point.rest_overlap);
         energy.shear += 0.5 * point.shear_force * stretch;
     }
     return energy;

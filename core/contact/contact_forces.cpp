@@ -166,9 +166,10 @@ template <Impulses impulses>
     const Pack rest = none ? zero : rest_overlap(p.overlap, last_rest);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
     const Pack start = spring_shear * g.shear_share;
-    const Pack handed =
-        none ? start : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest), start);
-    const TurningRate<Pack> turning(p, g.w_ref, g.w_inc);
+    const Pack handed = none ? start
+                             : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
+                                      start);
+    const TurningRate<Pack> turning(p, g.touch.slope, g.w_ref, g.w_inc);
     const Pack curved = Pack(0.5) * dt * turning.t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
     const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt, handed);
@@ -218,8 +219,8 @@ inline void add_tilt_forces(const Group& g, Pack floor, Pack dt, ContactLanes& l
         const Pack tilt = tilt_force(sums.normal[k], g.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
         // It acts on the surface of inc, half of the overlap beyond the point.
         const Pack beyond = Pack(0.5) * p.overlap;
-        const Pack v_t = p.v_t - (g.w_inc - g.w_ref) * beyond;
-        const Pack then = v_t - TurningRate<Pack>(p, g.w_ref, g.w_inc).t * dt;
+        const Pack v_t = surface_velocity(p, g.w_ref, g.w_inc);
+        const Pack then = v_t - TurningRate<Pack>(p, g.touch.slope, g.w_ref, g.w_inc).surface * dt;
         sums.changes -= Pack(0.5) * dt * (tilt * v_t + load_lane(l.tilt_force[k]) * then);
         store_lane(l.tilt_force[k], tilt);
         sums.f_t += tilt;

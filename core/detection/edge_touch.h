@@ -99,22 +99,37 @@ template <typename R>
     return touch;
 }
 
-/// Rates of v_t and v_m at a contact point while both blocks keep their velocities: what turning alone does to them [m/s2].
+/// Velocity of inc relative to ref along t on the surface of inc, half of the overlap beyond the point [m/s].
+template <typename R>
+[[nodiscard]] inline R surface_velocity(const BasicTouchPoint<R>& p, R w_ref, R w_inc)
+{
+    return p.v_t - R(0.5) * (w_inc - w_ref) * p.overlap;
+}
+
+/// Rates of the velocities at a contact point while both blocks keep theirs: what turning alone does to them [m/s2].
 ///
-///   a_t = w_ref^2 r_ref,t - w_inc^2 r_inc,t + w v_m
-///   a_m = w_ref^2 r_ref,m - w_inc^2 r_inc,m - w v_t
+///   surface_velocity:  w_ref^2 r_ref,t - w_inc^2 r_inc,t + 2 w_ref v_m + w c
+///   v_t:               the same + w (v_m - c) / 2, since the point stays halfway between the surfaces
+///   v_m:               w_ref^2 r_ref,m - w_inc^2 r_inc,m - (w_ref + w_inc) v_t   for an end of the reference edge
+///                      w_ref^2 r_ref,m - w_inc^2 r_inc,m - 2 w_ref v_t - w^2 u / 2   for a vertex of the incident one
 ///
-/// with w = w_ref + w_inc for a point that stays on ref, 2 w_ref for one that stays on inc.
+///   w = w_inc - w_ref   c = slope times the surface velocity, the overlap's rate by sliding at an end of the reference edge, 0 at a vertex   u overlap
+/// @see verification/unit/core/detection/edge_touch_test.cpp
 template <typename R>
 struct TurningRate
 {
-    R t, m;
+    R t, surface, m;
 
-    TurningRate(const BasicTouchPoint<R>& p, R w_ref, R w_inc)
+    TurningRate(const BasicTouchPoint<R>& p, R slope, R w_ref, R w_inc)
     {
-        const R w = w_ref + select(p.inside < R(0.0), w_inc, w_ref);
-        t = w_ref * w_ref * p.ref_t - w_inc * w_inc * p.inc_t + w * p.v_m;
-        m = w_ref * w_ref * p.ref_m - w_inc * w_inc * p.inc_m - w * p.v_t;
+        const R zero = 0.0;
+        const auto on_ref = p.inside < zero;
+        const R w = w_inc - w_ref;
+        const R c = select(on_ref, surface_velocity(p, w_ref, w_inc) * slope, zero);
+        surface = w_ref * w_ref * p.ref_t - w_inc * w_inc * p.inc_t + R(2.0) * w_ref * p.v_m + w * c;
+        t = surface + R(0.5) * w * (p.v_m - c);
+        m = w_ref * w_ref * p.ref_m - w_inc * w_inc * p.inc_m - R(2.0) * w_ref * p.v_t -
+            w * select(on_ref, p.v_t, R(0.5) * w * p.overlap);
     }
 };
 

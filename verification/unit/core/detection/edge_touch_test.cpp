@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
+
 namespace hdem
 {
 namespace
@@ -69,6 +71,37 @@ TEST(EdgeTouch, OfAnEdgeAcrossTheReferenceEdgeIsFinite)
 {
     const EdgeTouch t = touch(square_on_slab, {}, {.x = 0.0, .y = 1.0, .c = 0.0, .s = 1.0});
     EXPECT_TRUE(std::isfinite(t.length) && std::isfinite(t.point[0].overlap) && std::isfinite(t.point[1].overlap));
+}
+
+BlockMotion moved(BlockMotion m, double dt)
+{
+    m.x += m.vx * dt;
+    m.y += m.vy * dt;
+    m.angle += m.w * dt;
+    m.c = std::cos(m.angle);
+    m.s = std::sin(m.angle);
+    return m;
+}
+
+/// Deep, tilted, both blocks turning; one point is the reference edge's end, the other a vertex.
+TEST(TurningRate, IsHowVelocitiesChangeWhileBlocksKeepTheirs)
+{
+    const BlockMotion ref = moved({.x = 0.1, .y = -0.2, .vx = 3.0, .vy = -2.0, .w = 4.0}, 0.02);
+    const BlockMotion inc = moved({.x = 2.0, .y = 1.2, .vx = -5.0, .vy = -7.0, .w = 11.0}, 0.02);
+    constexpr double h = 1e-6;
+    const auto after = [&](double dt) { return touch(square_on_slab, moved(ref, dt), moved(inc, dt)); };
+    const EdgeTouch now = after(0.0), before = after(-h), later = after(h);
+    EXPECT_GT(std::abs(now.slope), 0.1);
+    EXPECT_NE(now.point[0].inside < 0.0, now.point[1].inside < 0.0);
+    for (int k = 0; k < 2; ++k)
+    {
+        const TouchPoint &p = now.point[k], &b = before.point[k], &l = later.point[k];
+        const TurningRate<double> rate(p, now.slope, ref.w, inc.w);
+        EXPECT_GT(std::abs(p.overlap), 0.05);
+        EXPECT_NEAR(rate.t, (l.v_t - b.v_t) / (2.0 * h), 1e-5) << k;
+        EXPECT_NEAR(rate.m, (l.v_m - b.v_m) / (2.0 * h), 1e-5) << k;
+        EXPECT_NEAR(rate.surface, (surface_velocity(l, ref.w, inc.w) - surface_velocity(b, ref.w, inc.w)) / (2.0 * h), 1e-5) << k;
+    }
 }
 
 TEST(ClosedContact, AllowsForRoundingOfTouchingFacesOnly)
