@@ -234,21 +234,29 @@ SectionSpec damping_section()
 
 SectionSpec time_section()
 {
-    return {"time",
-            SectionKind::table,
-            "time",
-            "",
-            {field<&TimeDef::step>({.name = "step",
-                                    .unit = "s",
-                                    .effect = "Time step Δt. Too large a step blows up: overlaps grow until the run stops. Where it is not given, stages with "
-                                              "`until = \"converged\"` under the default damping take the largest step that is stable with the present "
-                                              "contacts, up to 64 of these in a cycle, unless there are loads or prescribed motions.",
-                                    .example = "5e-5",
-                                    .range = {.low = 0, .high = 1e6, .low_included = false},
-                                    .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness))"}),
-             field<&TimeDef::fraction>({.name = "fraction",
-                                        .effect = "FRAC of Eq. (32), when step is not given.",
-                                        .range = {.low = 0, .high = 1, .low_included = false}})},
-            part<&CaseDef::time>};
+    return {
+        "time",
+        SectionKind::table,
+        "time",
+        "",
+        {field<&TimeDef::step>(
+             {.name = "step",
+              .unit = "s",
+              .effect =
+                  "Time step Δt. Too large a step blows up: overlaps grow until the run stops. Where it is not given, stages with "
+                  "`until = \"converged\"` under the default damping take the largest step that is stable with the present "
+                  "contacts (stable_fraction of it), up to 64 of these in a cycle, unless there are loads or prescribed motions.",
+              .example = "5e-5",
+              .range = {.low = 0, .high = 1e6, .low_included = false},
+              .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness))"}),
+         field<&TimeDef::fraction>({.name = "fraction",
+                                    .effect = "FRAC of Eq. (32), when step is not given.",
+                                    .range = {.low = 0, .high = 1, .low_included = false}}),
+         field<&TimeDef::stable_fraction>(
+             {.name = "stable_fraction",
+              .effect = "Share of the largest stable step, 2/ω_max of the present contacts, that stages with `until = "
+                        "\"converged\"` take where step is not given. Smaller: more cycles, more room for contacts that grow.",
+              .range = {.low = 0, .high = 1, .low_included = false}})},
+        part<&CaseDef::time>};
 }
 }  // namespace hdem

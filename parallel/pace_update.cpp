@@ -11,9 +11,6 @@ namespace hdem
 {
 namespace
 {
-/// Share of the stable step that the rock takes: contacts may grow longer until it is found anew.
-constexpr double stable_share = 0.8;
-
 template <typename Stage>
 void for_parts(const Team& team, Partition& partition, const Stage& stage)
 {
@@ -39,7 +36,7 @@ Paces next_paces(const Model& model, const State& state, const Partition& partit
     if (look)
     {
         // Of a part of the blocks no more is known than that they allow no more.
-        const double pace = rock_pace(model, stable_share * step);
+        const double pace = rock_pace(model, step);
         paces.rock = look_at_all ? pace : std::min(pace, paces.rock);
     }
     paces.loose = next_loose_pace(model, paces, standing, bound, now % pace_growth_every == 0);

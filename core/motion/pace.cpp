@@ -168,7 +168,7 @@ double next_loose_pace(const Model& model, const Paces& last, const StandingRock
 
 double rock_pace(const Model& model, double step)
 {
-    return floor_pace(1.0, step / model.time_step);
+    return floor_pace(1.0, model.stable_fraction * step / model.time_step);
 }
 
 void set_paces(IndexRange range, const Model& model, const Paces& paces, const std::vector<double>& joined, Blocks& blocks)

@@ -14,8 +14,9 @@ namespace hdem
 /// Its path, the work of every force on it, and its kinetic energy stay the same; what takes n cycles takes one. This is the density scaling of
 /// quasi-static codes. In `motion` and `inertia` stand the scaled values; Blocks::velocity gives those of the user. There are two paces:
 ///
-/// `rock`, of all blocks. Where the case gives no step, the rock takes the largest that is stable: n dt = 0.8 * 2 / omega_max (stable_step), found anew as
-/// contacts change. With a step given, or with loads, which are laid down in cycles, it is 1. Where motions are prescribed both paces are 1.
+/// `rock`, of all blocks. Where the case gives no step, the rock takes a share of the largest that is stable: n dt <= stable_fraction * 2 / omega_max
+/// (stable_step), found anew as contacts change, which may have grown longer by then. With a step given, or with loads, which are laid down in
+/// cycles, it is 1. Where motions are prescribed both paces are 1.
 ///
 /// `loose`, of blocks that moved more than `loose_distance` since the stage began, while the standing rock has come to rest: nearly all of it does within a
 /// few thousand cycles, and then most cycles pass while single blocks slide out and fall. It is the greatest, up to 64, for which each loose block that moves
@@ -49,7 +50,7 @@ double join_bounds(IndexRange range, const Model& model, const BlockContacts& li
 [[nodiscard]] double next_loose_pace(const Model& model, const Paces& last, const StandingRock& standing, double bound,
                                      bool may_grow);
 
-/// Pace of the rock for which `step` is stable [s].
+/// Pace of the rock where `step` is the largest that is stable [s].
 [[nodiscard]] double rock_pace(const Model& model, double step);
 
 /// Third: that of each block.

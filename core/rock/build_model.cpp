@@ -259,6 +259,7 @@ Setup build_model(const CaseDef& def)
     model.time_step = def.time.step.value_or(model.paper_time_step);
     model.is_driven = is_driven(def, setup.state.blocks);
     model.has_own_step = !def.time.step && def.loads.empty() && !model.is_driven;
+    model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock.blocks, model);
 
     std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);

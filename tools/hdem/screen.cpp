@@ -76,9 +76,9 @@ std::vector<std::string> pace_notes(const Model& model)
     std::vector<std::string> notes;
     if (model.has_own_step)
         notes.push_back(
-            fmt::format("note: no time.step is given: in this stage a cycle takes the largest step that is stable with the "
-                        "present contacts, from 1 to 64 times {:.4g} s.",
-                        model.time_step));
+            fmt::format("note: no time.step is given: in this stage a cycle takes {:.4g} (time.stable_fraction) of the largest "
+                        "step that is stable with the present contacts, from 1 to 64 times {:.4g} s.",
+                        model.stable_fraction, model.time_step));
     if (!model.is_driven)
         notes.push_back(
             fmt::format("note: blocks that have moved more than {:.4g} m in this stage run ahead of the rock while it is at "

@@ -56,6 +56,7 @@ TEST(CaseReader, ReadsEveryDocumentedDefaultBack)
         EXPECT_EQ(def.damping.preset, DampingDef{}.preset);
         EXPECT_EQ(def.damping.local, DampingDef{}.local);
         EXPECT_EQ(def.time.fraction, TimeDef{}.fraction);
+        EXPECT_EQ(def.time.stable_fraction, TimeDef{}.stable_fraction);
         EXPECT_EQ(def.convergence.mean_speed, ConvergenceDef{}.mean_speed);
         EXPECT_EQ(def.convergence.criteria, ConvergenceDef{}.criteria);
         EXPECT_EQ(def.output.contacts, OutputDef{}.contacts);
@@ -93,6 +94,29 @@ TEST(CaseReader, WarnsAboutSettingsWithoutEffect)
     EXPECT_EQ(file.warnings[0].text,
               "case.toml:18:12: warning: [time]: fraction (has no effect: step is given). Remove one of the two.");
     EXPECT_THAT(file.warnings[1].text, testing::HasSubstr("case.toml:21:9: warning: [damping]: local"));
+}
+
+TEST(CaseReader, WarnsAboutAShareOfTheStableStepThatNoStageTakes)
+{
+    const auto warnings = [](const std::string& stage, const std::string& more = "")
+    {
+        std::string texts;
+        const std::string text = test::with(two_blocks, "cycles = 10\n", stage + "\n");
+        for (const Problem& warning : read_case_text(text + "[time]\nstable_fraction = 0.5\n" + more, "case.toml").warnings)
+            texts += warning.text;
+        return texts;
+    };
+    const std::string until = "until = \"converged\"", timed = "cycles = 10";
+    const auto says = [](const char* why)
+    { return testing::HasSubstr(std::string("warning: [time]: stable_fraction (has no effect: ") + why); };
+    EXPECT_EQ(warnings(until), "");
+    EXPECT_EQ(warnings(until + "\ndamping = \"default\"", "[damping]\npreset = \"paper\"\n"), "");
+    EXPECT_THAT(warnings(until, "step = 1e-4\n"), says("step is given"));
+    EXPECT_THAT(warnings(until, "[[load]]\nblocks = [\"top\"]\nforce = [1, 0]\n"), says("with loads"));
+    EXPECT_THAT(warnings(until, "[[block]]\npolygon = [[5, 5], [6, 5], [6, 6]]\nfixed = true\nvelocity = [1, 0]\n"),
+                says("with loads or prescribed motions"));
+    EXPECT_THAT(warnings(timed), says("no stage runs until converged"));
+    EXPECT_THAT(warnings(until, "[damping]\npreset = \"paper\"\n"), says("no stage runs until converged"));
 }
 
 TEST(CaseSource, FindsTheNearestParentOfAKey)

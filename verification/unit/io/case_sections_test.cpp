@@ -108,6 +108,7 @@ global_damping_ratio = 0.01
 average_frequency = 100
 [time]
 fraction = 0.2
+stable_fraction = 0.5
 [convergence]
 criteria = ["unbalanced_force_ratio", "kinetic_energy"]
 mean_speed = 1e-3
@@ -235,6 +236,7 @@ TEST(CaseSections, FillSettings)
     EXPECT_EQ(def.damping.average_frequency, 100.0);
     EXPECT_FALSE(def.time.step);
     EXPECT_EQ(def.time.fraction, 0.2);
+    EXPECT_EQ(def.time.stable_fraction, 0.5);
     EXPECT_THAT(def.convergence.criteria, ElementsAre("unbalanced_force_ratio", "kinetic_energy"));
     EXPECT_EQ(def.convergence.mean_speed, 1e-3);
     EXPECT_EQ(def.convergence.unbalanced_force_ratio, 1e-4);

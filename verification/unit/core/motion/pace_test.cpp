@@ -187,6 +187,22 @@ TEST(Pace, OfTheRockIsTheStableStepOfTheCasesThatGiveNone)
         EXPECT_EQ(run.state().blocks.pace[run.slot(name)], pace);
 }
 
+/// From 1, the step of Eq. (32), in steps of 19 %, four of which are 2.
+TEST(Pace, OfTheRockFollowsTheShareOfTheStableStep)
+{
+    const auto pace = [](double share)
+    {
+        CaseDef scene = stack_at_its_own_step();
+        scene.time.stable_fraction = share;
+        CaseRun run(scene);
+        run.advance(600);
+        return run.state().pace.rock;
+    };
+    const double usual = CaseDef{}.time.stable_fraction;
+    EXPECT_NEAR(pace(usual / 2.0), pace(usual) / 2.0, 1e-12);
+    EXPECT_EQ(pace(0.05), 1.0);
+}
+
 /// Within a swing the energy of a great step, whose velocities belong to half a step earlier, goes up and down; from one swing to the next it must not grow.
 TEST(Pace, OfARockAtItsOwnStepAddsNoEnergy)
 {
