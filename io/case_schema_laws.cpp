@@ -243,9 +243,11 @@ SectionSpec time_section()
              {.name = "step",
               .unit = "s",
               .effect =
-                  "Time step Δt. Too large a step blows up: overlaps grow until the run stops. Where it is not given, stages with "
-                  "`until = \"converged\"` under the default damping take the largest step that is stable with the present "
-                  "contacts (stable_fraction of it), up to 64 of these in a cycle, unless there are loads or prescribed motions.",
+                  "Time step Δt. Above the stable limit 2/ω_max of the springs a run is refused, or stops once they act. Where it "
+                  "is not given, stages with `until = \"converged\"` under the default damping take the largest step that is "
+                  "stable "
+                  "with the present contacts (stable_fraction of it), up to 64 of these in a cycle, unless there are loads or "
+                  "prescribed motions.",
               .example = "5e-5",
               .range = {.low = 0, .high = 1e6, .low_included = false},
               .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness))"}),

@@ -62,6 +62,15 @@ void CycleRunner::prepare(const Model& model, const State& state)
     for (ContactPart& part : partition_.contacts)
         part.tally.stale = static_cast<Index>(std::count(state.contacts.stale.begin() + part.range.begin,
                                                          state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
+    has_stiff_contacts_ = false;
+    for (ContactPart& part : partition_.contacts)
+    {
+        part.unstable = no_index;
+        part.stiff.clear();
+        if (state.method != Method::impulse)
+            find_stiff_contacts(part.range, model, state.blocks, state.contacts, part.stiff);
+        has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
+    }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
     work_.loads.resize(state.contacts.stale.size());
     work_.pace_bounds.resize(static_cast<std::size_t>(blocks));
@@ -73,7 +82,15 @@ void CycleRunner::prepare(const Model& model, const State& state)
     first_evaluation_ = state.cycle;
 }
 
-void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
+Index CycleRunner::find_unstable_contact() const
+{
+    for (const ContactPart& part : partition_.contacts)
+        if (part.unstable != no_index)
+            return part.unstable;
+    return no_index;
+}
+
+Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
     const bool relaxing = is_relaxing(model, state);
     if (!prepared_ || prepared_for_ != state.method || relaxing != relaxing_)
@@ -92,16 +109,18 @@ void CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int
                   StageSamples& samples = samples_of(team);
                   const ScopedTime time(samples.all);
                   double way = used;
-                  for (std::int64_t i = 0; i < cycles && !state.contacts_outdated; ++i)
+                  bool stable = true;
+                  for (std::int64_t i = 0; i < cycles && stable && !state.contacts_outdated; ++i)
                   {
                       const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
                       StageClock clock(samples.sampled, static_cast<double>(weight));
-                      cycle(model, state, team, begin + i, way, clock);
+                      stable = cycle(model, state, team, begin + i, way, clock);
                   }
               });
+    return find_unstable_contact();
 }
 
-void CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
+bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
 {
     bool renewed = false;
     if (!(way <= 1.0))
@@ -136,6 +155,7 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     clock.lap(CycleStage::force);
     team.barrier();
     clock.lap(CycleStage::wait);
+    const bool stable = !has_stiff_contacts_ || find_unstable_contact() == no_index;
     Index impulses = 0;
     if (state.method != Method::force)
         for (const ContactPart& part : partition_.contacts)
@@ -153,7 +173,7 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         farthest = max(farthest, part.way);
     way += farthest;
     if (!team.is_first())
-        return;
+        return stable;
     for (const BlockPart& part : partition_.blocks)
         state.ledger.add(part.ledger);
     if (!model.loads.empty())
@@ -161,6 +181,7 @@ void CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     ++state.cycle;
     state.ahead += (state.pace.loose - 1.0) * model.time_step;
     state.time = static_cast<double>(state.cycle) * model.time_step + state.ahead;
+    return stable;
 }
 
 void CycleRunner::leave_out(const State& state, const Team& team)
@@ -196,6 +217,8 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         for (const IndexRange& range : part.active)
             part.tally += evaluate_contacts(range, model, {state.method, relaxing_}, state.blocks, state.contacts,
                                             work_.loads);  // Eqs. (1)-(10), (24)-(28)
+        if (!part.stiff.empty())
+            part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);
         part.ledger.friction += part.tally.friction;
         part.ledger.contact_changes += part.tally.changes;
         part.impulses.clear();

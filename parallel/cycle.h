@@ -21,8 +21,10 @@ class CycleRunner
   public:
     /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.
     /// The same bits on any number of threads, and however a run is cut into calls.
+    /// @return  a contact whose springs have begun to act in the last cycle and are too stiff for the step (core/motion/step_check.h): the run must not go on;
+    ///          no_index without one
     /// @pre contacts are not outdated
-    void run(const Model& model, State& state, std::int64_t cycles, int threads);
+    [[nodiscard]] Index run(const Model& model, State& state, std::int64_t cycles, int threads);
 
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
     void renew_contacts(const Model& model, State& state, int threads);
@@ -37,8 +39,10 @@ class CycleRunner
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
-    void cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
+    /// @return  whether the step is small enough for the springs that have begun to act
+    bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
     void prepare(const Model& model, const State& state);
+    [[nodiscard]] Index find_unstable_contact() const;
     [[nodiscard]] StageSamples& samples_of(const Team& team);
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
@@ -63,6 +67,7 @@ class CycleRunner
     bool rests_ = false;                 ///< blocks at rest are left out,
     RestLimits limits_;                  ///< which are those
     std::int64_t first_evaluation_ = 0;  ///< cycle in which the contacts found last are evaluated first
+    bool has_stiff_contacts_ = false;
     bool relaxing_ = false;              ///< the stage looks for a state of rest, and not for the way to it
 };
 }  // namespace hdem

@@ -2,6 +2,7 @@
 /// Contacts and blocks cut into pieces of work, and colours for pieces that must not run at the same time.
 
 #include "core/motion/pace.h"
+#include "core/motion/step_check.h"
 #include "core/state/energy_terms.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
@@ -18,6 +19,8 @@ struct ContactPart
     EnergyLedger ledger;                 ///< of this cycle
     std::vector<ImpulsePoint> impulses;  ///< of this cycle
     std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
+    std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
+    Index unstable = no_index;           ///< of these, found in this cycle
 };
 
 struct BlockPart

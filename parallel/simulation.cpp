@@ -1,6 +1,5 @@
 #include "parallel/simulation.h"
 
-#include "core/contact/contact_report.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 #include "core/motion/pace.h"
@@ -8,26 +7,16 @@
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
+#include "parallel/state_check.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
 namespace hdem
 {
-namespace
-{
-std::string with_digits(const char* format, double value)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-}  // namespace
-
 int default_threads()
 {
 #ifdef _OPENMP
@@ -153,7 +142,8 @@ void Simulation::advance(std::int64_t cycles)
     {
         if (state_.contacts_outdated)
             renew_contacts();
-        runner_.run(model_, state_, end - state_.cycle, threads_);
+        if (const Index stiff = runner_.run(model_, state_, end - state_.cycle, threads_); stiff != no_index)
+            refuse_step(model_, state_, stiff);
     }
 }
 
@@ -166,37 +156,9 @@ void Simulation::renew_contacts()
 
 void Simulation::check_state() const
 {
-    const Blocks& blocks = state_.blocks;
-    const std::string when = "cycle " + std::to_string(state_.cycle) + ", time " + with_digits("%.6g", state_.time) + " s: ";
-    for (Index i = 0; i < blocks.size(); ++i)
-    {
-        const BlockMotion& m = blocks.motion[i];
-        if (!std::isfinite(m.x + m.y + m.c + m.s + m.vx + m.vy + m.w))
-            throw RunError(when + "block \"" + model_.name[i] +
-                           "\": position or velocity is not a finite number (the motion is unstable). "
-                           "Give a smaller time.step or remove very small blocks (generator.smallest_block_area).");
-    }
-    const Contacts& contacts = state_.contacts;
-    for (Index i = 0; i < contacts.size(); ++i)
-    {
-        const Index ref = contacts.ref[i];
-        const Index inc = contacts.inc[i];
-        const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, blocks.motion[ref], blocks.motion[inc]), blocks.motion[ref],
-                                            blocks.motion[inc]);
-        const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
-        const double limit = model_.contact.overlap_limit * std::min(model_.size(ref), model_.size(inc));
-        if (overlap > limit)
-        {
-            const Vec2 place = model_.origin + 0.5 * (report_contact(state_, i).point[0] + report_contact(state_, i).point[1]);
-            throw RunError(when + "blocks \"" + model_.name[ref] + "\" and \"" + model_.name[inc] + "\", contact " +
-                           std::to_string(i) + " at (" + with_digits("%.6g", place.x()) + ", " + with_digits("%.6g", place.y()) +
-                           ") m: overlap = " + with_digits("%.4g", overlap) +
-                           " m (above contact.overlap_limit: " + with_digits("%.4g", limit) +
-                           " m). Give a smaller time.step or a greater "
-                           "joint normal_stiffness, or raise the limit if this overlap is meant.");
-        }
-    }
+    check_finite(model_, state_);
+    check_overlaps(model_, state_);
+    check_step(model_, state_);
 }
 
 Equilibrium Simulation::equilibrium() const

@@ -37,8 +37,9 @@ class Simulation
     /// How the present stage ended; before the next one begins.
     void note_outcome(bool converged);
 
+    /// Throws RunError in the cycle in which springs begin to act that are too stiff for the step.
     void advance(std::int64_t cycles);
-    /// Throw RunError at a non-finite value or an overlap above its limit; names cycle, time, blocks and the setting that may help.
+    /// Throws RunError: see state_check.h.
     void check_state() const;
 
     [[nodiscard]] Equilibrium equilibrium() const;

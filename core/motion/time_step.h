@@ -5,6 +5,8 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
+#include <limits>
+
 namespace hdem
 {
 /// The paper's step [s]:
@@ -34,8 +36,24 @@ enum class StepOf
 [[nodiscard]] double stable_step(IndexRange range, StepOf which, const Model& model, const BlockContacts& list,
                                  const Contacts& contacts, const Blocks& blocks);
 
-/// Stable limit of the assembled contacts, 2 / omega_max [s], by power iteration on M^-1 K with the springs of all tracked contacts
-/// as if closed and sticking. Infinite without contacts. `iterations` bounds the work; the estimate of omega_max comes from below,
-/// so the limit from above, by a few per cent.
+/// Which springs count.
+enum class Springs
+{
+    closed,  ///< of closed points, as if they stuck and whatever their regime
+    acting   ///< that gave forces in the last cycle; of a point that slips the normal one
+};
+
+struct StableLimit
+{
+    double step = std::numeric_limits<double>::infinity();  ///< 2 / omega_max [s]
+    Index block = no_index;                                 ///< with the greatest share in the mode of omega_max
+};
+
+/// Stable limit of the assembled contacts by power iteration on M^-1 K. Infinite without springs. `iterations` bounds the work; the estimate of omega_max
+/// comes from below, so the limit from above, by a few per cent. Masses are those of pace 1.
+[[nodiscard]] StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Springs which,
+                                       int iterations = 60);
+
+/// That of the closed points [s].
 [[nodiscard]] double critical_time_step(const Model& model, const Blocks& blocks, const Contacts& contacts, int iterations = 60);
 }  // namespace hdem

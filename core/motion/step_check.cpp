@@ -1,0 +1,119 @@
+#include "core/motion/step_check.h"
+
+#include "core/contact/contact_forces.h"
+#include "core/motion/contact_springs.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+/// Upper bound on omega_max^2 of the springs of a contact `length` long, wherever on its blocks [1/s2].
+double frequency_squared_bound(const Model& model, const Blocks& blocks, const Contacts& contacts, Index i, double length)
+{
+    const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
+    double mobility = 0.0;
+    for (const Index b : {contacts.ref[i], contacts.inc[i]})
+    {
+        const Vec3 inverse = inverse_masses(blocks, b);
+        mobility += inverse[0] + inverse[1] + model.radius[b] * model.radius[b] * inverse[2];
+    }
+    return std::max(joint.normal_stiffness, joint.shear_stiffness) * length * mobility;
+}
+
+bool acts(const Contacts& contacts, Index i)
+{
+    return is_spring(contacts.regime[0][i]) || is_spring(contacts.regime[1][i]);
+}
+
+bool is_stable(double step, double frequency_squared)
+{
+    return step * step * frequency_squared <= 4.0;
+}
+
+/// Can it be seen, block by block and without their poses, that the springs that act are stable?
+bool is_clearly_stable(const Model& model, const Blocks& blocks, const Contacts& contacts)
+{
+    std::vector<double> sum(static_cast<std::size_t>(blocks.size()), 0.0);
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        if (!acts(contacts, i))
+            continue;
+        const double both = 2.0 * contacts.lane[i / lanes].last_length[i % lanes];
+        const double bound = frequency_squared_bound(model, blocks, contacts, i, both);
+        sum[contacts.ref[i]] += bound;
+        sum[contacts.inc[i]] += bound;
+    }
+    double greatest = 0.0;
+    for (Index b = 0; b < blocks.size(); ++b)
+        greatest = std::max(greatest, blocks.is_free(b) ? sum[b] : 0.0);
+    return is_stable(model.time_step, greatest);
+}
+}  // namespace
+
+void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                         std::vector<StiffContact>& stiff)
+{
+    stiff.clear();
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        const double smaller = 2.0 * std::min(model.radius[contacts.ref[i]], model.radius[contacts.inc[i]]);
+        const double length = std::max(smaller, contacts.length_floor(i));
+        if (!is_stable(model.time_step, frequency_squared_bound(model, blocks, contacts, i, length)))
+            stiff.push_back({i, acts(contacts, i)});
+    }
+}
+
+Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& contacts, std::vector<StiffContact>& stiff)
+{
+    Index first = no_index;
+    for (StiffContact& s : stiff)
+    {
+        const bool acted = s.acts;
+        s.acts = acts(contacts, s.contact);
+        if (first == no_index && s.acts && !acted && model.time_step > contact_limit(model, blocks, contacts, s.contact))
+            first = s.contact;
+    }
+    return first;
+}
+
+double contact_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Index contact)
+{
+    // Rows of the springs, in coordinates in which stiffnesses and masses are 1: S S^T has the eigenvalues of M^-1 K.
+    Eigen::Matrix<double, 4, 6> rows = Eigen::Matrix<double, 4, 6>::Zero();
+    const Vec3 ref = inverse_masses(blocks, contacts.ref[contact]).cwiseSqrt();
+    const Vec3 inc = inverse_masses(blocks, contacts.inc[contact]).cwiseSqrt();
+    const auto set_row = [&](int row, const ContactSpring& spring)
+    {
+        rows.row(row) << ref.cwiseProduct(spring.ref).transpose(), inc.cwiseProduct(spring.inc).transpose();
+        rows.row(row) *= std::sqrt(spring.stiffness);
+    };
+    for_springs(model, blocks, contacts, contact,
+                [&](const EdgeTouch&, int k, const ContactSpring& normal, const ContactSpring& shear)
+                {
+                    if (is_spring(contacts.regime[k][contact]))
+                        set_row(2 * k, normal);
+                    if (contacts.regime[k][contact] == static_cast<std::uint8_t>(Regime::stick))
+                        set_row(2 * k + 1, shear);
+                });
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(rows * rows.transpose(), Eigen::EigenvaluesOnly);
+    const double greatest = solver.eigenvalues()[3];
+    return greatest > 0.0 ? 2.0 / std::sqrt(greatest) : std::numeric_limits<double>::infinity();
+}
+
+StableLimit exceeded_limit(const Model& model, const Blocks& blocks, const Contacts& contacts)
+{
+    if (is_clearly_stable(model, blocks, contacts))
+        return {};
+    BlockContacts list;
+    list_block_contacts(contacts, blocks.size(), list);
+    if (model.time_step <= stable_step({0, blocks.size()}, StepOf::all, model, list, contacts, blocks))
+        return {};
+    const StableLimit limit = stable_limit(model, blocks, contacts, Springs::acting);
+    return model.time_step > limit.step ? limit : StableLimit{};
+}
+}  // namespace hdem

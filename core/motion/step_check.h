@@ -1,0 +1,35 @@
+#pragma once
+/// Is the step too great for the springs that act while a case runs? At its start only what touches there is known.
+
+#include "core/model/model.h"
+#include "core/motion/time_step.h"
+#include "core/state/state.h"
+
+namespace hdem
+{
+/// A contact that may be too stiff for the step by itself once it closes.
+struct StiffContact
+{
+    Index contact = no_index;
+    bool acts = false;  ///< its springs gave forces in the last cycle
+};
+
+/// All of `range` of which that cannot be excluded, into `stiff`: none in most models. For a contact of two blocks of mass m, inertia I and radius r, no
+/// matter where they touch, the trace of M^-1 K gives
+///
+///   omega_max^2 <= max(K_N, K_S) L  sum over both of (2 / m + r^2 / I)         L the diameter of the smaller
+void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                         std::vector<StiffContact>& stiff);
+
+/// The first whose springs have begun to act in this cycle though, without all others, 2 / omega_max is below the step; no_index without one. Other contacts
+/// of its blocks can only make omega_max greater. An impact at such a step lasts one cycle, or two, and throws the blocks apart: it has to be seen in that cycle.
+/// @pre  poses are those at which the contacts were evaluated
+[[nodiscard]] Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& contacts,
+                                  std::vector<StiffContact>& stiff);
+
+/// Stable limit of the springs of one contact that gave forces in the last cycle, without all others [s].
+[[nodiscard]] double contact_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Index contact);
+
+/// Stable limit of all springs that gave forces in the last cycle, where the step exceeds it for certain; else infinite.
+[[nodiscard]] StableLimit exceeded_limit(const Model& model, const Blocks& blocks, const Contacts& contacts);
+}  // namespace hdem
