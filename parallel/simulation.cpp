@@ -80,9 +80,7 @@ void Simulation::excavate(const std::string& name)
         if (removed[ref] == removed[inc])
             continue;
         // Faces that lay against what is removed, whether or not they carried force.
-        const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, state_.blocks.motion[ref], state_.blocks.motion[inc]),
-                                            state_.blocks.motion[ref], state_.blocks.motion[inc]);
+        const EdgeTouch touch = touch_edges(contacts.edges(i), state_.blocks.motion[ref], state_.blocks.motion[inc]);
         const double gap = -std::max(touch.point[0].overlap, touch.point[1].overlap);
         if (touch.length > contacts.length_floor(i) && gap < contacts.length_floor(i))
             near.push_back(removed[ref] != 0 ? inc : ref);

@@ -63,10 +63,7 @@ void check_overlaps(const Model& model, const State& state)
     for (Index i = 0; i < contacts.size(); ++i)
     {
         const Index ref = contacts.ref[i], inc = contacts.inc[i];
-        const BlockMotion& at_ref = state.blocks.motion[ref];
-        const BlockMotion& at_inc = state.blocks.motion[inc];
-        const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, at_ref, at_inc), at_ref, at_inc);
+        const EdgeTouch touch = touch_edges(contacts.edges(i), state.blocks.motion[ref], state.blocks.motion[inc]);
         const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
         const double limit = model.contact.overlap_limit * std::min(model.size(ref), model.size(inc));
         if (overlap > limit)

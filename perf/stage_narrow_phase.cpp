@@ -45,7 +45,7 @@ void touch_packs(const State& state, Overlaps& overlaps)
         const BasicEdgePair<Pack> edges = load_edges(contacts.lane[i]);
         const BasicMotion<Pack> ref = load_motions(state.blocks.motion, &contacts.ref[lanes * i]);
         const BasicMotion<Pack> inc = load_motions(state.blocks.motion, &contacts.inc[lanes * i]);
-        const BasicEdgeTouch<Pack> touch = touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+        const BasicEdgeTouch<Pack> touch = touch_edges(edges, ref, inc);
         touch.point[0].overlap.store(&overlaps[2 * lanes * i]);
         touch.point[1].overlap.store(&overlaps[2 * lanes * i + lanes]);
     }
@@ -58,8 +58,7 @@ bool is_exact(const State& state, const Overlaps& overlaps)
     {
         const BlockMotion& ref = state.blocks.motion[state.contacts.ref[i]];
         const BlockMotion& inc = state.blocks.motion[state.contacts.inc[i]];
-        const EdgePair edges = state.contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+        const EdgeTouch touch = touch_edges(state.contacts.edges(i), ref, inc);
         const std::size_t first = 2 * lanes * static_cast<std::size_t>(i / lanes) + static_cast<std::size_t>(i % lanes);
         if (overlaps[first] != touch.point[0].overlap || overlaps[first + lanes] != touch.point[1].overlap)
             return false;

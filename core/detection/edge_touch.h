@@ -99,6 +99,12 @@ template <typename R>
     return touch;
 }
 
+template <typename R>
+[[nodiscard]] inline BasicEdgeTouch<R> touch_edges(const BasicEdgePair<R>& e, const BasicMotion<R>& ref, const BasicMotion<R>& inc)
+{
+    return touch_edges(e, view_edges(e, ref, inc), ref, inc);
+}
+
 /// Velocity of inc relative to ref along t on the surface of inc, half of the overlap beyond the point [m/s].
 template <typename R>
 [[nodiscard]] inline R surface_velocity(const BasicTouchPoint<R>& p, R w_ref, R w_inc)

@@ -23,10 +23,9 @@ struct ContactSpring
 template <typename Use>
 void for_springs(const Model& model, const Blocks& blocks, const Contacts& contacts, Index contact, const Use& use)
 {
-    const EdgePair edges = contacts.edges(contact);
     const BlockMotion& ref = blocks.motion[contacts.ref[contact]];
     const BlockMotion& inc = blocks.motion[contacts.inc[contact]];
-    const EdgeTouch touch = touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+    const EdgeTouch touch = touch_edges(contacts.edges(contact), ref, inc);
     const CoulombSlip& joint = model.joints.laws[contacts.law[contact]];
     const double length = point_length(touch.length, contacts.length_floor(contact));
     for (int k = 0; k < 2; ++k)

@@ -68,8 +68,7 @@ EdgeTouch touch_at_velocities(const Contacts& contacts, Index i, const Blocks& b
     };
     set(ref, velocity[contacts.ref[i]]);
     set(inc, velocity[contacts.inc[i]]);
-    const EdgePair edges = contacts.edges(i);
-    return touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+    return touch_edges(contacts.edges(i), ref, inc);
 }
 
 bool is_moved(const Triple& v)

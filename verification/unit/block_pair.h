@@ -136,7 +136,7 @@ struct BlockPair
     {
         const BlockMotion& ref = state.blocks.motion[contact.ref];
         const BlockMotion& inc = state.blocks.motion[contact.inc];
-        return touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+        return touch_edges(contact.edges, ref, inc);
     }
     [[nodiscard]] bool is_closed_at(const Contact& contact) const
     {

@@ -21,7 +21,7 @@ EdgePair faces(const Vec2& p0, const Vec2& p1)
 
 EdgeTouch touch(const EdgePair& e, const BlockMotion& ref, const BlockMotion& inc)
 {
-    return touch_edges(e, view_edges(e, ref, inc), ref, inc);
+    return touch_edges(e, ref, inc);
 }
 
 /// Lower edge of a unit square.
