@@ -47,8 +47,8 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
     }
     if (state.stage_begin_cycle != begin || state.cycle < begin || state.cycle > longest_run)
         return Damage{"/state@stage_begin_cycle", "cycles do not add up"};
-    if (!is_pace(state.pace.rock) || !is_pace(state.pace.loose))
-        return Damage{"/state@rock_pace", "not from 1 to 4096"};
+    if (!are_paces(state.pace))
+        return Damage{"/state@rock_pace, loose_pace", "not from 1 to 64, and from that to 64 times as much"};
     if (!(state.ahead >= 0.0) || state.time != static_cast<double>(state.cycle) * model.time_step + state.ahead)
         return Damage{"/state@time", "does not belong to the cycle"};
     if (state.method > Method::hybrid || state.damping > DampingPreset::dynamic)

@@ -74,7 +74,7 @@ Surroundings look_around(Index block, const Model& model, const BlockContacts& l
         const Contact contact = contacts.get(list.entry[e] / 2);
         const BlockMotion& ref = blocks.motion[contact.ref];
         const BlockMotion& inc = blocks.motion[contact.inc];
-        const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+        const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
@@ -194,5 +194,10 @@ void reset_paces(const Model& model, State& state)
 bool is_pace(double pace)
 {
     return pace >= 1.0 && pace <= greatest * greatest;
+}
+
+bool are_paces(const Paces& paces)
+{
+    return paces.rock >= 1.0 && paces.rock <= greatest && paces.loose >= paces.rock && paces.loose <= paces.rock * greatest;
 }
 }  // namespace hdem

@@ -59,7 +59,9 @@ void set_paces(IndexRange range, const Model& model, const Paces& paces, const s
 /// All blocks back to one step a cycle.
 void reset_paces(const Model& model, State& state);
 
+/// Can a block have this pace; can these be the two?
 [[nodiscard]] bool is_pace(double pace);
+[[nodiscard]] bool are_paces(const Paces& paces);
 
 /// Does the present stage look for a state of rest? Then it runs until it has converged, with hdem's own damping.
 [[nodiscard]] inline bool is_relaxing(const Model& model, const State& state)

@@ -57,6 +57,7 @@ TEST(Pace, KeepsTheEnergyInEveryChange)
         const Blocks& blocks = run.state().blocks;
         greatest = std::max(greatest, blocks.pace[block]);
         EXPECT_TRUE(is_pace(blocks.pace[block]));
+        EXPECT_TRUE(are_paces(run.state().pace));
         EXPECT_EQ(blocks.inertia[block].inverse_mass_x,
                   blocks.pace[block] * blocks.pace[block] * run.model().full_inertia[block].inverse_mass_x);
         EXPECT_DOUBLE_EQ(kinetic_energy(run.model(), blocks, block),
@@ -227,6 +228,15 @@ TEST(Pace, OfARockAtItsOwnStepAddsNoEnergy)
     EXPECT_GT(run.state().pace.rock, 2.0);
     EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-8);
     EXPECT_LT(run.simulation.equilibrium().kinetic_energy, 0.01);
+}
+
+/// What a checkpoint may hold.
+TEST(Pace, OfTheRockIsUpTo64AndThatOfLooseBlocks64TimesAsMuch)
+{
+    for (const Paces& paces : {Paces{1.0, 1.0}, Paces{1.0, 64.0}, Paces{64.0, 64.0}, Paces{64.0, 4096.0}})
+        EXPECT_TRUE(are_paces(paces)) << paces.rock << ' ' << paces.loose;
+    for (const Paces& paces : {Paces{0.5, 1.0}, Paces{65.0, 65.0}, Paces{2.0, 1.0}, Paces{2.0, 129.0}, Paces{std::nan(""), 1.0}})
+        EXPECT_FALSE(are_paces(paces)) << paces.rock << ' ' << paces.loose;
 }
 
 TEST(Pace, LeavesOutWhatIsPrescribedOfABlock)
