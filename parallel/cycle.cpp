@@ -7,6 +7,7 @@
 #include "core/motion/pace.h"
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
+#include "parallel/impulse_sweeps.h"
 #include "parallel/openmp.h"
 #include "parallel/pace_update.h"
 
@@ -18,8 +19,6 @@ namespace
 {
 /// Below this many contacts a team loses more by waiting than it gains.
 constexpr Index least_contacts_a_thread = 256;
-/// Impulse points from which colours are shared out; fewer are swept by one thread, in the same order.
-constexpr Index impulses_worth_sharing = 2000;
 constexpr std::int64_t timed_every = 16;
 }  // namespace
 
@@ -282,55 +281,11 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
-    apply_impulses(model, state, team, impulses >= impulses_worth_sharing);
+    apply_impulses(model, state, team, impulses, partition_, work_);
     clock.lap(CycleStage::impulse);
     if (team.is_first())
         add_up_contacts(state);
     for (Index i = mine.begin; i < mine.end; ++i)
         partition_.blocks[i].way = change_positions(model, state, partition_.blocks[i], &work_.pseudo);
-}
-
-template <typename Stage>
-void CycleRunner::for_colours(const Team& team, bool together, const Stage& stage)
-{
-    for (const std::vector<Index>& colour : partition_.colours)
-    {
-        const IndexRange mine = together ? team.share(static_cast<Index>(colour.size()))
-                                         : IndexRange{0, static_cast<Index>(colour.size())};
-        for (Index i = mine.begin; (together || team.is_first()) && i < mine.end; ++i)
-            if (ContactPart& part = partition_.contacts[colour[i]]; !part.impulses.empty())
-                stage(part);
-        if (together)
-            team.barrier();
-    }
-}
-
-void CycleRunner::apply_impulses(const Model& model, State& state, const Team& team, bool together)
-{
-    Blocks& blocks = state.blocks;
-    for_colours(team, together, [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses(part.impulses, blocks); });
-    for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
-        for_colours(team, together,
-                    [&](ContactPart& part)
-                    {
-                        part.ledger.impulse_loss += sweep_impulses(part.impulses, blocks);  // Eqs. (15)-(18)
-                        sweep_correction(model, blocks, part.impulses, work_.pseudo);       // Eq. (19)
-                    });
-    team.barrier();
-    const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
-    const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
-    for (Index i = block_parts.begin; i < block_parts.end; ++i)
-        add_correction_gravity(partition_.blocks[i].range, model, blocks, work_.pseudo, partition_.blocks[i].ledger);
-    for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
-    {
-        ContactPart& part = partition_.contacts[i];
-        add_correction_springs(part.range, model, blocks, state.contacts, work_.pseudo, part.ledger);
-        add_impulse_work(model, part.impulses, blocks, part.ledger);
-        store_impulses(model, part.impulses, state.contacts);  // Eqs. (29), (30)
-    }
-    team.barrier();
-    if (team.is_first())
-        for (const ContactPart& part : partition_.contacts)
-            add_impulse_forces(model, part.impulses, blocks.force);
 }
 }  // namespace hdem

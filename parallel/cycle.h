@@ -52,9 +52,6 @@ class CycleRunner
     void move(const Model& model, State& state, const Team& team, std::int64_t now);
     void move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
                             StageClock& clock);
-    void apply_impulses(const Model& model, State& state, const Team& team, bool together);
-    template <typename Stage>
-    void for_colours(const Team& team, bool together, const Stage& stage);
 
     Workspace work_;
     ContactRebuild rebuild_;
