@@ -182,11 +182,12 @@ SectionSpec contact_section()
               .unit = "m",
               .effect = "Overlap that this correction leaves, so that resting contacts stay closed.",
               .range = {.low = 0, .high = 1e3}}),
-         field<&ContactDef::correction_limit>(
-             {.name = "correction_limit",
-              .effect = "What this correction takes back at most in a cycle beyond the approach of that cycle, as a share of the smaller block's "
+         field<&ContactDef::correction_rate>(
+             {.name = "correction_rate",
+              .unit = "1/s",
+              .effect = "What this correction takes back at most in a second beyond the approach of each cycle, as a share of the smaller block's "
                         "size. More presses blocks into springs on their other side, which adds energy.",
-              .range = share}),
+              .range = {.low = 0, .high = 1e12}}),
          field<&ContactDef::length_floor>({.name = "length_floor",
                                            .effect = "Least contact length as a share of the smaller block's size (the square root "
                                                      "of its area); carries corner-on-corner contacts.",

@@ -97,8 +97,7 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     const double pace = std::max(blocks.pace[p.ref], blocks.pace[p.inc]);
     p.weight_velocity = model.gravity.norm() * model.time_step * pace * pace;
     const double size = std::min(model.size(p.ref), model.size(p.inc));
-    const double most =
-        (p.approach + model.contact.correction_limit * std::sqrt(model.gravity.norm() * size)) * model.time_step;
+    const double most = (p.approach + model.contact.correction_rate * size) * model.time_step;
     p.excess_overlap = std::min(at.overlap - contacts.normal_force(end, contact) / p.stiffness - model.contact.allowed_overlap,
                                 most);
     p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;

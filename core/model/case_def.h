@@ -154,7 +154,7 @@ struct ContactDef
     int impulse_sweeps = 10;
     double correction_fraction = 1.0;          ///< share of the overlap that impulse contacts take back each cycle, Eq. (19)
     double allowed_overlap = 1.0e-7;           ///< overlap that position correction leaves [m]
-    double correction_limit = 5.0e-3;          ///< speed at which overlap older than a cycle is taken back at most, as a share of sqrt(|g| size) of the smaller block [-]
+    double correction_rate = 0.02;             ///< overlap older than a cycle that is taken back at most in a second, as a share of the smaller block's size [1/s]
     double length_floor = 1.0e-3;              ///< least contact length, as a share of the smaller block's size [-]
     double overlap_limit = 0.25;               ///< a run stops when an overlap exceeds this share of the smaller block's size [-]
     double recycling_distance = 1.0e-4;        ///< features are searched anew once a pair moved this share of the smaller block's size [-]; 0: every cycle
@@ -182,7 +182,7 @@ struct TimeDef
 {
     std::optional<double> step;        ///< [s]; not given: Eq. (32)
     double fraction = 0.1;             ///< FRAC of Eq. (32) [-]
-    double stable_fraction = 0.8;      ///< of the largest stable step, see core/motion/pace.h [-]
+    double stable_fraction = 0.7;      ///< of the largest stable step, see core/motion/pace.h [-]
 };
 
 // ---- the run --------------------------------------------------------------------------------------------------------
