@@ -26,10 +26,11 @@ struct Group
     const Index* inc;
     BasicEdgeTouch<Pack> touch;
     const JointLanes* joint;
+    TurningRate<Pack> turning[2];
+    Pack w;       ///< of inc relative to ref
     Pack length;  ///< each point's share of the contact length
     Pack last_length, length_inverse;
     Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
-    Pack w_ref, w_inc;
     Mask closed[2];
     Mask was_impulse[2];
     Pack last_normal[2], last_shear[2];
@@ -169,8 +170,7 @@ template <Impulses impulses>
     const Pack handed = none ? start
                              : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
                                       start);
-    const TurningRate<Pack> turning(p, g.touch.slope, g.w_ref, g.w_inc);
-    const Pack curved = Pack(0.5) * dt * turning.t;
+    const Pack curved = Pack(0.5) * dt * g.turning[k].t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
     const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt, handed);
     const Mask spring = none ? g.closed[k] : g.closed[k] & !impulsive;
@@ -184,14 +184,13 @@ template <Impulses impulses>
     // Energies of this step; u is the stretch of the normal spring.
     const Pack u = none ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
     // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
-    const Pack strayed = (p.v_m - turning.m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
+    const Pack strayed = (p.v_m - g.turning[k].m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
     const Pack plastic = -v_t * dt - (shear - start) * (g.joint->shear_compliance * g.length_inverse);
     const Pack slipped = Pack(0.5) * (start + shear) * plastic;
     const Mask stays = spring & (spring_normal + abs(spring_shear) > zero);
     sums.friction += select(stays, slipped, zero);
     sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
-                    Pack(0.5) * spring_normal * strayed + Pack(0.5) * (spring_shear - shear) * curved * dt +
-                    Pack(0.5) * (start - spring_shear) * v_t * dt;
+                    Pack(0.5) * (spring_normal * strayed + dt * ((spring_shear - shear) * curved + (start - spring_shear) * v_t));
     store_lane(l.overlap[k], p.overlap);
     if constexpr (!none)
         if (!none)
@@ -212,6 +211,7 @@ template <Impulses impulses>
 /// Tilt forces of both points, and their work: half a step under those of the last cycle, half under those of now.
 inline void add_tilt_forces(const Group& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
 {
+    Pack work = 0.0;
     const Pack pull = select(g.touch.length > floor, length_pull(sums.work, g.length_inverse), Pack(0.0));
     for (int k = 0; k < 2; ++k)
     {
@@ -219,14 +219,15 @@ inline void add_tilt_forces(const Group& g, Pack floor, Pack dt, ContactLanes& l
         const Pack tilt = tilt_force(sums.normal[k], g.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
         // It acts on the surface of inc, half of the overlap beyond the point.
         const Pack beyond = Pack(0.5) * p.overlap;
-        const Pack v_t = surface_velocity(p, g.w_ref, g.w_inc);
-        const Pack then = v_t - TurningRate<Pack>(p, g.touch.slope, g.w_ref, g.w_inc).surface * dt;
-        sums.changes -= Pack(0.5) * dt * (tilt * v_t + load_lane(l.tilt_force[k]) * then);
+        const Pack v_t = p.v_t - g.w * beyond;
+        const Pack last = load_lane(l.tilt_force[k]);
+        work += (tilt + last) * v_t - last * g.turning[k].surface * dt;
         store_lane(l.tilt_force[k], tilt);
         sums.f_t += tilt;
         sums.moment_inc -= (p.inc_m + beyond) * tilt;
         sums.moment_ref += (p.ref_m + beyond) * tilt;
     }
+    sums.changes -= Pack(0.5) * dt * work;
 }
 
 template <Method method>
@@ -248,7 +249,13 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         const BasicMotion<Pack> ref = load_motions(blocks.motion, at_ref);
         const BasicMotion<Pack> inc = load_motions(blocks.motion, at_inc);
         const BasicEdgeView<Pack> view = view_edges(edges, ref, inc);
-        Group g{.ref = at_ref, .inc = at_inc, .touch = touch_edges(edges, view, ref, inc), .joint = &laws.load(&contacts.law[i])};
+        const BasicEdgeTouch<Pack> touch = touch_edges(edges, view, ref, inc);
+        Group g{.ref = at_ref,
+                .inc = at_inc,
+                .touch = touch,
+                .joint = &laws.load(&contacts.law[i]),
+                .turning = {{touch.point[0], touch.slope, ref.w, inc.w}, {touch.point[1], touch.slope, ref.w, inc.w}},
+                .w = inc.w - ref.w};
         const Pack floor = load_lane(l.length_floor);
         g.length = point_length(g.touch.length, floor);
         const Mask::V moved = have_moved(l, view);
@@ -269,8 +276,6 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         g.last_length = last_length;
         g.length_inverse = Pack(1.0) / g.length;
         g.shear_share = shear_share(g.length / last_length);
-        g.w_ref = ref.w;
-        g.w_inc = inc.w;
         Sums sums;
         const Mask past = g.was_impulse[0] | g.was_impulse[1] |
                           load_lane(l.rest_overlap[0]) + load_lane(l.rest_overlap[1]) > Pack(0.0);
