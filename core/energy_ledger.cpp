@@ -33,7 +33,7 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
 {
     const BlockMotion& ref = blocks.motion[contact.ref];
     const BlockMotion& inc = blocks.motion[contact.inc];
-    const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+    const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
     const CoulombSlip& joint = model.joints.laws[contact.law];
     const double shear_stiffness = joint.shear_stiffness * contact.last_length;
     const double dt = model.time_step;

@@ -14,7 +14,7 @@ EdgeTouch touch_of(const State& state, Index contact)
     const BlockMotion& ref = state.blocks.motion[state.contacts.ref[contact]];
     const BlockMotion& inc = state.blocks.motion[state.contacts.inc[contact]];
     const EdgePair edges = state.contacts.edges(contact);
-    return touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+    return touch_edges(edges, ref, inc);
 }
 
 /// Take off a force on a block at `arm` from its centroid, each time with half of x f + f x in the xy place.

@@ -73,7 +73,7 @@ template <typename R>
 /// 32 %. Of the order u / L of the normal force: 1e-5 in rock.
 /// Where a vertex lies on the reference edge's end, as in flush blocks, V has a kink, and rounding would choose the side: dV/dL begins with 0 there and is
 /// whole once the vertex is inside by the overlap.
-/// @see verification/unit/core/contact/force_law_test.cpp
+/// @see verification/unit/core/contact/spring_energy_test.cpp
 template <typename R>
 [[nodiscard]] inline R tilt_force(R normal, R slope, R pull, R inside, R overlap)
 {

@@ -208,7 +208,7 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
         const BlockMotion& ref = blocks.motion[contacts.ref[i]];
         const BlockMotion& inc = blocks.motion[contacts.inc[i]];
         const EdgePair edges = contacts.edges(i);
-        const EdgeTouch touch = touch_edges(edges, view_edges(edges, ref, inc), ref, inc);
+        const EdgeTouch touch = touch_edges(edges, ref, inc);
         for (int k = 0; k < 2; ++k)
             if (contacts.regime[k][i] == impulse)
                 points.push_back(make_point(i, k, model, blocks, contacts, touch));

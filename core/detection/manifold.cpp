@@ -161,7 +161,7 @@ Facing face(const Shapes& shapes, const Pair& pair, bool ref_is_a, Index ref_edg
     f.edges = make_edges(shapes, ref_edge, inc_part, f.inc_edge);
     const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
     const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
-    const EdgeTouch touch = touch_edges(f.edges, view_edges(f.edges, ref, inc), ref, inc);
+    const EdgeTouch touch = touch_edges(f.edges, ref, inc);
     f.overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
     return f;
 }
@@ -233,7 +233,7 @@ void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& co
 {
     const BlockMotion& ref = motion[contact.ref];
     const BlockMotion& inc = motion[contact.inc];
-    const EdgeTouch touch = touch_edges(contact.edges, view_edges(contact.edges, ref, inc), ref, inc);
+    const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
     contact.last_length = point_length(touch.length, contact.length_floor);
     for (int k = 0; k < 2; ++k)
         contact.point[k].overlap = touch.point[k].overlap - touch.point[k].v_m * dt;
