@@ -19,6 +19,11 @@ std::uint64_t mixed(std::uint64_t z)
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
 }
+
+std::uint64_t row_key(std::int64_t y, int level)
+{
+    return mixed(static_cast<std::uint64_t>(y) * 64u + static_cast<std::uint64_t>(level));
+}
 }  // namespace
 
 void CellList::build(const std::vector<Box>& boxes)
@@ -31,8 +36,7 @@ void CellList::build(const std::vector<Box>& boxes)
     if (!std::isfinite(smallest_cell_))
         smallest_cell_ = 1.0;
 
-    const auto n = static_cast<Index>(boxes.size());
-    level_.assign(boxes.size(), -1);
+    home_.assign(boxes.size(), {0, 0, -1});
     next_.assign(boxes.size(), no_index);
     used_levels_.clear();
     std::size_t slots = 16;
@@ -40,48 +44,49 @@ void CellList::build(const std::vector<Box>& boxes)
         slots *= 2;
     head_.assign(slots, no_index);
     // Backwards, so that each slot's chain ascends.
-    for (Index i = n - 1; i >= 0; --i)
+    for (Index i = static_cast<Index>(boxes.size()) - 1; i >= 0; --i)
     {
         if (is_empty(boxes[i]))
             continue;
-        int level = 0;
-        std::frexp(extent(boxes[i]) / smallest_cell_ * 0.999999, &level);
-        level_[i] = std::clamp(level, 0, 60);
-        while (std::ldexp(smallest_cell_, level_[i]) < extent(boxes[i]))
-            ++level_[i];
-        const std::size_t s = slot(cell_of(i, level_[i]));
+        const Cell home = cell_of(boxes[i]);
+        home_[i] = home;
+        const std::size_t s = slot(home.x, row_key(home.y, home.level));
         next_[i] = head_[s];
         head_[s] = i;
-        if (std::find(used_levels_.begin(), used_levels_.end(), level_[i]) == used_levels_.end())
-            used_levels_.push_back(level_[i]);
+        if (std::find(used_levels_.begin(), used_levels_.end(), home.level) == used_levels_.end())
+            used_levels_.push_back(home.level);
     }
     std::sort(used_levels_.begin(), used_levels_.end());
 }
 
-CellList::Cell CellList::cell_of(Index box, int level) const
+CellList::Cell CellList::cell_of(const Box& box) const
 {
+    int level = 0;
+    std::frexp(extent(box) / smallest_cell_ * 0.999999, &level);
+    level = std::clamp(level, 0, 60);
+    while (std::ldexp(smallest_cell_, level) < extent(box))
+        ++level;
     const double side = std::ldexp(smallest_cell_, level);
-    const Vec2 centre = 0.5 * ((*boxes_)[box].low + (*boxes_)[box].high);
+    const Vec2 centre = 0.5 * (box.low + box.high);
     // Blocks flying away for ever must not overflow the cell numbers; beyond the limit they share cells, which is only slow.
     constexpr double limit = 4.0e18;
     return {static_cast<std::int64_t>(std::clamp(std::floor(centre.x() / side), -limit, limit)),
             static_cast<std::int64_t>(std::clamp(std::floor(centre.y() / side), -limit, limit)), level};
 }
 
-std::size_t CellList::slot(const Cell& cell) const
+std::size_t CellList::slot(std::int64_t x, std::uint64_t row) const
 {
-    const std::uint64_t key = mixed(static_cast<std::uint64_t>(cell.x) + mixed(static_cast<std::uint64_t>(cell.y) * 64u + static_cast<std::uint64_t>(cell.level)));
-    return key & (head_.size() - 1);
+    return mixed(static_cast<std::uint64_t>(x) + row) & (head_.size() - 1);
 }
 
-void CellList::visit(const Cell& cell, Index box, std::vector<std::uint64_t>& pairs) const
+void CellList::visit(std::size_t slot, const Cell& cell, Index box, std::vector<std::uint64_t>& pairs) const
 {
-    for (Index other = head_[slot(cell)]; other != no_index; other = next_[other])
+    for (Index other = head_[slot]; other != no_index; other = next_[other])
     {
-        if (level_[other] != cell.level || (cell.level == level_[box] && other <= box) || !(*boxes_)[box].meets((*boxes_)[other]))
+        const Cell& home = home_[other];  // several cells may share a slot
+        if (home.level != cell.level || home.x != cell.x || home.y != cell.y || (cell.level == home_[box].level && other <= box))
             continue;
-        const Cell home = cell_of(other, cell.level);  // several cells may share a slot
-        if (home.x == cell.x && home.y == cell.y)
+        if ((*boxes_)[box].meets((*boxes_)[other]))
             pairs.push_back(pair_key(std::min(box, other), std::max(box, other)));
     }
 }
@@ -90,16 +95,21 @@ void CellList::find_pairs(IndexRange range, std::vector<std::uint64_t>& pairs) c
 {
     for (Index i = range.begin; i < range.end; ++i)
     {
-        if (level_[i] < 0)
+        const Cell home = home_[i];
+        if (home.level < 0)
             continue;
         for (const int level : used_levels_)
         {
-            if (level < level_[i])
+            if (level < home.level)
                 continue;
-            const Cell home = cell_of(i, level);
-            for (std::int64_t dy = -1; dy <= 1; ++dy)
-                for (std::int64_t dx = -1; dx <= 1; ++dx)
-                    visit({home.x + dx, home.y + dy, level}, i, pairs);
+            // Cells double from level to level.
+            const int up = level - home.level;
+            for (std::int64_t y = (home.y >> up) - 1; y <= (home.y >> up) + 1; ++y)
+            {
+                const std::uint64_t row = row_key(y, level);
+                for (std::int64_t x = (home.x >> up) - 1; x <= (home.x >> up) + 1; ++x)
+                    visit(slot(x, row), {x, y, level}, i, pairs);
+            }
         }
     }
 }

@@ -43,13 +43,13 @@ class CellList
         std::int64_t x, y;
         int level;
     };
-    [[nodiscard]] Cell cell_of(Index box, int level) const;
-    [[nodiscard]] std::size_t slot(const Cell& cell) const;
-    void visit(const Cell& cell, Index box, std::vector<std::uint64_t>& pairs) const;
+    [[nodiscard]] Cell cell_of(const Box& box) const;
+    [[nodiscard]] std::size_t slot(std::int64_t x, std::uint64_t row) const;
+    void visit(std::size_t slot, const Cell& cell, Index box, std::vector<std::uint64_t>& pairs) const;
 
     const std::vector<Box>* boxes_ = nullptr;
     double smallest_cell_ = 1.0;       ///< side of a cell on level 0 [m]
-    std::vector<int> level_;           ///< per box, -1: empty
+    std::vector<Cell> home_;           ///< per box; level -1: empty
     std::vector<int> used_levels_;     ///< ascending
     std::vector<Index> head_;          ///< per hash slot: first box, the rest by next_
     std::vector<Index> next_;
