@@ -58,7 +58,7 @@ void update_paces(const Model& model, State& state, const Team& team, std::int64
               {
                   part.standing = bound_paces(part.range, model, work.block_contacts, contacts, blocks, work.pace_bounds);
                   if (look)
-                      part.stable_step = stable_step(part.range, look_at_all ? StepOf::all : StepOf::moving, model,
+                      part.stable_step = stable_step(part.range, look_at_all ? StepOf::all : StepOf::fast, model,
                                                      work.block_contacts, contacts, blocks);
               });
     for_parts(team, partition,

@@ -33,6 +33,12 @@ double skin_width(const Model& model)
     return model.contact.skin * model.mean_size;
 }
 
+double way_a_cycle(Index block, const Model& model, const Blocks& blocks)
+{
+    const BlockMotion& m = blocks.motion[block];
+    return (std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block]) * model.time_step;
+}
+
 void set_margins(const Model& model, Blocks& blocks)
 {
     constexpr double cycles = 64.0;
@@ -40,8 +46,7 @@ void set_margins(const Model& model, Blocks& blocks)
     const double least = 0.5 * skin_width(model);
     for (Index b = 0; b < blocks.size(); ++b)
     {
-        const BlockMotion& m = blocks.motion[b];
-        const double way = (std::hypot(m.vx, m.vy) + std::abs(m.w) * model.radius[b]) * model.time_step;
+        const double way = way_a_cycle(b, model, blocks);
         blocks.margin[b] = way * cycles > least ? std::min(way * cycles, most * least) : least;  // least where `way` is not a number
     }
 }
@@ -77,7 +82,8 @@ double margin_used(IndexRange range, const Model& model, const Blocks& blocks, c
         const BlockMotion& now = blocks.motion[i];
         const BlockMotion& then = rebuilt_at[i];
         const double turned = std::abs(now.angle - then.angle) * model.radius[i];
-        const double moved = std::hypot(now.x - then.x, now.y - then.y);
+        const double dx = now.x - then.x, dy = now.y - then.y;
+        const double moved = std::sqrt(dx * dx + dy * dy);
         const double used = (moved + turned) / blocks.margin[i];
         if (blocks.present[i] != 0 && !(used <= greatest))
             greatest = std::isfinite(used) ? used : std::numeric_limits<double>::infinity();
@@ -119,9 +125,12 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
         const bool known = at < old.size() && key_of(at) == key;
         if (known)
             contact = old.get(at);
-        if (known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b))
+        const bool rests = known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b);
+        // What touches is near, and refresh_features has the last word on its features.
+        const bool touches = known && (contact.point[0].regime != Regime::open || contact.point[1].regime != Regime::open);
+        if (rests || (touches && old.stale[at] == 0))
         {
-            out.push_back(contact);  // neither has moved
+            out.push_back(contact);
             continue;
         }
         contact.part_a = part_a;

@@ -10,6 +10,9 @@ namespace hdem
 /// Distance two blocks at rest may be apart and still be tracked as a contact [m].
 [[nodiscard]] double skin_width(const Model& model);
 
+/// How far any point of a block moves in a cycle, at most [m].
+[[nodiscard]] double way_a_cycle(Index block, const Model& model, const Blocks& blocks);
+
 /// Give each block its margin: half the skin, for fast ones their way in the next 64 cycles, up to eight times as much. Two blocks are tracked as a contact
 /// when they are nearer than their margins together. (A single block that fell had all contacts found anew every 20 cycles.)
 void set_margins(const Model& model, Blocks& blocks);
@@ -22,8 +25,8 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
 [[nodiscard]] double margin_used(IndexRange range, const Model& model, const Blocks& blocks,
                                    const std::vector<BlockMotion>& rebuilt_at);
 
-/// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out,
-/// contacts that `old` already has (same parts, ascending) keep their features and history. Appends to `out` in key order.
+/// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out. Contacts that `old` already has
+/// (same parts, ascending) keep their history; those that touch, and whose blocks rest, their features as well. Appends to `out` in key order.
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
                     const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger);
 

@@ -32,8 +32,8 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];
         sums.kinetic_energy += kinetic_energy(model, blocks, i);
-        sums.unbalanced_force += std::hypot(inertia.inverse_mass_x > 0.0 ? force.x : 0.0,
-                                            inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
+        sums.unbalanced_force +=
+            Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0).norm();
         sums.applied_force += applied[i - range.begin].norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());

@@ -18,7 +18,7 @@ constexpr double waking_limits = 10.0;  // of what is quiet
 double unbalance(Index block, const Model& model, const Blocks& blocks)
 {
     const BlockForce& f = blocks.force[block];
-    return (std::hypot(f.x, f.y) + std::abs(f.moment) / model.radius[block]) / model.mass[block];
+    return (std::sqrt(f.x * f.x + f.y * f.y) + std::abs(f.moment) / model.radius[block]) / model.mass[block];
 }
 
 bool is_quiet(Index block, const Model& model, const RestLimits& limits, const Blocks& blocks)

@@ -19,7 +19,7 @@ namespace hdem
 enum class StepOf
 {
     all,
-    moving  ///< only blocks beside one that takes part in the cycle, see rest.h
+    fast  ///< only blocks that may have a new neighbour soon: beside one that moves by half the skin in 256 cycles
 };
 
 /// Lower bound on the stable step of a range of blocks, 2 / omega with omega >= omega_max [s]; the least over all blocks is stable for all of them.
