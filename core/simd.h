@@ -38,6 +38,8 @@ struct Pack
     void store(double* to) const { std::memcpy(to, &v, sizeof v); }
 };
 
+using FloatLanes = float __attribute__((vector_size(16)));
+
 inline Pack operator+(Pack a, Pack b)
 {
     return Pack(a.v + b.v);

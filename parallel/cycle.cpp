@@ -239,15 +239,16 @@ void CycleRunner::add_up_contacts(State& state)
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
 {
     const bool check = now % rest_every == 0;
-    const DampingPreset preset = relaxing_ ? DampingPreset::paper : state.damping;
     part.ledger = {};
     part.rest_changed = now == first_evaluation_;
+    const DampingRule damping{state.damping, relaxing_};
     for (const IndexRange& range : part.active)
     {
-        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, state.blocks);  // Eqs. (7), (8)
+        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, needs_joint(damping),
+                   state.blocks);  // Eqs. (7), (8)
         if (rests_)
             part.rest_changed = update_rest(range, model, limits_, check, state.blocks, part.ledger) || part.rest_changed;
-        update_velocities(range, model, preset, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+        update_velocities(range, model, damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
     }
 }
 

@@ -29,15 +29,17 @@ StageScratch::StageScratch(const State& from) : state(from)
 
 void evaluate(const Model& model, StageScratch& scratch)
 {
+    const DampingRule damping{.preset = scratch.state.damping};
     const ContactTally tally = evaluate_contacts(scratch.all_contacts(), model, {.method = scratch.state.method}, scratch.state.blocks,
                                                  scratch.state.contacts, scratch.loads);
     benchmark::DoNotOptimize(tally.closed);
-    sum_forces(scratch.all_blocks(), model, scratch.block_contacts, scratch.loads, {}, scratch.state.blocks);
+    sum_forces(scratch.all_blocks(), model, scratch.block_contacts, scratch.loads, {}, needs_joint(damping),
+               scratch.state.blocks);
 }
 
 void move(const Model& model, StageScratch& scratch)
 {
-    update_velocities(scratch.all_blocks(), model, scratch.state.damping, scratch.state.blocks, scratch.state.ledger);
+    update_velocities(scratch.all_blocks(), model, {.preset = scratch.state.damping}, scratch.state.blocks, scratch.state.ledger);
     benchmark::DoNotOptimize(update_positions(scratch.all_blocks(), model, scratch.state.blocks));
 }
 

@@ -352,6 +352,7 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     }
 }
 
+template <bool find_joint>
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, Blocks& blocks)
 {
@@ -370,8 +371,11 @@ void sum_forces(IndexRange range, const Model& model, const BlockContacts& list,
             sum += Pack::load(&loads.load[entry].x);
             const JointUse& use = loads.use[entry / 2];
             force.contacts |= use.contacts;
-            most = use.mobilised > force.mobilised ? entry / 2 : most;
-            force.mobilised = std::max(force.mobilised, use.mobilised);
+            if constexpr (find_joint)
+            {
+                most = use.mobilised > force.mobilised ? entry / 2 : most;
+                force.mobilised = std::max(force.mobilised, use.mobilised);
+            }
         }
         sum.store(&force.x);
         if (most != no_index)
@@ -381,5 +385,14 @@ void sum_forces(IndexRange range, const Model& model, const BlockContacts& list,
         }
         blocks.force[b] = force;
     }
+}
+
+void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
+                const std::vector<Triple>& external, bool find_joint, Blocks& blocks)
+{
+    if (find_joint)
+        sum_forces<true>(range, model, list, loads, external, blocks);
+    else
+        sum_forces<false>(range, model, list, loads, external, blocks);
 }
 }  // namespace hdem

@@ -96,7 +96,6 @@ class LawLanes
 };
 
 using ByteLanes = std::uint8_t __attribute__((vector_size(4)));
-using FloatLanes = float __attribute__((vector_size(16)));
 
 /// Regimes of four contact points.
 [[nodiscard]] inline Mask::V load_regimes(const std::uint8_t* from)

@@ -182,7 +182,7 @@ struct TimeDef
 {
     std::optional<double> step;        ///< [s]; not given: Eq. (32)
     double fraction = 0.1;             ///< FRAC of Eq. (32) [-]
-    double stable_fraction = 0.7;      ///< of the largest stable step, see core/motion/pace.h [-]
+    double stable_fraction = 0.9;      ///< of the largest stable step, see core/motion/pace.h [-]
 };
 
 // ---- the run --------------------------------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ struct Model
     double paper_time_step = 0.0;          ///< Eq. (32) [s]
     bool is_driven = false;                ///< some motion is prescribed, by a load or of a block that cannot leave it
     bool has_own_step = false;             ///< stages that look for rest take a share of the largest stable step, see core/motion/pace.h
-    double stable_fraction = 0.7;          ///< that share [-]
+    double stable_fraction = 0.9;          ///< that share [-]
     double threshold_scale = 1.0;          ///< C_scale of Eq. (25) [-]
     double mean_size = 0.0;                ///< square root of the mean block area [m]
 

@@ -5,6 +5,10 @@
 #include "core/state/workspace.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace hdem
 {
@@ -47,22 +51,54 @@ struct Columns
     }
 };
 
+static_assert(offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
+
 template <typename Entry>
 inline constexpr std::ptrdiff_t row_stride = sizeof(Entry) / sizeof(double);
+
+/// Columns of what follows `reserve` in four BlockForces.
+struct JointColumns
+{
+    using Words = std::uint32_t __attribute__((vector_size(16)));
+    Words mobilised, t_x, t_y, contacts;
+
+    JointColumns(const BlockForce* force, Index count)
+    {
+        Words row[lanes] = {};
+        for (Index i = 0; i < count; ++i)
+            std::memcpy(&row[i], &force[i].mobilised, sizeof row[i]);
+        const Words low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+        const Words low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+        const Words high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+        const Words high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+        mobilised = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+        t_x = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+        t_y = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+        contacts = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+    }
+    [[nodiscard]] static Pack to_pack(Words floats)
+    {
+        return Pack(__builtin_convertvector(std::bit_cast<FloatLanes>(floats), Pack::V));
+    }
+    [[nodiscard]] Mask have(ContactBits bits) const
+    {
+        return {(__builtin_convertvector(contacts, Mask::V) & std::int64_t{bits}) != 0};
+    }
+};
 
 [[nodiscard]] inline BasicActing<Pack> load_acting(const BlockForce* force, Index count)
 {
     const Columns f(&force->x, row_stride<BlockForce>, count);
-    BasicActing<Pack> acting{.x = f.a, .y = f.b, .moment = f.c, .reserve = max(f.d, Pack(0.0))};
-    for (Index i = 0; i < count; ++i)
-    {
-        acting.mobilised.v[i] = force[i].mobilised;
-        acting.t_x.v[i] = force[i].t_x;
-        acting.t_y.v[i] = force[i].t_y;
-        acting.springs.v[i] = (force[i].contacts & contact_force) != 0 ? -1 : 0;
-        acting.impulses.v[i] = (force[i].contacts & contact_impulse) != 0 ? -1 : 0;
-    }
-    return acting;
+    const JointColumns joint(force, count);
+    return {.x = f.a,
+            .y = f.b,
+            .moment = f.c,
+            .reserve = max(f.d, Pack(0.0)),
+            .mobilised = JointColumns::to_pack(joint.mobilised),
+            .t_x = JointColumns::to_pack(joint.t_x),
+            .t_y = JointColumns::to_pack(joint.t_y),
+            .springs = joint.have(contact_force),
+            .impulses = joint.have(contact_impulse)};
 }
 
 [[nodiscard]] inline BasicInertia<Pack> load_inertia(const BlockInertia* inertia, Index count)

@@ -21,6 +21,27 @@ struct BasicActing
 };
 using Acting = BasicActing<double>;
 
+/// Who chooses the damping of a block.
+struct DampingRule
+{
+    DampingPreset preset = DampingPreset::automatic;
+    bool relaxing = false;  ///< the stage looks for a state of rest (motion/pace.h); only under `automatic`
+};
+
+/// Does damping ask for the most mobilised joint of a block?
+[[nodiscard]] inline bool needs_joint(const DampingRule& rule)
+{
+    return rule.preset == DampingPreset::automatic && !rule.relaxing;
+}
+
+/// How local damping opposes a motion.
+enum class LocalDamping
+{
+    last_velocity,  ///< the one half a step before the force: locally_damped
+    along_joint,    ///< the same; translation along and across the block's most mobilised joint, along it by `reserve` at most
+    new_velocity    ///< the one half a step after the force: stopped_by_damping
+};
+
 /// Damping of one block in one cycle.
 template <typename R>
 struct BasicBlockDamping
@@ -28,8 +49,7 @@ struct BasicBlockDamping
     R local = 0.0;           ///< alpha of Eqs. (13), (14) for translation [-]
     R local_rotation = 0.0;  ///< the same for rotation [-]
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
-    bool along_joint =
-        false;  ///< translation is damped along and across the block's most mobilised joint, along it by `reserve` at most
+    LocalDamping form = LocalDamping::last_velocity;
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -51,20 +71,23 @@ using BlockDamping = BasicBlockDamping<double>;
 /// 0.9 % of the way of the first second on a slope of 30 degrees at phi = 20; alpha fading with the mobilised share lost 0.5 % of Newmark's slide,
 /// and left a block that swings on its normal springs undamped.)
 ///
-/// A stage that runs until it has converged is damped as by `paper` under `automatic` too (is_relaxing): what is asked for then is a state of rest
-/// close to where the rock began, and a block that swings past it has slipped there. Next to the tunnel blocks move 0.4 mm farther otherwise.
+/// A stage that runs until it has converged (is_relaxing) has all of local damping under `automatic` too: what is asked for then is a state of rest
+/// close to where the rock began, and a block that swings past it has slipped there. Next to the tunnel blocks move 0.4 mm farther otherwise. It opposes the
+/// new velocity, which is stable at larger steps.
 template <typename R>
-[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, DampingPreset preset,
+[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, const DampingRule& rule,
                                                               const DampingDef& damping)
 {
-    const bool automatic = preset == DampingPreset::automatic;
-    const double alpha = preset == DampingPreset::dynamic ? 0.0 : damping.local;
+    const bool by_joint = needs_joint(rule);
+    const double alpha = rule.preset == DampingPreset::dynamic ? 0.0 : damping.local;
     const R none = 0.0;
     const R local = select(acting.impulses, none, select(acting.springs, R(alpha), none));
     return {.local = local,
-            .local_rotation = automatic ? local * (R(1.0) - acting.mobilised) : local,
+            .local_rotation = by_joint ? local * (R(1.0) - acting.mobilised) : local,
             .global = select(acting.impulses, R(2.0 * damping.global_damping_ratio * damping.average_frequency), none),
-            .along_joint = automatic};
+            .form = rule.relaxing ? LocalDamping::new_velocity
+                    : by_joint    ? LocalDamping::along_joint
+                                  : LocalDamping::last_velocity};
 }
 
 /// Force left of `force` once local damping has opposed the motion:
@@ -73,6 +96,12 @@ template <typename R>
 ///
 /// per component, with F the *net* force on the block, gravity and loads included. (With the sum of the contacts' absolute
 /// forces, the other reading of Eq. (13), the exact static force is never reached.)
+///
+/// v is half a step old. Where a spring brakes a block it does so with 1 + alpha times its force, so that steps above
+///
+///   2 / (omega_max sqrt(1 + alpha)),  0.745 of the stable limit at alpha = 0.8
+///
+/// feed its swinging; already near there a tunnel squeezed by 0.1 mm more.
 /// @param limit  greatest damping force [N]
 template <typename R>
 [[nodiscard]] inline R locally_damped(R force, R velocity, R alpha, R limit = std::numeric_limits<double>::infinity())
@@ -80,6 +109,22 @@ template <typename R>
     const R zero = 0.0;
     const R drag = min(alpha * abs(force), limit);
     return force - select(velocity > zero, drag, select(velocity < zero, -drag, zero));
+}
+
+/// The same with sgn of the velocity at the end of the step, and no more than stops the block there:
+///
+///   F_d = m v / dt + F,  |F_d| <= alpha |F|
+///
+/// Never turns a motion round, and is stable wherever the springs are without damping. For slow motions it differs from the form above in one cycle of each
+/// turning point.
+template <typename R>
+[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha)
+{
+    const R zero = 0.0;
+    const auto is_free = inverse_mass > zero;
+    const R stop = velocity / (select(is_free, inverse_mass, R(1.0)) * dt) + force;
+    const R most = alpha * abs(force);
+    return select(is_free, force - max(min(stop, most), -most), force);
 }
 
 /// Force on a block's centroid after local damping.
@@ -92,9 +137,12 @@ struct DampedForce
 /// Local damping of translation. A block that can move along one axis only is damped along it.
 template <typename R>
 [[nodiscard]] inline DampedForce<R> damp_translation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R vx, R vy,
-                                                     const BasicBlockDamping<R>& damping)
+                                                     R dt, const BasicBlockDamping<R>& damping)
 {
-    if (!damping.along_joint)
+    if (damping.form == LocalDamping::new_velocity)
+        return {stopped_by_damping(acting.x, vx, inertia.inverse_mass_x, dt, damping.local),
+                stopped_by_damping(acting.y, vy, inertia.inverse_mass_y, dt, damping.local)};
+    if (damping.form == LocalDamping::last_velocity)
         return {locally_damped(acting.x, vx, damping.local), locally_damped(acting.y, vy, damping.local)};
     const R zero = 0.0;
     const R along = acting.t_x * acting.x + acting.t_y * acting.y;
@@ -106,5 +154,15 @@ template <typename R>
                    acting.x + acting.t_x * drag_t - acting.t_y * drag_m),
             select(on_axis, locally_damped(acting.y, vy, damping.local, acting.reserve),
                    acting.y + acting.t_y * drag_t + acting.t_x * drag_m)};
+}
+
+/// Moment on a block after local damping.
+template <typename R>
+[[nodiscard]] inline R damp_rotation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R w, R dt,
+                                     const BasicBlockDamping<R>& damping)
+{
+    return damping.form == LocalDamping::new_velocity
+               ? stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, damping.local_rotation)
+               : locally_damped(acting.moment, w, damping.local_rotation);
 }
 }  // namespace hdem

@@ -2,7 +2,6 @@
 
 #include "core/detection/edge_touch.h"
 #include "core/motion/block_lanes.h"
-#include "core/motion/damping.h"
 #include "core/motion/rest.h"
 
 #include <utility>
@@ -235,7 +234,7 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
             }
 }
 
-void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger)
+void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
 {
     const Pack dt = model.time_step;
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
@@ -250,9 +249,9 @@ void update_velocities(IndexRange range, const Model& model, DampingPreset prese
             hold_stopped(&blocks.rest[i], count, inertia);
             Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
             const Pack mass = load_some(&model.mass[i], count);
-            const BasicBlockDamping<Pack> damping = conditional_damping(acting, preset, model.damping);
-            const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, damping);
-            const Pack damped_moment = locally_damped(acting.moment, v.c, damping.local_rotation);
+            const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule, model.damping);
+            const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
+            const Pack damped_moment = damp_rotation(acting, inertia, v.c, dt, damping);
             v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, dt, works);
             v.b = advance(v.b, {acting.y, damped.y, inertia.inverse_mass_y, mass * g_y}, damping.global, has_global, dt, works);
             v.c = advance(v.c, {acting.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, has_global, dt, works);

@@ -2,6 +2,7 @@
 /// Equations of motion: velocities from forces, poses from velocities.
 
 #include "core/model/model.h"
+#include "core/motion/damping.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
@@ -27,7 +28,7 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
 ///
 /// Reads force and inertia, writes velocities of the blocks in `range`; adds the work of gravity, of prescribed motions and of
 /// damping to `ledger`, each force times the mean of the velocities before and after.
-void update_velocities(IndexRange range, const Model& model, DampingPreset preset, Blocks& blocks, EnergyLedger& ledger);
+void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger);
 
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
 /// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.

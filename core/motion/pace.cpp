@@ -14,7 +14,7 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = 64.0;                 // pace, of the rock and beyond it
-constexpr double finest = 1.1892071150027210667;  // 2^(1/4), between two paces
+constexpr double finest = 1.0905077326652576592;  // 2^(1/8), between two paces
 constexpr double slide_share = 1.5e-3;            // of the block's size a cycle
 constexpr double flight_share = 0.05;             // of the way to what is near, a cycle
 constexpr double
@@ -22,7 +22,7 @@ constexpr double
 constexpr double gentle_share = 0.03;  // of sqrt(g size): impacts below are those of rocking and sliding
 constexpr double move_speeds = 10.0;   // of the criterion's mean speed: blocks that are faster move
 
-/// Greatest of the paces base, base 2^(1/4), base 2^(2/4), ... that is not above `bound`; base if all are.
+/// Greatest of the paces base, base 2^(1/8), base 2^(2/8), ... that is not above `bound`; base if all are.
 double floor_pace(double base, double bound)
 {
     double pace = base;
@@ -92,9 +92,7 @@ Surroundings look_around(Index block, const Model& model, const BlockContacts& l
 /// Greatest pace that a loose block by itself may have now.
 double bound_of(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks)
 {
-    const BlockMotion& motion = blocks.motion[block];
-    const double speed = (std::hypot(motion.vx, motion.vy) + std::abs(motion.w) * model.radius[block]) / blocks.pace[block];
-    const double step = std::max(speed * model.time_step, 1e-300);
+    const double step = std::max(way_a_cycle(block, model, blocks) / blocks.pace[block], 1e-300);
     if (list.begin[block] == list.begin[block + 1])
         return flight_share * 2.0 * blocks.margin[block] / step;
     const Surroundings around = look_around(block, model, list, contacts, blocks);

@@ -126,7 +126,7 @@ struct BlockPair
         list_block_contacts(state.contacts, state.blocks.size(), list);
         Model weightless = model;
         weightless.gravity = {0.0, 0.0};
-        sum_forces({0, state.blocks.size()}, weightless, list, loads, {}, state.blocks);
+        sum_forces({0, state.blocks.size()}, weightless, list, loads, {}, true, state.blocks);
     }
 
     [[nodiscard]] Vec2 force(Index block) const { return {state.blocks.force[block].x, state.blocks.force[block].y}; }

@@ -84,7 +84,7 @@ class TheStart(unittest.TestCase):
 
     def test_stages_that_take_the_stable_step_say_so(self):
         until = 'until = "converged"\nmax_cycles = 100'
-        note = r"(?m)^note: no time\.step is given: in this stage a cycle takes 0\.7 \(time\.stable_fraction\) of the largest step .* from 1 to 64 times [\d.e-]+ s\.$"
+        note = r"(?m)^note: no time\.step is given: in this stage a cycle takes 0\.9 \(time\.stable_fraction\) of the largest step .* from 1 to 64 times [\d.e-]+ s\.$"
         load = CASE[CASE.index("[[load]]"):CASE.index("[[stage]]")]
         free = CASE.replace(load, "").replace("step = 1e-4", "fraction = 0.1")
         self.assertRegex(self.said(until=until, case=free), note)

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hdem
 {
 namespace
@@ -40,7 +43,7 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
         const BlockDamping damping = conditional_damping(Acting{.mobilised = row.mobilised,
                                                                 .springs = (row.contacts & contact_force) != 0,
                                                                 .impulses = (row.contacts & contact_impulse) != 0},
-                                                         row.preset, def);
+                                                         {.preset = row.preset}, def);
         EXPECT_DOUBLE_EQ(damping.local, row.local) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
         EXPECT_DOUBLE_EQ(damping.global, row.global) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
     }
@@ -49,23 +52,23 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
 TEST(ConditionalDamping, LeavesTurningAloneAsAJointIsMobilised)
 {
     const DampingDef def{.local = 0.8};
-    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.6,
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, {.preset = DampingPreset::automatic}, def).local_rotation, 0.6,
                 1e-15);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::automatic, def).local_rotation, 0.0);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, DampingPreset::paper, def).local_rotation, 0.8);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, {.preset = DampingPreset::automatic}, def).local_rotation, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, {.preset = DampingPreset::paper}, def).local_rotation, 0.8);
 }
 
 /// A block that slides along (0.6, 0.8) at the limit moves freely along the joint, and is damped across it.
 TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
 {
     const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
-    const BlockDamping damping{.local = 0.8, .along_joint = true};
+    const BlockDamping damping{.local = 0.8, .form = LocalDamping::along_joint};
     const double t_x = 0.6, t_y = 0.8;
     const auto damped = [&](double reserve)
     {
         const Acting force{.x = 10.0 * t_x - 5.0 * t_y, .y = 10.0 * t_y + 5.0 * t_x, .reserve = reserve, .t_x = t_x, .t_y = t_y};
         // 2 m/s along, 1 m/s across
-        const DampedForce<double> f = damp_translation(force, inertia, 2.0 * t_x - 1.0 * t_y, 2.0 * t_y + 1.0 * t_x, damping);
+        const DampedForce<double> f = damp_translation(force, inertia, 2.0 * t_x - 1.0 * t_y, 2.0 * t_y + 1.0 * t_x, 1.0, damping);
         return Vec2(t_x * f.x + t_y * f.y, t_x * f.y - t_y * f.x);
     };
     EXPECT_NEAR(damped(0.0).x(), 10.0, 1e-12);
@@ -80,7 +83,7 @@ TEST(LocalDamping, LeavesAFixedComponentAlone)
 {
     const BlockInertia inertia{.inverse_mass_y = 1.0};
     const Acting force{.x = 7.0, .y = 10.0, .reserve = 3.0, .t_x = 0.6, .t_y = 0.8};
-    EXPECT_DOUBLE_EQ(damp_translation(force, inertia, 0.0, 1.0, {.local = 0.8, .along_joint = true}).y, 7.0);
+    EXPECT_DOUBLE_EQ(damp_translation(force, inertia, 0.0, 1.0, 1.0, {.local = 0.8, .form = LocalDamping::along_joint}).y, 7.0);
 }
 
 RC_GTEST_PROP(LocalDamping, TakesPowerAndLeavesABlockAtRestAlone, (int f, int v))
@@ -98,6 +101,62 @@ TEST(LocalDamping, SlowsAndStrengthensByItsShare)
     EXPECT_DOUBLE_EQ(locally_damped(10.0, 1.0, 0.8), 2.0) << "speeding up";
     EXPECT_DOUBLE_EQ(locally_damped(10.0, -1.0, 0.8), 18.0) << "braking";
     EXPECT_DOUBLE_EQ(locally_damped(-10.0, 1.0, 0.8), -18.0);
+}
+
+RC_GTEST_PROP(LocalDamping, NeverTurnsAMotionRound, (int f, int v))
+{
+    const double force = f, velocity = v, inverse_mass = 0.5, dt = 0.1, alpha = 0.8;
+    const double drag = force - stopped_by_damping(force, velocity, inverse_mass, dt, alpha);
+    const double free = velocity + force * inverse_mass * dt, left = free - drag * inverse_mass * dt;
+    const double rounding = 1e-14 * (std::abs(velocity) + std::abs(force));
+    RC_ASSERT(std::abs(drag) <= alpha * std::abs(force) + rounding);
+    RC_ASSERT(free * left >= 0.0 || std::abs(left) <= rounding);
+    RC_ASSERT(std::abs(left) <= std::abs(free) + rounding);
+    RC_ASSERT(std::abs(std::abs(drag) - alpha * std::abs(force)) <= rounding || std::abs(left) <= rounding);
+    RC_ASSERT(stopped_by_damping(force, velocity, 0.0, dt, alpha) == force);
+}
+
+/// Energy left of a block on a spring after 100 steps of `share` of 2 / omega, the greatest of some starts.
+template <typename Damped>
+double energy_left(double share, const Damped& damped)
+{
+    double greatest = 0.0;
+    for (double phase = 0.0; phase < 6.0; phase += 0.1)
+    {
+        const double dt = 2.0 * share;
+        double x = std::cos(phase), v = std::sin(phase);
+        for (int i = 0; i < 100; ++i)
+        {
+            v += damped(-x, v, dt) * dt;
+            x += v * dt;
+        }
+        greatest = std::max(greatest, x * x + v * v);
+    }
+    return greatest;
+}
+
+/// What the velocity half a step ago opposes brakes with 1.8 times the spring, and swings on from 1 / sqrt(1.8) of the stable step.
+TEST(LocalDamping, IsStableToTheLimitOfTheSpringsByTheNewVelocity)
+{
+    const auto by_last = [](double f, double v, double) { return locally_damped(f, v, 0.8); };
+    const auto by_new = [](double f, double v, double dt) { return stopped_by_damping(f, v, 1.0, dt, 0.8); };
+    EXPECT_LT(energy_left(0.5, by_last), 1e-6);
+    EXPECT_GT(energy_left(0.76, by_last), 1e2);
+    for (const double share : {0.1, 0.5, 0.7, 0.76, 0.8, 0.9, 0.95})
+        EXPECT_LT(energy_left(share, by_new), 1e-3) << share;
+}
+
+TEST(ConditionalDamping, OpposesTheNewVelocityWhereRestIsLookedFor)
+{
+    const DampingDef def{.local = 0.8};
+    const Acting sliding{.x = -1.0, .mobilised = 1.0, .springs = true};
+    const BlockDamping damping = conditional_damping(sliding, {.relaxing = true}, def);
+    EXPECT_EQ(damping.local, 0.8);
+    EXPECT_EQ(damping.local_rotation, 0.8);
+    const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
+    EXPECT_NEAR(damp_translation(sliding, inertia, 0.5, 0.0, 1.0, damping).x, -0.5, 1e-15) << "it stops";
+    EXPECT_NEAR(damp_translation(sliding, inertia, 3.0, 0.0, 1.0, damping).x, -1.8, 1e-15);
+    EXPECT_NEAR(damp_rotation(Acting{.moment = -1.0, .springs = true}, inertia, 0.5, 1.0, damping), -0.5, 1e-15);
 }
 }  // namespace
 }  // namespace hdem

@@ -60,8 +60,10 @@ TEST(Pace, KeepsTheEnergyInEveryChange)
         EXPECT_TRUE(are_paces(run.state().pace));
         EXPECT_EQ(blocks.inertia[block].inverse_mass_x,
                   blocks.pace[block] * blocks.pace[block] * run.model().full_inertia[block].inverse_mass_x);
+        const double turning = blocks.motion[block].w / blocks.pace[block];
         EXPECT_DOUBLE_EQ(kinetic_energy(run.model(), blocks, block),
-                         0.5 * run.model().mass[block] * blocks.velocity(block).squaredNorm());
+                         0.5 * run.model().mass[block] * blocks.velocity(block).squaredNorm() +
+                             0.5 * run.model().inertia[block] * turning * turning);
     }
     EXPECT_GT(greatest, 8.0);
     EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-4);
@@ -182,13 +184,13 @@ TEST(Pace, OfTheRockIsTheStableStepOfTheCasesThatGiveNone)
     const double pace = run.state().pace.rock;
     const double limit = critical_time_step(run.model(), run.state().blocks, run.state().contacts, 2000);
     EXPECT_GT(pace, 2.0);
-    EXPECT_LE(pace * run.model().time_step, 0.8 * limit);
-    EXPECT_GE(pace * run.model().time_step, 0.8 * 0.6 * limit / 1.2);
+    EXPECT_LE(pace * run.model().time_step, 0.9 * limit);
+    EXPECT_GE(pace * run.model().time_step, 0.9 * 0.6 * limit / 1.1);
     for (const char* name : {"block1", "block2", "block3"})
         EXPECT_EQ(run.state().blocks.pace[run.slot(name)], pace);
 }
 
-/// From 1, the step of Eq. (32), in steps of 19 %, four of which are 2.
+/// From 1, the step of Eq. (32), in steps of 9 %, eight of which are 2.
 TEST(Pace, OfTheRockFollowsTheShareOfTheStableStep)
 {
     const auto pace = [](double share)
@@ -207,13 +209,13 @@ TEST(Pace, OfTheRockFollowsTheShareOfTheStableStep)
 /// Within a swing the energy of a great step, whose velocities belong to half a step earlier, goes up and down; from one swing to the next it must not grow.
 TEST(Pace, OfARockAtItsOwnStepAddsNoEnergy)
 {
-    CaseDef scene = scenes::wall(8, 6);
+    CaseDef scene = scenes::grid(6, 8);
     scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 100'000}};
     scene.convergence.mean_speed = 1e-7;  // nothing is left out
     CaseRun run(scene);
     const double start = run.energy();
     double last = std::numeric_limits<double>::infinity();
-    for (int window = 0; window < 80; ++window)
+    for (int window = 0; window < 16; ++window)
     {
         double most = -std::numeric_limits<double>::infinity();
         for (int i = 0; i < 128; ++i)
@@ -221,13 +223,13 @@ TEST(Pace, OfARockAtItsOwnStepAddsNoEnergy)
             run.advance();
             most = std::max(most, run.energy());
         }
-        ASSERT_LT(most, last + 1e-3) << "J, of 136 J; cycle " << run.state().cycle;
+        ASSERT_LT(most, last + 2e-3) << "J, of 61 J; cycle " << run.state().cycle;
         last = most;
     }
-    EXPECT_LT(last, start - 130.0) << "pressed together by its weight";
+    EXPECT_LT(last, start - 61.0) << "pressed together by its weight";
     EXPECT_GT(run.state().pace.rock, 2.0);
     EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-8);
-    EXPECT_LT(run.simulation.equilibrium().kinetic_energy, 0.01);
+    EXPECT_LT(run.simulation.equilibrium().kinetic_energy, 1e-12);
 }
 
 /// What a checkpoint may hold.
