@@ -122,11 +122,12 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, in
 bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
 {
     bool renewed = false;
-    if (!(way <= 1.0))
+    const double most = relaxing_ ? 1.0 - flight_share : 1.0;
+    if (!(way <= most))
     {
         team.alone([&] { used_ = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
         way = used_;
-        if (!(way <= 1.0))
+        if (!(way <= most))
         {
             renew_contacts(model, state, team);
             renewed = true;

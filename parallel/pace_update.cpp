@@ -49,7 +49,7 @@ void update_paces(const Model& model, State& state, const Team& team, std::int64
 {
     const bool look_at_all = now % rock_pace_every == 0 || now == state.stage_begin_cycle;
     const bool look = model.has_own_step && (renewed || look_at_all);
-    if (!look && now % pace_every != 0)
+    if (!renewed && !look_at_all && now % pace_every != 0)
         return;
     const Contacts& contacts = state.contacts;
     Blocks& blocks = state.blocks;

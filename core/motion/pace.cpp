@@ -16,10 +16,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = 64.0;                 // pace, of the rock and beyond it
 constexpr double finest = 1.0905077326652576592;  // 2^(1/8), between two paces
 constexpr double slide_share = 1.5e-3;            // of the block's size a cycle
-constexpr double flight_share = 0.05;             // of the way to what is near, a cycle
+constexpr double approach_share = 0.05;           // of the way to what is near, a cycle
 constexpr double
     stable_swing = 1.4;  // w dt: sqrt(2) less than what is stable beside something immovable, for what it touches may move as well
 constexpr double gentle_share = 0.03;  // of sqrt(g size): impacts below are those of rocking and sliding
+constexpr double still_share = 0.5;    // of the criterion's kinetic energy: the standing rock is at rest below it
 constexpr double move_speeds = 10.0;   // of the criterion's mean speed: blocks that are faster move
 
 /// Greatest of the paces base, base 2^(1/8), base 2^(2/8), ... that is not above `bound`; base if all are.
@@ -94,9 +95,9 @@ double bound_of(Index block, const Model& model, const BlockContacts& list, cons
 {
     const double step = std::max(way_a_cycle(block, model, blocks) / blocks.pace[block], 1e-300);
     if (list.begin[block] == list.begin[block + 1])
-        return flight_share * 2.0 * blocks.margin[block] / step;
+        return flight_share * blocks.margin[block] / step;
     const Surroundings around = look_around(block, model, list, contacts, blocks);
-    return std::min({slide_share * model.size(block) / step, flight_share * around.time_to_hit / model.time_step,
+    return std::min({slide_share * model.size(block) / step, approach_share * around.time_to_hit / model.time_step,
                      stable_swing / (std::sqrt(around.frequency_squared) * model.time_step)});
 }
 
@@ -158,7 +159,7 @@ double join_bounds(IndexRange range, const Model& model, const BlockContacts& li
 double next_loose_pace(const Model& model, const Paces& last, const StandingRock& standing, double bound, bool may_grow)
 {
     const double slow = model.convergence.mean_speed;
-    if (bound == infinity || standing.kinetic_energy > 0.5 * standing.free_mass * slow * slow)
+    if (bound == infinity || standing.kinetic_energy > still_share * 0.5 * standing.free_mass * slow * slow)
         return last.rock;
     const double most = std::max(may_grow ? 2.0 * last.loose : last.loose, last.rock);
     return bound < most ? floor_pace(last.rock, bound) : floor_pace(last.rock, most * (1.0 + 1e-9));

@@ -22,11 +22,11 @@ namespace hdem
 /// few thousand cycles, and then most cycles pass while single blocks slide out and fall. It is the greatest, up to 64, for which each loose block that moves
 ///
 ///   - has n w dt <= 1.4, stable beside another such block: w from its mass and the springs of all that touches it or is near;
-///   - moves at most 1.5e-3 of its size a cycle, and with nothing near it 1/20 of the skin;
+///   - moves at most 1.5e-3 of its size a cycle, and with nothing near it a tenth of its margin;
 ///   - comes at most 1/20 nearer to what it is about to hit at more than 0.03 sqrt(g size): it hits with its true momentum, at the step of the rock.
 ///
 /// One clock for all loose blocks keeps the order of events: with a clock each, a block that falls fast hits the rock before others have slid as far as they
-/// should. The standing rock is at rest when its kinetic energy is below that of all free blocks at `mean_speed`: if loose blocks run ahead of
+/// should. The standing rock is at rest when its kinetic energy is below half of that of all free blocks at `mean_speed`: if loose blocks run ahead of
 /// rock that still squeezes, it does not follow. As long as they run ahead the rock stands still, so that the time, which runs with them, is true for both.
 
 /// Kinetic energy of the blocks that are not loose, and the mass of all free ones.
@@ -68,6 +68,10 @@ void reset_paces(const Model& model, State& state);
 {
     return state.damping == DampingPreset::automatic && state.stage_begun && model.stages[state.stage].until_converged;
 }
+
+/// A block with nothing near it may use up this share of its margin in a cycle. What it is about to hit is not known before its contacts are found anew:
+/// in time, with this share of the margin left, and paces are then found anew in the same cycle.
+inline constexpr double flight_share = 0.1;
 
 /// Cycles between two updates, and between two at which paces may grow: longer than a block swings on its springs, so that one that rocks or
 /// jolts stays with the rock.

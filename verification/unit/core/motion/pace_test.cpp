@@ -80,6 +80,50 @@ TEST(Pace, EndsWhereTheClockDoes)
     EXPECT_NEAR(slow.displacement("block").x(), fast.displacement("block").x(), 1e-6);
 }
 
+/// One that falls so far that it goes by its greatest margin in ten cycles comes out of the dark at any distance.
+TEST(Pace, OfABlockFromFarIsThatOfTheClockWhenItHits)
+{
+    for (int k = 0; k < 12; ++k)
+    {
+        CaseDef scene = falling(0.01);
+        const double height = 15.0 + 0.37 * k;
+        scene.blocks[1].polygon = rectangle({-0.5, height}, {0.5, height + 1.0});
+        CaseRun run(scene);
+        double fastest = 1.0;
+        const auto touches = [&]
+        { return run.state().contacts.size() > 0 && run.state().contacts.regime[0][0] != static_cast<std::uint8_t>(Regime::open); };
+        while (!touches() && run.state().cycle < 50'000)
+        {
+            run.advance();
+            fastest = std::max(fastest, run.state().pace.loose);
+        }
+        ASSERT_TRUE(touches()) << height;
+        EXPECT_GT(fastest, 50.0);
+        EXPECT_EQ(run.state().blocks.pace[run.slot("block")], 1.0) << height;
+        EXPECT_GT(run.displacement("block").y(), -height - 2e-3) << height;
+    }
+}
+
+/// Two that fly at each other, each in the dark.
+TEST(Pace, OfBlocksThatMeetInTheAirIsThatOfTheClock)
+{
+    for (int k = 0; k < 60; ++k)
+    {
+        CaseDef scene = falling(0.01);
+        scene.gravity = {0.0, 0.0};
+        const double way = 5.0 + 0.0075 * k;
+        scene.blocks[1].polygon = rectangle({0.0, 2.0}, {1.0, 3.0});
+        scene.blocks[1].velocity = {-16.0, 0.0};
+        scenes::add_block(scene, "other", rectangle({-1.0 - 2.0 * way, 2.0}, {-2.0 * way, 3.0})).velocity = {16.0, 0.0};
+        CaseRun run(scene);
+        while (run.velocity("block").x() < -15.99 && run.state().cycle < 50'000)
+            run.advance();
+        EXPECT_NEAR(run.displacement("block").x(), -way, 2e-3);
+        EXPECT_EQ(run.state().blocks.pace[run.slot("block")], 1.0);
+        EXPECT_LT(run.state().cycle, 4'000);
+    }
+}
+
 TEST(Pace, IsForBlocksThatAreLooseInAStageThatLooksForRest)
 {
     CaseDef timed = falling(0.01), dynamic = falling(0.01), paper = falling(0.01), far = falling(3.0);
