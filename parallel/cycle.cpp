@@ -1,5 +1,6 @@
 #include "parallel/cycle.h"
 
+#include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"

@@ -1,5 +1,6 @@
 #include "perf/stage.h"
 
+#include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"

@@ -1,125 +1,13 @@
 #include "core/contact/contact_forces.h"
 
-#include "core/contact/contact_lanes.h"
+#include "core/contact/contact_group.h"
 #include "core/contact/force_law.h"
-#include "core/contact/regime.h"
 #include "core/energy_ledger.h"
 
 namespace hdem
 {
 namespace
 {
-/// What the threshold velocity needs of a cycle.
-struct Threshold
-{
-    double scale;
-    double gravity_velocity;  ///< dt |g| [m/s]
-    double fixed;             ///< given velocity, or negative [m/s]
-    bool rock_keeps_springs;  ///< RegimeRule
-    [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
-};
-
-/// Four contacts and what is known of them in this cycle.
-struct Group
-{
-    Group(const BasicEdgeTouch<Pack>& edge_touch, Pack w_ref, Pack w_inc)
-        : touch(edge_touch),
-          turning{{edge_touch.point[0], edge_touch.slope, w_ref, w_inc}, {edge_touch.point[1], edge_touch.slope, w_ref, w_inc}},
-          w(w_inc - w_ref)
-    {
-    }
-
-    const BasicEdgeTouch<Pack>& touch;
-    TurningRate<Pack> turning[2];
-    Pack w;  ///< of inc relative to ref
-    // Set later: to fill them with zeros here, or to copy the touch, cost a tenth of the law's time.
-    const Index* ref;
-    const Index* inc;
-    const JointLanes* joint;
-    Pack length;  ///< each point's share of the contact length
-    Pack last_length, length_inverse;
-    Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
-    Mask closed[2];
-    Mask was_impulse[2];
-    Pack last_normal[2], last_shear[2];
-};
-
-/// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
-/// m_c = m/2 without levers.
-BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
-{
-    BasicInertia<Pack> inertia = load_inertias(blocks.inertia, at);
-    if (model.contact.fixed_mass_counts)
-    {
-        const BasicInertia<Pack> full = load_inertias(model.full_inertia, at);
-        inertia.inverse_mass_x = full.inverse_mass_x;
-        inertia.inverse_mass_y = full.inverse_mass_y;
-    }
-    return inertia;
-}
-
-/// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
-Mask are_fast(const Group& g, Pack speed_squared, const Model& model, const Blocks& blocks, const Threshold& threshold)
-{
-    // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
-    const Pack margin = 1.0 + 1e-9;
-    if (threshold.fixed >= 0.0)
-        return speed_squared > Pack(threshold.fixed * threshold.fixed) * margin;
-    const BasicInertia<Pack> ref = threshold_inertias(model, blocks, g.ref);
-    const BasicInertia<Pack> inc = threshold_inertias(model, blocks, g.inc);
-    Pack elastic = 0.0;
-    for (int k = 0; k < 2; ++k)
-    {
-        const BasicTouchPoint<Pack>& p = g.touch.point[k];
-        const Pack mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -g.touch.ey, g.touch.ex);
-        const Pack mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, g.touch.ex, g.touch.ey);
-        // Springs that an impulse has emptied have stored nothing.
-        const Pack normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
-        const Pack shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
-        elastic += elastic_velocity_squared(normal, g.joint->law.normal_stiffness * g.length, mass_n, shear,
-                                            g.joint->law.shear_stiffness * g.length, mass_s);
-    }
-    const Pack u_th = threshold_velocity(Pack(threshold.scale), Pack(threshold.gravity_velocity), elastic);
-    return speed_squared > u_th * u_th * margin;
-}
-
-/// Standing rock keeps its springs, see RegimeRule.
-Mask leave_to_springs(Mask fast, const Group& g, Pack speed_squared, const Model& model, const Blocks& blocks)
-{
-    const double distance = model.convergence.loose_distance;
-    const auto keeps = [&](Index a, Index b, double squared)
-    {
-        const bool loose_a = blocks.is_loose(a, distance), loose_b = blocks.is_loose(b, distance);
-        const bool standing = (blocks.is_free(a) && !loose_a) || (blocks.is_free(b) && !loose_b);
-        const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
-        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size;
-    };
-    for (int j = 0; j < lanes; ++j)
-        if (fast.v[j] != 0 && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
-            fast.v[j] = 0;
-    return fast;
-}
-
-template <Method method>
-Mask are_impulsive(const Group& g, const Model& model, const Blocks& blocks, const Threshold& threshold)
-{
-    const Mask none{};
-    if constexpr (method != Method::hybrid)
-        return method == Method::impulse ? !none : none;
-    Pack speed = 0.0;
-    for (int k = 0; k < 2; ++k)
-    {
-        const BasicTouchPoint<Pack>& p = g.touch.point[k];
-        speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
-    }
-    // The elastic part only adds: at rest nothing more needs to be known.
-    const double least = threshold.least();
-    if (!any(speed > Pack(least * least)))
-        return none;
-    const Mask fast = are_fast(g, speed, model, blocks, threshold);
-    return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
-}
-
 /// Incident vertices that have left the place at which the features were found.
 Mask::V have_moved(const ContactLanes& l, const BasicEdgeView<Pack>& v)
 {
@@ -155,7 +43,7 @@ enum class Impulses
 };
 
 /// Share of the last impulse's force that its spring begins with, from the stretch it was left with.
-inline Pack kept_share(const Group& g, int k, Pack stretch)
+inline Pack kept_share(const ContactGroup& g, int k, Pack stretch)
 {
     const Pack zero = 0.0;
     const Pack kept = max(stretch, zero) * g.joint->law.normal_stiffness * g.last_length;
@@ -163,7 +51,7 @@ inline Pack kept_share(const Group& g, int k, Pack stretch)
 }
 
 template <Impulses impulses>
-[[gnu::always_inline]] inline void evaluate_point(const Group& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
+[[gnu::always_inline]] inline void evaluate_point(const ContactGroup& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
                                                   std::uint8_t* regime, Sums& sums)
 {
     constexpr bool none = impulses == Impulses::none;
@@ -217,7 +105,7 @@ template <Impulses impulses>
 }
 
 /// Tilt forces of both points, and their work: half a step under those of the last cycle, half under those of now.
-inline void add_tilt_forces(const Group& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
+inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
 {
     Pack work = 0.0;
     const Pack pull = select(g.touch.length > floor, length_pull(sums.work, g.length_inverse), Pack(0.0));
@@ -258,7 +146,7 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         const BasicMotion<Pack> inc = load_motions(blocks.motion, at_inc);
         const BasicEdgeView<Pack> view = view_edges(edges, ref, inc);
         const BasicEdgeTouch<Pack> touch = touch_edges(edges, view, ref, inc);
-        Group g(touch, ref.w, inc.w);
+        ContactGroup g(touch, ref.w, inc.w);
         g.ref = at_ref;
         g.inc = at_inc;
         g.joint = &laws.load(&contacts.law[i]);
@@ -330,69 +218,5 @@ ContactTally evaluate_contacts(IndexRange range, const Model& model, const Regim
         return evaluate<Method::hybrid>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
     }
     return {};
-}
-
-void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list)
-{
-    list.begin.assign(static_cast<std::size_t>(blocks) + 1, 0);
-    list.entry.resize(2 * static_cast<std::size_t>(contacts.size()));
-    for (Index i = 0; i < contacts.size(); ++i)
-    {
-        ++list.begin[contacts.ref[i] + 1];
-        ++list.begin[contacts.inc[i] + 1];
-    }
-    for (Index b = 0; b < blocks; ++b)
-        list.begin[b + 1] += list.begin[b];
-    std::vector<Index> at(list.begin.begin(), list.begin.end() - 1);
-    for (Index i = 0; i < contacts.size(); ++i)
-    {
-        const Index swapped = contacts.swapped[i];
-        list.entry[at[contacts.ref[i]]++] = 2 * i + swapped;
-        list.entry[at[contacts.inc[i]]++] = 2 * i + 1 - swapped;
-    }
-}
-
-template <bool find_joint>
-void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
-                const std::vector<Triple>& external, Blocks& blocks)
-{
-    const Vec2 g = model.gravity;
-    for (Index b = range.begin; b < range.end; ++b)
-    {
-        const double mass = blocks.present[b] != 0 ? model.mass[b] : 0.0;
-        Pack sum(Pack::V{mass * g.x(), mass * g.y(), 0.0, 0.0});
-        if (!external.empty())
-            sum += Pack(Pack::V{external[b].x, external[b].y, external[b].w, 0.0});
-        BlockForce force;
-        Index most = no_index;
-        for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
-        {
-            const Index entry = list.entry[e];
-            sum += Pack::load(&loads.load[entry].x);
-            const JointUse& use = loads.use[entry / 2];
-            force.contacts |= use.contacts;
-            if constexpr (find_joint)
-            {
-                most = use.mobilised > force.mobilised ? entry / 2 : most;
-                force.mobilised = std::max(force.mobilised, use.mobilised);
-            }
-        }
-        sum.store(&force.x);
-        if (most != no_index)
-        {
-            force.t_x = loads.use[most].t_x;
-            force.t_y = loads.use[most].t_y;
-        }
-        blocks.force[b] = force;
-    }
-}
-
-void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
-                const std::vector<Triple>& external, bool find_joint, Blocks& blocks)
-{
-    if (find_joint)
-        sum_forces<true>(range, model, list, loads, external, blocks);
-    else
-        sum_forces<false>(range, model, list, loads, external, blocks);
 }
 }  // namespace hdem

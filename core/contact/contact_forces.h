@@ -1,5 +1,5 @@
 #pragma once
-/// The contact stage of a cycle: overlaps, regime and force of a range of contacts, and their sums per block.
+/// The contact stage of a cycle: overlaps, regime and force of a range of contacts.
 
 #include "core/model/model.h"
 #include "core/contact/regime.h"
@@ -17,12 +17,4 @@ namespace hdem
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                                ContactLoads& loads);
-
-/// List the contacts of each block, in their order.
-void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list);
-
-/// What acts on each block of `range`: its weight, `external` forces (none: empty), then the loads of its contacts in their order, Eqs. (7), (8).
-/// Reads: loads. Writes: force of these blocks; which joint is mobilised most only if `find_joint`, see needs_joint.
-void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
-                const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
 }  // namespace hdem

@@ -1,6 +1,6 @@
 #include "core/motion/step_check.h"
 
-#include "core/contact/contact_forces.h"
+#include "core/contact/block_forces.h"
 #include "core/motion/contact_springs.h"
 
 #include <Eigen/Eigenvalues>

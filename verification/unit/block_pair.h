@@ -1,6 +1,7 @@
 #pragma once
 /// Two blocks and the contacts between them, without a run around them: detection and contact laws one call at a time.
 
+#include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
 #include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"

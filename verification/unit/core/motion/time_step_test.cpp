@@ -1,6 +1,6 @@
 #include "core/motion/time_step.h"
 
-#include "core/contact/contact_forces.h"
+#include "core/contact/block_forces.h"
 #include "core/detection/contact_tracking.h"
 #include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"

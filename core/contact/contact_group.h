@@ -1,0 +1,122 @@
+#pragma once
+/// Four contacts in one cycle: what is known of them before their laws, and which law each obeys.
+
+#include "core/contact/contact_lanes.h"
+#include "core/contact/regime.h"
+#include "core/detection/edge_touch.h"
+#include "core/model/model.h"
+
+namespace hdem
+{
+/// What the threshold velocity needs of a cycle.
+struct Threshold
+{
+    double scale;
+    double gravity_velocity;  ///< dt |g| [m/s]
+    double fixed;             ///< given velocity, or negative [m/s]
+    bool rock_keeps_springs;  ///< RegimeRule
+    [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
+};
+
+/// Four contacts and what is known of them in this cycle.
+struct ContactGroup
+{
+    ContactGroup(const BasicEdgeTouch<Pack>& edge_touch, Pack w_ref, Pack w_inc)
+        : touch(edge_touch),
+          turning{{edge_touch.point[0], edge_touch.slope, w_ref, w_inc}, {edge_touch.point[1], edge_touch.slope, w_ref, w_inc}},
+          w(w_inc - w_ref)
+    {
+    }
+
+    const BasicEdgeTouch<Pack>& touch;
+    TurningRate<Pack> turning[2];
+    Pack w;  ///< of inc relative to ref
+    // Set later: to fill them with zeros here, or to copy the touch, cost a tenth of the law's time.
+    const Index* ref;
+    const Index* inc;
+    const JointLanes* joint;
+    Pack length;  ///< each point's share of the contact length
+    Pack last_length, length_inverse;
+    Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
+    Mask closed[2];
+    Mask was_impulse[2];
+    Pack last_normal[2], last_shear[2];
+};
+
+/// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
+/// m_c = m/2 without levers.
+inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
+{
+    BasicInertia<Pack> inertia = load_inertias(blocks.inertia, at);
+    if (model.contact.fixed_mass_counts)
+    {
+        const BasicInertia<Pack> full = load_inertias(model.full_inertia, at);
+        inertia.inverse_mass_x = full.inverse_mass_x;
+        inertia.inverse_mass_y = full.inverse_mass_y;
+    }
+    return inertia;
+}
+
+/// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
+inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks,
+                     const Threshold& threshold)
+{
+    // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
+    const Pack margin = 1.0 + 1e-9;
+    if (threshold.fixed >= 0.0)
+        return speed_squared > Pack(threshold.fixed * threshold.fixed) * margin;
+    const BasicInertia<Pack> ref = threshold_inertias(model, blocks, g.ref);
+    const BasicInertia<Pack> inc = threshold_inertias(model, blocks, g.inc);
+    Pack elastic = 0.0;
+    for (int k = 0; k < 2; ++k)
+    {
+        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        const Pack mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -g.touch.ey, g.touch.ex);
+        const Pack mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, g.touch.ex, g.touch.ey);
+        // Springs that an impulse has emptied have stored nothing.
+        const Pack normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
+        const Pack shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
+        elastic += elastic_velocity_squared(normal, g.joint->law.normal_stiffness * g.length, mass_n, shear,
+                                            g.joint->law.shear_stiffness * g.length, mass_s);
+    }
+    const Pack u_th = threshold_velocity(Pack(threshold.scale), Pack(threshold.gravity_velocity), elastic);
+    return speed_squared > u_th * u_th * margin;
+}
+
+/// Standing rock keeps its springs, see RegimeRule.
+inline Mask leave_to_springs(Mask fast, const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks)
+{
+    const double distance = model.convergence.loose_distance;
+    const auto keeps = [&](Index a, Index b, double squared)
+    {
+        const bool loose_a = blocks.is_loose(a, distance), loose_b = blocks.is_loose(b, distance);
+        const bool standing = (blocks.is_free(a) && !loose_a) || (blocks.is_free(b) && !loose_b);
+        const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
+        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size;
+    };
+    for (int j = 0; j < lanes; ++j)
+        if (fast.v[j] != 0 && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
+            fast.v[j] = 0;
+    return fast;
+}
+
+template <Method method>
+[[nodiscard]] Mask are_impulsive(const ContactGroup& g, const Model& model, const Blocks& blocks, const Threshold& threshold)
+{
+    const Mask none{};
+    if constexpr (method != Method::hybrid)
+        return method == Method::impulse ? !none : none;
+    Pack speed = 0.0;
+    for (int k = 0; k < 2; ++k)
+    {
+        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
+    }
+    // The elastic part only adds: at rest nothing more needs to be known.
+    const double least = threshold.least();
+    if (!any(speed > Pack(least * least)))
+        return none;
+    const Mask fast = are_fast(g, speed, model, blocks, threshold);
+    return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
+}
+}  // namespace hdem
