@@ -125,12 +125,9 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
         const bool known = at < old.size() && key_of(at) == key;
         if (known)
             contact = old.get(at);
-        const bool rests = known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b);
-        // What touches is near, and refresh_features has the last word on its features.
-        const bool touches = known && (contact.point[0].regime != Regime::open || contact.point[1].regime != Regime::open);
-        if (rests || (touches && old.stale[at] == 0))
+        if (known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b))
         {
-            out.push_back(contact);
+            out.push_back(contact);  // neither has moved
             continue;
         }
         contact.part_a = part_a;

@@ -26,7 +26,8 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
                                    const std::vector<BlockMotion>& rebuilt_at);
 
 /// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out. Contacts that `old` already has
-/// (same parts, ascending) keep their history; those that touch, and whose blocks rest, their features as well. Appends to `out` in key order.
+/// (same parts, ascending) keep their history; those between blocks at rest, which have not moved, their features as well. Appends to `out` in key order.
+/// (Leaving out the search of those that touch too saved 4 % of a tunnel's time, but a needle that toppled on its springs gained 1.2 % energy instead of 0.5.)
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
                     const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger);
 

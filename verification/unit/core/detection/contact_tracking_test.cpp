@@ -112,33 +112,6 @@ TEST(Skin, IsOutrunAfterHalfOfItByMovingOrTurning)
     EXPECT_FALSE(outrun()) << "excavated";
 }
 
-/// Features are searched anew for what came apart or has moved along; of what touches refresh_features decides.
-TEST(ContactTracking, SearchesOnlyContactsThatDoNotTouchOrAreStale)
-{
-    const CaseRun run(scenes::block_on_ground());
-    const auto searched = [&](Regime regime, bool stale)
-    {
-        Contacts old = run.state().contacts;
-        Contact contact = old.get(0);
-        contact.point[0].regime = contact.point[1].regime = regime;
-        contact.seen[0] = 42.0F;
-        old.put(0, contact);
-        old.stale[0] = stale ? 1 : 0;
-        std::vector<Contact> found;
-        EnergyLedger ledger;
-        const std::vector<std::uint64_t> pairs{pair_key(contact.part_a, contact.part_b)};
-        track_contacts({0, 1}, pairs, run.model(), run.state().blocks, old, found, ledger);
-        EXPECT_EQ(found.size(), 1u);
-        return found[0].seen[0] != 42.0F;
-    };
-    for (const Regime regime : {Regime::stick, Regime::slip, Regime::impulse})
-    {
-        EXPECT_FALSE(searched(regime, false));
-        EXPECT_TRUE(searched(regime, true));
-    }
-    EXPECT_TRUE(searched(Regime::open, false));
-}
-
 TEST(Skin, OfAFastBlockReachesAsFarAsItGoesInManyCycles)
 {
     test::BlockPair pair(test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {1, 1})));
