@@ -57,9 +57,10 @@ inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& b
     return inertia;
 }
 
+/// (The three in line: by calls the force law takes 5 % more instructions where many contacts are fast.)
 /// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
-inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks,
-                     const Threshold& threshold)
+[[gnu::always_inline]] inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks,
+                                            const Threshold& threshold)
 {
     // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
     const Pack margin = 1.0 + 1e-9;
@@ -84,7 +85,8 @@ inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& mod
 }
 
 /// Standing rock keeps its springs, see RegimeRule.
-inline Mask leave_to_springs(Mask fast, const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks)
+[[gnu::always_inline]] inline Mask leave_to_springs(Mask fast, const ContactGroup& g, Pack speed_squared, const Model& model,
+                                                    const Blocks& blocks)
 {
     const double distance = model.convergence.loose_distance;
     const auto keeps = [&](Index a, Index b, double squared)
@@ -101,7 +103,8 @@ inline Mask leave_to_springs(Mask fast, const ContactGroup& g, Pack speed_square
 }
 
 template <Method method>
-[[nodiscard]] Mask are_impulsive(const ContactGroup& g, const Model& model, const Blocks& blocks, const Threshold& threshold)
+[[nodiscard, gnu::always_inline]] inline Mask are_impulsive(const ContactGroup& g, const Model& model, const Blocks& blocks,
+                                                            const Threshold& threshold)
 {
     const Mask none{};
     if constexpr (method != Method::hybrid)
