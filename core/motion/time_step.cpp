@@ -2,6 +2,7 @@
 
 #include "core/detection/contact_tracking.h"
 #include "core/motion/contact_springs.h"
+#include "core/motion/pace.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -61,8 +62,7 @@ bool is_beside_faster(double way, Index block, const Model& model, const BlockCo
 double stable_step(IndexRange range, StepOf which, const Model& model, const BlockContacts& list, const Contacts& contacts,
                    const Blocks& blocks)
 {
-    constexpr double cycles = 256.0;
-    const double way = 0.5 * skin_width(model) / cycles;
+    const double way = 0.5 * skin_width(model) / static_cast<double>(rock_pace_every);
     double greatest = 0.0;
     for (Index b = range.begin; b < range.end; ++b)
     {

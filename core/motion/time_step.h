@@ -19,7 +19,7 @@ namespace hdem
 enum class StepOf
 {
     all,
-    fast  ///< only blocks that may have a new neighbour soon: beside one that moves by half the skin in 256 cycles
+    fast  ///< only blocks that may have a new neighbour soon: beside one that moves by half the skin until all are looked at again (rock_pace_every)
 };
 
 /// Lower bound on the stable step of a range of blocks, 2 / omega with omega >= omega_max [s]; the least over all blocks is stable for all of them.
