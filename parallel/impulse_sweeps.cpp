@@ -1,6 +1,8 @@
 #include "parallel/impulse_sweeps.h"
 
+#include "core/contact/impulse_forces.h"
 #include "core/contact/impulse_law.h"
+#include "core/contact/position_correction.h"
 #include "core/motion/integrator.h"
 #include "parallel/openmp.h"
 
@@ -31,6 +33,10 @@ void apply_impulses(const Model& model, State& state, const Team& team, Index im
 {
     const bool together = impulses >= impulses_worth_sharing;
     Blocks& blocks = state.blocks;
+    const IndexRange contact_parts = team.share(static_cast<Index>(partition.contacts.size()));
+    for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
+        aim_impulses(model, blocks, partition.contacts[i].impulses);
+    team.barrier();
     for_colours(team, together, partition,
                 [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses(part.impulses, blocks); });
     for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
@@ -42,7 +48,6 @@ void apply_impulses(const Model& model, State& state, const Team& team, Index im
                     });
     team.barrier();
     const IndexRange block_parts = team.share(static_cast<Index>(partition.blocks.size()));
-    const IndexRange contact_parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = block_parts.begin; i < block_parts.end; ++i)
         add_correction_gravity(partition.blocks[i].range, model, blocks, work.pseudo, partition.blocks[i].ledger);
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)

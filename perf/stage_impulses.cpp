@@ -2,6 +2,7 @@
 
 #include "core/contact/contact_forces.h"
 #include "core/contact/impulse_law.h"
+#include "core/contact/position_correction.h"
 #include "perf/stage.h"
 
 namespace hdem::perf
@@ -39,6 +40,7 @@ void run(benchmark::State& bench, const std::string& scene, Index blocks, const 
     evaluate(model, evaluated);
     Scratch begin{evaluated.state.blocks, {}, std::vector<Triple>(static_cast<std::size_t>(model.blocks()))};
     collect_impulse_points(evaluated.all_contacts(), model, begin.blocks, evaluated.state.contacts, begin.points);
+    aim_impulses(model, begin.blocks, begin.points);
     start_impulses(begin.points, begin.blocks);
     Scratch swept = begin;
     sweep(model, swept);

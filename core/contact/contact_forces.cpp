@@ -87,10 +87,13 @@ template <Impulses impulses>
     sums.friction += select(stays, slipped, zero);
     sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
                     Pack(0.5) * (spring_normal * strayed + dt * ((spring_shear - shear) * curved + (start - spring_shear) * v_t));
-    store_lane(l.overlap[k], p.overlap);
     if constexpr (!none)
-        if (!none)
-            store_lane(l.rest_overlap[k], select(spring, rest, zero));
+    {
+        // An impulse point keeps its stretch until its impulses are known: where they would leave its spring empty.
+        const Pack last_stretch = select(g.last_normal[k] > zero, max(load_lane(l.overlap[k]) - last_rest, zero), zero);
+        store_lane(l.rest_overlap[k], select(spring, rest, select(held, p.overlap - last_stretch, zero)));
+    }
+    store_lane(l.overlap[k], p.overlap);
     store_lane(l.normal_force[k], none ? normal : select(held, g.last_normal[k], normal));
     store_lane(l.shear_force[k], none ? shear : select(held, g.last_shear[k], shear));
 

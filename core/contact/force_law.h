@@ -3,6 +3,7 @@
 
 #include "core/joint/coulomb_slip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -103,15 +104,18 @@ template <typename R>
 
 /// What remains of an impulse as a force on the contact once the blocks no longer collide [N]:
 ///
-///   F_rem = J / dt  |g| dt / (|g| dt + (1 + R) v)
+///   F_rem = min(J / dt  a / (a + (1 + R) v), F_last + m_cN a / dt)
 ///
-///   v  approach velocity before the impulse, >= 0 [m/s]     weight_velocity  |g| dt, what weight adds to it in a cycle [m/s]
+///   v  approach velocity before the impulse [m/s]     a  load_velocity, what the cycle's forces add to it, and no less than |g| dt [m/s]
+///   F_last  the same before this cycle [N]
 ///
-/// Of what the impulse takes away, (1 + R) v is the collision, over with it, and |g| dt is the weight, which stays: exact for a single block. With J / dt whole,
+/// Of what the impulse takes away, (1 + R) v is the collision, over with it, and a is the load, which stays: exact for a single block. With J / dt whole,
 /// a block that hits at 10 m/s began its spring with 2e4 times its weight, and stacks that fell gained 5 % of their energy.
-[[nodiscard]] inline double remaining_force(double force, double weight_velocity, double restitution, double approach)
+/// The impulse of a point that others strike holds their collisions, whatever its own v: so a load grows by no more than the forces of a cycle. With that
+/// and with the load in place of the weight alone, needles that fall on each other undamped gained 0.1 % instead of 0.5 % in the mean of 24 scenes.
+[[nodiscard]] inline double remaining_force(double force, double load_velocity, double restitution, double approach, double most)
 {
     const double collision = (1.0 + restitution) * approach;
-    return collision > 0.0 ? force * weight_velocity / (weight_velocity + collision) : force;
+    return std::min(collision > 0.0 ? force * load_velocity / (load_velocity + collision) : force, most);
 }
 }  // namespace hdem

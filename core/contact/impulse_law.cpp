@@ -1,6 +1,6 @@
 #include "core/contact/impulse_law.h"
 
-#include "core/contact/force_law.h"
+#include "core/contact/impulse_kick.h"
 #include "core/contact/regime.h"
 #include "core/detection/edge_touch.h"
 
@@ -12,48 +12,6 @@ namespace hdem
 {
 namespace
 {
-/// Velocity of inc relative to ref at the point: along t, and along m (approaching > 0).
-struct PointVelocity
-{
-    double t, m;
-};
-
-template <typename A, typename B>
-PointVelocity relative_velocity(const ImpulsePoint& p, double dvx, double dvy, const A& ref, const B& inc)
-{
-    return {p.t_x * dvx + p.t_y * dvy - inc.w * p.inc_m + ref.w * p.ref_m,
-            p.t_x * dvy - p.t_y * dvx + inc.w * p.inc_t - ref.w * p.ref_t};
-}
-
-PointVelocity relative_velocity(const ImpulsePoint& p, const BlockMotion& ref, const BlockMotion& inc)
-{
-    return relative_velocity(p, inc.vx - ref.vx, inc.vy - ref.vy, ref, inc);
-}
-
-/// Impulse (j_t, j_m) on inc and its opposite on ref, Eqs. (17), (18).
-struct Kick
-{
-    double x, y, w_ref, w_inc;
-
-    Kick(const ImpulsePoint& p, double j_t, double j_m)
-        : x(p.t_x * j_t - p.t_y * j_m),
-          y(p.t_y * j_t + p.t_x * j_m),
-          w_ref(p.ref_t * j_m - p.ref_m * j_t),
-          w_inc(p.inc_t * j_m - p.inc_m * j_t)
-    {
-    }
-};
-
-/// What a kick changes. A block that cannot move is not written to at all: parts of one colour may share it.
-void change_velocity(const BlockInertia& inertia, double x, double y, double moment, double& vx, double& vy, double& w)
-{
-    if (!can_move(inertia))
-        return;
-    vx += inertia.inverse_mass_x * x;
-    vy += inertia.inverse_mass_y * y;
-    w += inertia.inverse_inertia * moment;
-}
-
 void apply(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
 {
     const Kick kick(p, j_t, j_m);
@@ -87,19 +45,19 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.mass_normal = mass(inverse_collision_mass(ref, at.ref_t, inc, at.inc_t, -touch.ey, touch.ex), 0.0);
     p.mass_shear = mass(inverse_collision_mass(ref, at.ref_m, inc, at.inc_m, touch.ex, touch.ey),
                         std::numeric_limits<double>::max());
-    p.approach = std::max(at.v_m, 0.0);
+    p.approach = at.v_m;
     p.restitution = joint.restitution;
-    p.target = -p.restitution * p.approach;
     p.friction = joint.friction_coefficient;
     p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * model.time_step;
     p.overlap = at.overlap;
     p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
     const double pace = std::max(blocks.pace[p.ref], blocks.pace[p.inc]);
     p.weight_velocity = model.gravity.norm() * model.time_step * pace * pace;
+    const double rest = contacts.rest_overlap(end, contact);
+    p.spring_force = p.stiffness * (at.overlap - rest);
     const double size = std::min(model.size(p.ref), model.size(p.inc));
-    const double most = (p.approach + model.contact.correction_rate * size) * model.time_step;
-    p.excess_overlap = std::min(at.overlap - contacts.normal_force(end, contact) / p.stiffness - model.contact.allowed_overlap,
-                                most);
+    const double most = (std::max(at.v_m, 0.0) + model.contact.correction_rate * size) * model.time_step;
+    p.excess_overlap = std::min(rest - model.contact.allowed_overlap, most);
     p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;
     p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * model.time_step,
                                    p.impulse_normal * p.friction + p.cohesive_impulse);
@@ -217,6 +175,21 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
     }
 }
 
+void aim_impulses(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points)
+{
+    for (ImpulsePoint& p : points)
+    {
+        const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
+        const double pressed = std::max(0.0, v_m - p.approach);
+        p.load_velocity = std::max(p.weight_velocity, pressed);
+        if (p.approach <= 0.0)
+            continue;
+        p.target = std::min(0.0, pressed - p.restitution * p.approach);
+        if (p.overlap > 0.0 && p.overlap <= p.approach * model.time_step)
+            p.excess_overlap -= p.target / p.approach * p.overlap;
+    }
+}
+
 double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
 {
     double loss = 0.0;
@@ -262,73 +235,5 @@ double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
         loss += solve_shear(p, blocks);
     }
     return loss;
-}
-
-void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo)
-{
-    for (ImpulsePoint& p : points)
-    {
-        if (p.excess_overlap <= 0.0)
-            continue;
-        Triple& ref = pseudo[p.ref];
-        Triple& inc = pseudo[p.inc];
-        const double v_m = relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc).m;
-        const double last = p.correction;
-        p.correction = std::max(0.0, last + p.mass_normal *
-                                                (v_m + model.contact.correction_fraction * p.excess_overlap / model.time_step));
-        const Kick kick(p, 0.0, -(p.correction - last));
-        change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.x, ref.y, ref.w);
-        change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.x, inc.y, inc.w);
-    }
-}
-
-void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
-{
-    const double half_step = 0.5 * model.time_step;
-    const auto book = [&](Index block, double x, double y, double w)
-    {
-        const BlockInertia& inertia = blocks.inertia[block];
-        const BlockForce& force = blocks.force[block];
-        const Vec2 weight = model.mass[block] * model.gravity;
-        const double dvx = inertia.inverse_mass_x * x;
-        const double dvy = inertia.inverse_mass_y * y;
-        const BlockMotion& motion = blocks.motion[block];  // what holds a prescribed motion takes the impulse too
-        ledger.load_work -= (inertia.inverse_mass_x > 0.0 ? 0.0 : x * motion.vx) +
-                            (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
-                            (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
-        ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
-        ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
-    };
-    for (const ImpulsePoint& p : points)
-    {
-        const Kick kick(p, p.impulse_shear, -p.impulse_normal);
-        book(p.ref, -kick.x, -kick.y, -kick.w_ref);
-        book(p.inc, kick.x, kick.y, kick.w_inc);
-    }
-}
-
-void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts)
-{
-    for (const ImpulsePoint& p : points)
-    {
-        contacts.normal_force(p.end, p.contact) = p.impulse_normal / model.time_step;
-        contacts.shear_force(p.end, p.contact) = p.impulse_shear / model.time_step;
-        const double kept = remaining_force(p.impulse_normal / model.time_step, p.weight_velocity, p.restitution, p.approach);
-        contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.overlap, kept, p.stiffness);
-    }
-}
-
-void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force)
-{
-    for (const ImpulsePoint& p : points)
-    {
-        const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
-        force[p.ref].x -= kick.x;
-        force[p.ref].y -= kick.y;
-        force[p.ref].moment -= kick.w_ref;
-        force[p.inc].x += kick.x;
-        force[p.inc].y += kick.y;
-        force[p.inc].moment += kick.w_inc;
-    }
 }
 }  // namespace hdem

@@ -197,6 +197,59 @@ TEST(HybridMethod, ObeysAGivenThresholdVelocity)
     }
 }
 
+class HandOver : public ContactInvariants
+{
+};
+
+/// Two free blocks pressed on each other and pushed past each other, until springs have handed them to impulses and impulses back to springs.
+TEST_F(HandOver, KeepsMomentumAndEnergy)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "low", rectangle({-2, -1}, {3, 0}));
+    scenes::add_block(scene, "high", rectangle({0, 0}, {1, 1}));
+    scene.gravity = {0.0, 0.0};
+    scene.contact.threshold_velocity = 0.05;
+    scene.joints[0].friction_angle_deg = 30.0;
+    scene.damping.preset = DampingPreset::dynamic;
+    const double normal = 2e4;  // N
+    const auto push = [&](double shear, std::int64_t from, std::int64_t until)
+    {
+        for (const double side : {1.0, -1.0})
+        {
+            LoadDef load;
+            load.blocks = {side > 0.0 ? "high" : "low"};
+            load.force = side * Vec2(shear, -normal);
+            load.interval.from_cycle = from;
+            load.interval.until_cycle = until;
+            scene.loads.push_back(load);
+        }
+    };
+    for (BlockDef& block : scene.blocks)
+        block.fix_rotation = true;  // a couple of the loads turns them otherwise
+    push(0.9 * normal, 0, 2500);
+    push(0.0, 2500, 8000);
+    CaseRun run(scene);
+    int to_impulses = 0, to_springs = 0;
+    double fastest = 0.0;
+    bool were_impulses = false;
+    for (int cycle = 0; cycle < 8000; ++cycle)
+    {
+        run.advance(1);
+        const bool are_impulses = run.simulation.count_contacts().points[static_cast<int>(Regime::impulse)] > 0;
+        to_impulses += are_impulses && !were_impulses ? 1 : 0;
+        to_springs += were_impulses && !are_impulses ? 1 : 0;
+        were_impulses = are_impulses;
+        const test::Momentum now = test::momentum(run.model(), run.state().blocks);
+        fastest = std::max(fastest, std::abs(run.velocity("high").x()));
+        ASSERT_LT(now.linear.norm(), 1e-12 * 2700.0) << "cycle " << cycle << ", against the momentum at 1 m/s";
+    }
+    EXPECT_GT(fastest, 0.1);
+    EXPECT_GE(to_impulses, 1);
+    EXPECT_GE(to_springs, 1);
+    EXPECT_LT(std::abs(run.velocity("high").x()), 1e-3) << "stopped";
+    expect_ledger_closed(run);
+}
+
 /// Handing a contact from impulses to springs must not turn its overlap into speed.
 TEST(HybridMethod, ThrowsNothingUpAtTheHandOver)
 {

@@ -91,13 +91,14 @@ RC_GTEST_PROP(RestOverlap, GivesNoMoreForceThanTheLastOneAndOnlyShrinks, ())
 /// Of an impulse that stops a block which falls at v and gets g dt more in the cycle, the weight remains, m g.
 TEST(RemainingForce, OfACollisionIsTheWeight)
 {
-    const double mass = 2700.0, g = 9.81, dt = 5e-5;
+    const double mass = 2700.0, g = 9.81, dt = 5e-5, any = 1e300;
     for (const double v : {1e-6, 1e-3, 1.0, 50.0})
         for (const double r : {0.0, 0.1, 1.0})
-            EXPECT_NEAR(remaining_force(mass * ((1.0 + r) * v + g * dt) / dt, g * dt, r, v), mass * g, 1e-9 * mass * g) << v;
-    EXPECT_EQ(remaining_force(mass * g, g * dt, 0.1, 0.0), mass * g) << "of a block at rest all of it";
-    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 0.0), 100.0) << "without gravity";
-    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 1.0), 0.0);
+            EXPECT_NEAR(remaining_force(mass * ((1.0 + r) * v + g * dt) / dt, g * dt, r, v, any), mass * g, 1e-9 * mass * g) << v;
+    EXPECT_EQ(remaining_force(mass * g, g * dt, 0.1, 0.0, any), mass * g) << "of a block at rest all of it";
+    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 0.0, any), 100.0) << "without gravity";
+    EXPECT_EQ(remaining_force(100.0, 0.0, 0.1, 1.0, any), 0.0);
+    EXPECT_EQ(remaining_force(1e6, g * dt, 0.1, 0.0, 300.0), 300.0) << "struck by others";
 }
 }  // namespace
 }  // namespace hdem

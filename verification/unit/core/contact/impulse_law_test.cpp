@@ -245,6 +245,52 @@ TEST(ImpulseFace, KeepsItsLoadOnBothEndsWhenTheBlockCannotTurn)
         EXPECT_NEAR(contacts.normal_force(k, 0), 0.5 * 2700.0 * 9.81, 1e-9);
 }
 
+/// A block that comes down under gravity, met by the ground a share of a cycle after it has touched it, flies on as if it had been turned there and then.
+TEST_F(Impact, LetsABlockFlyOnFromWhereItHit)
+{
+    for (const double share : {0.05, 0.4, 0.95})
+        for (const double e : {0.0, 0.5, 1.0})
+        {
+            CaseDef scene = without_gravity(scenes::block_on_ground(), e);
+            scene.gravity = Vec2(0.0, -9.81);
+            scene.contact.allowed_overlap = 0.0;
+            const double speed = 2.0;
+            scene.blocks[1].velocity = {0.0, -speed};
+            CaseRun run(scene, [&](const Model& model, State& state)
+                        { state.blocks.motion[model.find_block("block")].y -= share * speed * model.time_step; });
+            const double dt = run.model().time_step;
+            const double after = std::max(0.0, e * speed - 9.81 * dt);
+            run.advance(1);
+            EXPECT_NEAR(run.velocity("block").y(), after, 1e-12) << e;
+            EXPECT_NEAR(run.displacement("block").y() - share * speed * dt, after * (1.0 + share) * dt, 1e-15) << e << ", " << share;
+        }
+}
+
+/// A bar lifted at one end must not be turned into the ground with the other, which has nothing to be taken back.
+TEST(PositionCorrection, PressesNoOtherPointIntoTheGround)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "ground", rectangle({-10, -1}, {10, 0}));
+    scenes::add_block(scene, "bar", rectangle({-2, 0}, {2, 0.1})).angular_velocity = -1.0;
+    scene = without_gravity(scene, 0.5);
+    scene.contact.allowed_overlap = 0.0;
+    const double left = 1e-9, right = 1e-5;  // overlaps at the ends
+    CaseRun run(scene,
+                [&](const Model& model, State& state)
+                {
+                    BlockMotion& m = state.blocks.motion[model.find_block("bar")];
+                    m.y -= 0.5 * (left + right);
+                    m.angle = (left - right) / 4.0;
+                    m.s = std::sin(m.angle);
+                    m.c = std::cos(m.angle);
+                });
+    run.advance(1);
+    const BlockMotion& m = run.motion("bar");
+    const double y = run.displacement("bar").y();
+    EXPECT_GT(y + 2.0 * m.angle, -1e-9) << "the right end is lifted";
+    EXPECT_GT(y - 2.0 * m.angle, -left - 1e-9);
+}
+
 TEST(PositionCorrection, TakesTheOverlapBackWithoutKineticEnergy)
 {
     CaseDef scene = without_gravity(scenes::block_on_ground(), 0.5);

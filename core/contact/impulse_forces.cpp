@@ -1,0 +1,58 @@
+#include "core/contact/impulse_forces.h"
+
+#include "core/contact/force_law.h"
+#include "core/contact/impulse_kick.h"
+
+namespace hdem
+{
+void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
+{
+    const double half_step = 0.5 * model.time_step;
+    const auto book = [&](Index block, double x, double y, double w)
+    {
+        const BlockInertia& inertia = blocks.inertia[block];
+        const BlockForce& force = blocks.force[block];
+        const Vec2 weight = model.mass[block] * model.gravity;
+        const double dvx = inertia.inverse_mass_x * x;
+        const double dvy = inertia.inverse_mass_y * y;
+        const BlockMotion& motion = blocks.motion[block];  // what holds a prescribed motion takes the impulse too
+        ledger.load_work -= (inertia.inverse_mass_x > 0.0 ? 0.0 : x * motion.vx) +
+                            (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
+                            (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
+        ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
+        ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
+    };
+    for (const ImpulsePoint& p : points)
+    {
+        const Kick kick(p, p.impulse_shear, -p.impulse_normal);
+        book(p.ref, -kick.x, -kick.y, -kick.w_ref);
+        book(p.inc, kick.x, kick.y, kick.w_inc);
+    }
+}
+
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts)
+{
+    for (const ImpulsePoint& p : points)
+    {
+        contacts.normal_force(p.end, p.contact) = p.impulse_normal / model.time_step;
+        contacts.shear_force(p.end, p.contact) = p.impulse_shear / model.time_step;
+        const double kept = remaining_force(p.impulse_normal / model.time_step, p.load_velocity, p.restitution, p.approach,
+                                            p.spring_force + p.mass_normal * p.load_velocity / model.time_step);
+        contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.overlap, kept, p.stiffness);
+    }
+}
+
+void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force)
+{
+    for (const ImpulsePoint& p : points)
+    {
+        const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
+        force[p.ref].x -= kick.x;
+        force[p.ref].y -= kick.y;
+        force[p.ref].moment -= kick.w_ref;
+        force[p.inc].x += kick.x;
+        force[p.inc].y += kick.y;
+        force[p.inc].moment += kick.w_inc;
+    }
+}
+}  // namespace hdem

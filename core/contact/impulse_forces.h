@@ -1,0 +1,19 @@
+#pragma once
+/// What the impulses of a cycle leave behind: forces J / dt, the history of their points, and their work.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// Forces of the cycle work along the velocity that the impulses leave, not only along the one they found: book the difference, half a step of
+/// each force times the change of velocity, as work of gravity and as impulse loss. Before impulses are added to the forces.
+void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger);
+
+/// Impulses count as forces J / dt, Eqs. (29), (30): store them as the points' history.
+void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts);
+
+/// Add the same forces to the blocks' sums, those of blocks that cannot move too: no two threads at once.
+void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force);
+}  // namespace hdem

@@ -1,0 +1,50 @@
+#pragma once
+/// What an impulse at a contact point does to the velocities of its blocks, and what these are there.
+
+#include "core/state/blocks.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// Velocity of inc relative to ref at the point: along t, and along m (approaching > 0).
+struct PointVelocity
+{
+    double t, m;
+};
+
+template <typename A, typename B>
+[[nodiscard]] inline PointVelocity relative_velocity(const ImpulsePoint& p, double dvx, double dvy, const A& ref, const B& inc)
+{
+    return {p.t_x * dvx + p.t_y * dvy - inc.w * p.inc_m + ref.w * p.ref_m,
+            p.t_x * dvy - p.t_y * dvx + inc.w * p.inc_t - ref.w * p.ref_t};
+}
+
+[[nodiscard]] inline PointVelocity relative_velocity(const ImpulsePoint& p, const BlockMotion& ref, const BlockMotion& inc)
+{
+    return relative_velocity(p, inc.vx - ref.vx, inc.vy - ref.vy, ref, inc);
+}
+
+/// Impulse (j_t, j_m) on inc and its opposite on ref, Eqs. (17), (18).
+struct Kick
+{
+    double x, y, w_ref, w_inc;
+
+    Kick(const ImpulsePoint& p, double j_t, double j_m)
+        : x(p.t_x * j_t - p.t_y * j_m),
+          y(p.t_y * j_t + p.t_x * j_m),
+          w_ref(p.ref_t * j_m - p.ref_m * j_t),
+          w_inc(p.inc_t * j_m - p.inc_m * j_t)
+    {
+    }
+};
+
+/// What a kick changes. A block that cannot move is not written to at all: parts of one colour may share it.
+inline void change_velocity(const BlockInertia& inertia, double x, double y, double moment, double& vx, double& vy, double& w)
+{
+    if (!can_move(inertia))
+        return;
+    vx += inertia.inverse_mass_x * x;
+    vy += inertia.inverse_mass_y * y;
+    w += inertia.inverse_inertia * moment;
+}
+}  // namespace hdem

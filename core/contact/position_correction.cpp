@@ -1,0 +1,26 @@
+#include "core/contact/position_correction.h"
+
+#include "core/contact/impulse_kick.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo)
+{
+    for (ImpulsePoint& p : points)
+    {
+        Triple& ref = pseudo[p.ref];
+        Triple& inc = pseudo[p.inc];
+        const double v_m = relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc).m;
+        const double share = p.excess_overlap > 0.0 ? model.contact.correction_fraction : 1.0;
+        const double last = p.correction;
+        p.correction = std::max(0.0, last + p.mass_normal * (v_m + share * p.excess_overlap / model.time_step));
+        if (p.correction == last)
+            continue;
+        const Kick kick(p, 0.0, -(p.correction - last));
+        change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.x, ref.y, ref.w);
+        change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.x, inc.y, inc.w);
+    }
+}
+}  // namespace hdem

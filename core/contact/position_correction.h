@@ -1,0 +1,18 @@
+#pragma once
+/// Overlap of contact points in the impulse regime is taken back from positions.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// One sweep of the position correction: pseudo velocities, added to positions but never to velocities, take the overlap
+/// back. As a real velocity, Eq. (19) to the letter, it would feed energy into every bounce (Table 4 is destroyed).
+///
+///   P <- max(0, P + m_cN (pv_m + share * excess / dt))                 after [Lee2025] Eq. (19)
+///
+/// A point that overlaps by less than its load (excess < 0) may be pressed together by that much; without it, a needle lifted at one end was turned
+/// into the ground with the other, and that end's spring gave back 8 % of its energy.
+void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo);
+}  // namespace hdem
