@@ -14,10 +14,16 @@ SectionSpec convergence_section()
             {field<&ConvergenceDef::criteria>({.name = "criteria",
                                                .effect = "All that are listed must hold.",
                                                .choices = {"kinetic_energy", "unbalanced_force_ratio"}}),
+             field<&ConvergenceDef::blocks>(
+                 {.name = "blocks",
+                  .effect = "What is to be at rest. `standing`: only blocks that have not moved farther than loose_distance in their stage; a run then ends "
+                            "while others may still be falling, and what these would do to standing rock is not waited for. Energy, limit and unbalanced "
+                            "force on the screen and in summary.json are of the same blocks.",
+                  .choices = {"all", "standing"}}),
              field<&ConvergenceDef::mean_speed>(
                  {.name = "mean_speed",
                   .unit = "m/s",
-                  .effect = "`kinetic_energy` holds when all free blocks together have less than they would have at this speed.",
+                  .effect = "`kinetic_energy` holds when all these blocks together have less than they would have at this speed.",
                   .range = {.low = 0, .high = 1e6, .low_included = false}}),
              field<&ConvergenceDef::unbalanced_force_ratio>({.name = "unbalanced_force_ratio",
                                                              .effect = "`unbalanced_force_ratio` holds below this.",

@@ -187,9 +187,17 @@ struct TimeDef
 
 // ---- the run --------------------------------------------------------------------------------------------------------
 
+/// Which free blocks are to be at rest.
+enum class ConvergenceBlocks
+{
+    all,
+    standing  ///< those that have not moved farther than loose_distance in their stage
+};
+
 /// [convergence]
 struct ConvergenceDef
 {
+    ConvergenceBlocks blocks = ConvergenceBlocks::all;
     std::vector<std::string> criteria = {"kinetic_energy"};  ///< "kinetic_energy", "unbalanced_force_ratio": all listed must hold
     double mean_speed = 5.0e-4;                 ///< kinetic energy of all free blocks at this speed is the limit [m/s]
     double unbalanced_force_ratio = 1.0e-5;     ///< [-]

@@ -25,9 +25,10 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
             for (const Index i : load.blocks)
                 if (i >= range.begin && i < range.end)
                     applied[i - range.begin] += model.mass[i] * load.acceleration + load.force;
+    const bool only_standing = model.convergence.blocks == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {
-        if (!blocks.is_free(i))
+        if (!blocks.is_free(i) || (only_standing && blocks.is_loose(i, model.convergence.loose_distance)))
             continue;
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];

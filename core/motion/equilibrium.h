@@ -6,7 +6,7 @@
 
 namespace hdem
 {
-/// Sums over free blocks; ranges add up.
+/// Sums over the free blocks that are to be at rest (ConvergenceDef::blocks); ranges add up.
 struct Equilibrium
 {
     double kinetic_energy = 0.0;    ///< [J]

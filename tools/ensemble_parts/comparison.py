@@ -4,7 +4,8 @@ import statistics
 from profiles import stress_difference
 from runs import REFERENCE, VARIANTS
 
-SAME_STEP = ("hybrid", "hybrid_matched", "hybrid_paper")    # as the reference has: only there do cycles compare
+SAME_STEP = ("hybrid", "hybrid_matched", "hybrid_paper", "force_standing", "hybrid_standing")    # as the reference has: only there do cycles compare
+BESIDE = {"hybrid_standing": "force_standing"}    # others: the reference
 GREATER_IS_BETTER = ("reduction", "wall_speedup", "whole_run_speedup", "cpu_speedup")
 
 
@@ -28,12 +29,12 @@ def compare(name, reference, other):
 
 def realisation(trial):
     """One entry of the JSON's list."""
-    reference = trial.runs[REFERENCE]
+    against = lambda name: trial.runs[BESIDE.get(name, REFERENCE)]    # noqa: E731
     return {
         "seed": trial.geometry.seed,
         "dips_deg": list(trial.geometry.dips),
         "runs": {name: run.row() for name, run in trial.runs.items()},
-        "against_force": {name: compare(name, reference, run) for name, run in trial.runs.items() if name != REFERENCE},
+        "against_force": {name: compare(name, against(name), run) for name, run in trial.runs.items() if name != REFERENCE},
     }
 
 

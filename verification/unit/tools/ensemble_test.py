@@ -114,6 +114,7 @@ class Ensemble(unittest.TestCase):
         self.assertAlmostEqual(found["median_displacement_difference_mm"], 1e-3)
         self.assertAlmostEqual(found["same_detached_fraction"], 4 / 5, msg="seed 5 lets another block fall")
         self.assertEqual(found["median_stress_difference"], 0.0)
+        self.assertAlmostEqual(found["statistics"]["hybrid_standing"]["reduction"]["median"], 0.6, msg="beside force_standing")
         self.assertEqual({run["cycles_after_excavation"] for run in found["collapses"][0]["runs"].values()}, {3000, 1200, 1800})
         for words in ("5 realisations, hdem 0.0.0 (stand-in)", "60.0 (60.0 to 60.0) 60.0", "Discarded geometries: 3", "Collapses, to at most 60000"):
             self.assertIn(words, printed)
@@ -131,7 +132,7 @@ class Ensemble(unittest.TestCase):
 
     def test_goes_on_with_what_is_missing(self):
         self.assertEqual(self.ensemble("--realisations", 1)[0], 0)
-        self.assertEqual(len(self.calls()), 5 + 3 + 3, "a realisation, three geometries until one collapses, the collapse")
+        self.assertEqual(len(self.calls()), 7 + 3 + 3, "a realisation, three geometries until one collapses, the collapse")
         self.setUp()
         self.assertEqual(self.ensemble("--realisations", 1)[0], 0)
         self.assertEqual(self.calls(), [])
@@ -143,7 +144,7 @@ class Ensemble(unittest.TestCase):
         other.write_text(STAND_IN + "# changed\n", encoding="utf-8")
         other.chmod(0o755)
         self.assertEqual(self.ensemble("--realisations", 1, "--program", other)[0], 0)
-        self.assertEqual(len(self.calls()), 11, "another program")
+        self.assertEqual(len(self.calls()), 13, "another program")
 
     def test_goes_on_after_an_interruption(self):
         with subprocess.Popen(self.words("--realisations", 1), stderr=subprocess.PIPE, text=True, env=os.environ | {"HANG": "matched"}) as process:

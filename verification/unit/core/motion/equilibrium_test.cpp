@@ -81,6 +81,28 @@ TEST(Convergence, NeedsAllCriteriaListed)
     EXPECT_FALSE(is_converged(criteria, now)) << "nothing asked for is nothing reached";
 }
 
+/// A block far above the ground beside one at rest on it.
+TEST(Convergence, MayBeOfStandingBlocksOnly)
+{
+    for (const ConvergenceBlocks which : {ConvergenceBlocks::all, ConvergenceBlocks::standing})
+    {
+        CaseDef scene = scenes::block_on_ground();
+        scenes::add_block(scene, "falling", scenes::rectangle({-1.9, 5.0}, {-0.9, 6.0}));
+        scene.convergence.blocks = which;
+        scene.convergence.loose_distance = 0.2;
+        scene.convergence.least_cycles = 1;
+        scene.stages[0].cycles.reset();
+        scene.stages[0].until_converged = true;
+        CaseRun run(scene);
+        const auto results = run_stages(run.simulation, {});
+        const double fallen = -run.displacement("falling").y();
+        ASSERT_TRUE(results[0].converged);
+        EXPECT_NEAR(run.simulation.equilibrium().free_mass, which == ConvergenceBlocks::all ? 5400.0 : 2700.0, 1e-9);
+        EXPECT_GT(fallen, 0.2);
+        EXPECT_EQ(fallen > 4.9, which == ConvergenceBlocks::all) << fallen << " m";
+    }
+}
+
 TEST(DisplacementReport, CountsWhatStayedAndNamesWhatDetached)
 {
     CaseDef scene = scenes::stack(3);
