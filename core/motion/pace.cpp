@@ -14,6 +14,7 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = 64.0;                 // pace, of the rock and beyond it
+constexpr double round_off = 1.0 + 1e-9;          // of products of ratios
 constexpr double finest = 1.0905077326652576592;  // 2^(1/8), between two paces
 constexpr double slide_share = 1.5e-3;            // of the block's size a cycle
 constexpr double approach_share = 0.05;           // of the way to what is near, a cycle
@@ -27,7 +28,8 @@ constexpr double move_speeds = 10.0;   // of the criterion's mean speed: blocks 
 double floor_pace(double base, double bound)
 {
     double pace = base;
-    while (pace * finest <= std::min(bound, base * greatest))
+    const double most = std::min(bound, base * greatest * round_off);
+    while (pace * finest <= most)
         pace *= finest;
     return pace;
 }
@@ -162,7 +164,7 @@ double next_loose_pace(const Model& model, const Paces& last, const StandingRock
     if (bound == infinity || standing.kinetic_energy > still_share * 0.5 * standing.free_mass * slow * slow)
         return last.rock;
     const double most = std::max(may_grow ? 2.0 * last.loose : last.loose, last.rock);
-    return bound < most ? floor_pace(last.rock, bound) : floor_pace(last.rock, most * (1.0 + 1e-9));
+    return bound < most ? floor_pace(last.rock, bound) : floor_pace(last.rock, most * round_off);
 }
 
 double rock_pace(const Model& model, double step)
@@ -176,7 +178,7 @@ void set_paces(IndexRange range, const Model& model, const Paces& paces, const s
     {
         if (!blocks.is_free(b))
             continue;
-        const double pace = joined[b] == 0.0 ? paces.rock : floor_pace(paces.rock, std::min(joined[b], paces.loose * (1.0 + 1e-9)));
+        const double pace = joined[b] == 0.0 ? paces.rock : floor_pace(paces.rock, std::min(joined[b], paces.loose * round_off));
         if (pace != blocks.pace[b])
             set_pace(pace, b, model, blocks);
     }
@@ -192,11 +194,12 @@ void reset_paces(const Model& model, State& state)
 
 bool is_pace(double pace)
 {
-    return pace >= 1.0 && pace <= greatest * greatest;
+    return pace >= 1.0 && pace <= greatest * greatest * round_off;
 }
 
 bool are_paces(const Paces& paces)
 {
-    return paces.rock >= 1.0 && paces.rock <= greatest && paces.loose >= paces.rock && paces.loose <= paces.rock * greatest;
+    return paces.rock >= 1.0 && paces.rock <= greatest * round_off && paces.loose >= paces.rock &&
+           paces.loose <= paces.rock * greatest * round_off;
 }
 }  // namespace hdem
