@@ -139,11 +139,11 @@ void check_variant(Report& report, const Variant& variant, Figure& figure)
     const Jump back = find_jump(run, down, 10);
     report.inform(fmt::format("{}: kinetic energy before the switch [J]", variant.name), "sect. 4.3: 1.41", first.kinetic);
     report.inform({fmt::format("{}: jump of the kinetic energy, size [J]", variant.name), "Fig. 9", 0.038, std::abs(first.energy)});
-    report.inform(
-        {fmt::format("{}: the same, share of it [%]", variant.name), "Fig. 9", 2.7, 100.0 * std::abs(first.energy) / first.kinetic});
-    report.require(
-        {fmt::format("{}: the same, share of it [%]", variant.name), "no jump", 0.05, 100.0 * std::abs(first.energy) / first.kinetic},
-        at_most());
+    report.inform({fmt::format("{}: the same, share of it [%]", variant.name), "Fig. 9", 2.7,
+                   100.0 * std::abs(first.energy) / first.kinetic});
+    report.require({fmt::format("{}: the same, share of it [%]", variant.name), "no jump", 0.05,
+                    100.0 * std::abs(first.energy) / first.kinetic},
+                   at_most());
     report.inform(fmt::format("{}: spring energy given up there, ledger's contact changes [J]", variant.name), "-",
                   run.state().ledger.contact_changes);
     report.inform(fmt::format("{}: becomes force-based again [cycle]", variant.name), "-", static_cast<double>(down));

@@ -1,5 +1,4 @@
 #include "core/contact/impulse_forces.h"
-
 #include "core/contact/impulse_law.h"
 #include "verification/unit/block_pair.h"
 
