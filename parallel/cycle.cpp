@@ -5,6 +5,7 @@
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
+#include "core/motion/loads.h"
 #include "core/motion/pace.h"
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"

@@ -57,8 +57,8 @@ inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& b
     return inertia;
 }
 
-/// (The three in line: by calls the force law takes 5 % more instructions where many contacts are fast.)
 /// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
+/// (In line, as the next two: by calls the force law takes 5 % more instructions where many contacts are fast.)
 [[gnu::always_inline]] inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks,
                                             const Threshold& threshold)
 {

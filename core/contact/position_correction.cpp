@@ -1,6 +1,7 @@
 #include "core/contact/position_correction.h"
 
 #include "core/contact/impulse_kick.h"
+#include "core/contact/spring_power.h"
 
 #include <algorithm>
 
@@ -22,5 +23,25 @@ void sweep_correction(const Model& model, const Blocks& blocks, std::vector<Impu
         change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.x, ref.y, ref.w);
         change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.x, inc.y, inc.w);
     }
+}
+
+void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger)
+{
+    double gravity = 0.0;
+    for (Index i = range.begin; i < range.end; ++i)
+        if (is_moved(pseudo[i]) && blocks.present[i] != 0)
+            gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * model.time_step;
+    ledger.gravity_work += gravity;
+    ledger.position_correction -= gravity;
+}
+
+void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                            const std::vector<Triple>& pseudo, EnergyLedger& ledger)
+{
+    // The contacts will find overlaps that no velocity explains, and book their work as if it had come from nowhere.
+    const double work = -spring_power(range, contacts, blocks, pseudo).normal * model.time_step;
+    ledger.position_correction += work;
+    ledger.contact_changes += work;
 }
 }  // namespace hdem

@@ -15,4 +15,11 @@ namespace hdem
 /// A point that overlaps by less than its load (excess < 0) may be pressed together by that much; without it, a needle lifted at one end was turned
 /// into the ground with the other, and that end's spring gave back 8 % of its energy.
 void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo);
+
+/// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of
+/// contacts (shear springs follow velocities, and do not notice it).
+void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger);
+void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                            const std::vector<Triple>& pseudo, EnergyLedger& ledger);
 }  // namespace hdem

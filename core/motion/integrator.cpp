@@ -1,6 +1,5 @@
 #include "core/motion/integrator.h"
 
-#include "core/detection/edge_touch.h"
 #include "core/motion/block_lanes.h"
 #include "core/motion/rest.h"
 
@@ -10,98 +9,6 @@ namespace hdem
 {
 namespace
 {
-bool acts(const Load& load, std::int64_t cycle)
-{
-    return cycle >= load.from && cycle < load.until;
-}
-
-/// Set one prescribed component. @return change of kinetic energy [J]
-double prescribe(double& velocity, const std::optional<double>& value, double mass)
-{
-    if (!value)
-        return 0.0;
-    const double gain = 0.5 * mass * (*value * *value - velocity * velocity);
-    velocity = *value;
-    return gain;
-}
-
-enum class Prescription
-{
-    acts,
-    ends  ///< velocities are zero again
-};
-
-void prescribe(const Load& load, const Model& model, Blocks& blocks, std::vector<Triple>& change, EnergyLedger& ledger,
-               Prescription what)
-{
-    if (!load.velocity_x && !load.velocity_y && !load.angular_velocity)
-        return;
-    const auto now = [&](const std::optional<double>& value)
-    { return what == Prescription::ends && value ? std::optional<double>(0.0) : value; };
-    for (const Index i : load.blocks)
-    {
-        if (blocks.present[i] == 0)
-            continue;
-        BlockMotion& motion = blocks.motion[i];
-        const BlockMotion was = motion;
-        ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
-        ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
-        ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
-        if (motion.vx == was.vx && motion.vy == was.vy && motion.w == was.w)
-            continue;
-        change.resize(static_cast<std::size_t>(blocks.size()));
-        change[i] = {change[i].x + motion.vx - was.vx, change[i].y + motion.vy - was.vy, change[i].w + motion.w - was.w};
-    }
-}
-
-/// Velocities of a contact's points if its blocks moved as given [m/s].
-EdgeTouch touch_at_velocities(const Contacts& contacts, Index i, const Blocks& blocks, const std::vector<Triple>& velocity)
-{
-    BlockMotion ref = blocks.motion[contacts.ref[i]];
-    BlockMotion inc = blocks.motion[contacts.inc[i]];
-    const auto set = [](BlockMotion& motion, const Triple& v)
-    {
-        motion.vx = v.x;
-        motion.vy = v.y;
-        motion.w = v.w;
-    };
-    set(ref, velocity[contacts.ref[i]]);
-    set(inc, velocity[contacts.inc[i]]);
-    return touch_edges(contacts.edges(i), ref, inc);
-}
-
-bool is_moved(const Triple& v)
-{
-    return v.x != 0.0 || v.y != 0.0 || v.w != 0.0;
-}
-
-/// Work per second of the springs' last forces along such velocities, of the normal and of the shear springs [W].
-struct SpringPower
-{
-    double normal = 0.0;
-    double shear = 0.0;
-};
-
-SpringPower spring_power(IndexRange range, const Contacts& contacts, const Blocks& blocks, const std::vector<Triple>& velocity)
-{
-    SpringPower power;
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        const bool spring = is_spring(contacts.regime[0][i]) || is_spring(contacts.regime[1][i]);
-        if (!spring || !(is_moved(velocity[contacts.ref[i]]) || is_moved(velocity[contacts.inc[i]])))
-            continue;
-        const EdgeTouch touch = touch_at_velocities(contacts, i, blocks, velocity);
-        for (int k = 0; k < 2; ++k)
-        {
-            if (!is_spring(contacts.regime[k][i]))
-                continue;
-            power.normal -= contacts.normal_force(k, i) * touch.point[k].v_m;
-            power.shear += contacts.shear_force(k, i) * touch.point[k].v_t;
-        }
-    }
-    return power;
-}
-
 /// Stopped blocks do not move, whatever acts on them.
 inline void hold_stopped(const std::uint8_t* rest, Index count, BasicInertia<Pack>& inertia)
 {
@@ -174,66 +81,6 @@ double greatest(Pack p)
 }
 }  // namespace
 
-void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
-                 std::vector<Triple>& before)
-{
-    before.clear();
-    for (const Load& load : model.loads)
-        for (const Index i : load.blocks)
-            external[i] = {};
-    for (const Load& load : model.loads)
-    {
-        if (!acts(load, cycle))
-            continue;
-        for (const Index i : load.blocks)
-        {
-            if (blocks.present[i] == 0)
-                continue;
-            external[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
-            external[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
-            external[i].w += load.moment;
-            const BlockMotion& motion = blocks.motion[i];
-            before.push_back({motion.vx, motion.vy, motion.w});
-        }
-    }
-}
-
-void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger)
-{
-    std::vector<Triple> change;
-    // What a load prescribed ends with it; first, so that another load may take over in the same cycle, wherever it is listed.
-    for (const Load& load : model.loads)
-        if (cycle == load.until && load.from < load.until)
-            prescribe(load, model, blocks, change, ledger, Prescription::ends);
-    for (const Load& load : model.loads)
-        if (acts(load, cycle))
-            prescribe(load, model, blocks, change, ledger, Prescription::acts);
-    if (change.empty())
-        return;
-    // The last force has worked for half a step along the old velocity. The contacts will book that half along the new one.
-    const SpringPower power = spring_power({0, contacts.size()}, contacts, blocks, change);
-    ledger.load_work -= 0.5 * model.time_step * (power.normal + power.shear);
-}
-
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
-                   EnergyLedger& ledger)
-{
-    std::size_t at = 0;
-    for (const Load& load : model.loads)
-        if (acts(load, cycle))
-            for (const Index i : load.blocks)
-            {
-                if (blocks.present[i] == 0)
-                    continue;
-                const BlockMotion& motion = blocks.motion[i];
-                const Triple& was = before[at++];
-                const Vec2 force = model.mass[i] * load.acceleration + load.force;
-                ledger.load_work += 0.5 * model.time_step *
-                                    (force.x() * (was.x + motion.vx) + force.y() * (was.y + motion.vy) +
-                                     load.moment * (was.w + motion.w));
-            }
-}
-
 void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
 {
     const Pack dt = model.time_step;
@@ -286,25 +133,5 @@ double update_positions(IndexRange range, const Model& model, Blocks& blocks, st
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                });
     return (std::sqrt(greatest(fastest)) + greatest(rim)) * model.time_step;
-}
-
-void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
-                            EnergyLedger& ledger)
-{
-    double gravity = 0.0;
-    for (Index i = range.begin; i < range.end; ++i)
-        if (is_moved(pseudo[i]) && blocks.present[i] != 0)
-            gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * model.time_step;
-    ledger.gravity_work += gravity;
-    ledger.position_correction -= gravity;
-}
-
-void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
-                            const std::vector<Triple>& pseudo, EnergyLedger& ledger)
-{
-    // The contacts will find overlaps that no velocity explains, and book their work as if it had come from nowhere.
-    const double work = -spring_power(range, contacts, blocks, pseudo).normal * model.time_step;
-    ledger.position_correction += work;
-    ledger.contact_changes += work;
 }
 }  // namespace hdem

@@ -8,19 +8,6 @@
 
 namespace hdem
 {
-/// Forces of the case's loads that act in this cycle, in `external`, one entry a block. `before` receives the velocities of the loaded blocks, load
-/// by load, for add_load_work.
-void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
-                 std::vector<Triple>& before);
-
-/// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
-/// spring sheared at a given velocity answers to the displacement at the end of the cycle.
-void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger);
-
-/// Work of these loads, once the velocities are updated.
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
-                   EnergyLedger& ledger);
-
 /// Step 4 of a cycle: velocities at t + dt/2 from the forces at t, with the damping of each block's state.
 ///
 ///   v <- v + (F - F_d) dt / m,   w <- w + (M - M_d) dt / I           [Lee2025] Eqs. (11), (12)
@@ -36,11 +23,4 @@ void update_velocities(IndexRange range, const Model& model, const DampingRule& 
 ///
 /// `pseudo`: velocities of the position correction to be added, one entry a block; used up. Or none.
 double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo = nullptr);
-
-/// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of
-/// contacts (shear springs follow velocities, and do not notice it).
-void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
-                            EnergyLedger& ledger);
-void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
-                            const std::vector<Triple>& pseudo, EnergyLedger& ledger);
 }  // namespace hdem

@@ -1,0 +1,113 @@
+#include "core/motion/loads.h"
+
+#include "core/contact/spring_power.h"
+
+namespace hdem
+{
+namespace
+{
+bool acts(const Load& load, std::int64_t cycle)
+{
+    return cycle >= load.from && cycle < load.until;
+}
+
+/// Set one prescribed component. @return change of kinetic energy [J]
+double prescribe(double& velocity, const std::optional<double>& value, double mass)
+{
+    if (!value)
+        return 0.0;
+    const double gain = 0.5 * mass * (*value * *value - velocity * velocity);
+    velocity = *value;
+    return gain;
+}
+
+enum class Prescription
+{
+    acts,
+    ends  ///< velocities are zero again
+};
+
+void prescribe(const Load& load, const Model& model, Blocks& blocks, std::vector<Triple>& change, EnergyLedger& ledger,
+               Prescription what)
+{
+    if (!load.velocity_x && !load.velocity_y && !load.angular_velocity)
+        return;
+    const auto now = [&](const std::optional<double>& value)
+    { return what == Prescription::ends && value ? std::optional<double>(0.0) : value; };
+    for (const Index i : load.blocks)
+    {
+        if (blocks.present[i] == 0)
+            continue;
+        BlockMotion& motion = blocks.motion[i];
+        const BlockMotion was = motion;
+        ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
+        ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
+        ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
+        if (motion.vx == was.vx && motion.vy == was.vy && motion.w == was.w)
+            continue;
+        change.resize(static_cast<std::size_t>(blocks.size()));
+        change[i] = {change[i].x + motion.vx - was.vx, change[i].y + motion.vy - was.vy, change[i].w + motion.w - was.w};
+    }
+}
+}  // namespace
+
+void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
+                 std::vector<Triple>& before)
+{
+    before.clear();
+    for (const Load& load : model.loads)
+        for (const Index i : load.blocks)
+            external[i] = {};
+    for (const Load& load : model.loads)
+    {
+        if (!acts(load, cycle))
+            continue;
+        for (const Index i : load.blocks)
+        {
+            if (blocks.present[i] == 0)
+                continue;
+            external[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
+            external[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
+            external[i].w += load.moment;
+            const BlockMotion& motion = blocks.motion[i];
+            before.push_back({motion.vx, motion.vy, motion.w});
+        }
+    }
+}
+
+void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger)
+{
+    std::vector<Triple> change;
+    // What a load prescribed ends with it; first, so that another load may take over in the same cycle, wherever it is listed.
+    for (const Load& load : model.loads)
+        if (cycle == load.until && load.from < load.until)
+            prescribe(load, model, blocks, change, ledger, Prescription::ends);
+    for (const Load& load : model.loads)
+        if (acts(load, cycle))
+            prescribe(load, model, blocks, change, ledger, Prescription::acts);
+    if (change.empty())
+        return;
+    // The last force has worked for half a step along the old velocity. The contacts will book that half along the new one.
+    const SpringPower power = spring_power({0, contacts.size()}, contacts, blocks, change);
+    ledger.load_work -= 0.5 * model.time_step * (power.normal + power.shear);
+}
+
+void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
+                   EnergyLedger& ledger)
+{
+    std::size_t at = 0;
+    for (const Load& load : model.loads)
+        if (acts(load, cycle))
+            for (const Index i : load.blocks)
+            {
+                if (blocks.present[i] == 0)
+                    continue;
+                const BlockMotion& motion = blocks.motion[i];
+                const Triple& was = before[at++];
+                const Vec2 force = model.mass[i] * load.acceleration + load.force;
+                ledger.load_work += 0.5 * model.time_step *
+                                    (force.x() * (was.x + motion.vx) + force.y() * (was.y + motion.vy) +
+                                     load.moment * (was.w + motion.w));
+            }
+}
+}  // namespace hdem
