@@ -17,7 +17,7 @@ SectionSpec convergence_section()
              field<&ConvergenceDef::blocks>(
                  {.name = "blocks",
                   .effect = "What is to be at rest. `standing`: only blocks that have not moved farther than loose_distance in their stage; a run then ends "
-                            "while others may still be falling, and what these would do to standing rock is not waited for. Energy, limit and unbalanced "
+                            "while others may still be falling, and what these would do to standing rock is not waited for. Where nothing stands, all count. Energy, limit and unbalanced "
                             "force on the screen and in summary.json are of the same blocks.",
                   .choices = {"all", "standing"}}),
              field<&ConvergenceDef::mean_speed>(

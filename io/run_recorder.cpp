@@ -16,7 +16,7 @@ constexpr Index most_blocks_copied = 20'000;
 Equilibrium equilibrium_of(const Model& model, const State& state)
 {
     Equilibrium sums;
-    add_equilibrium({0, state.blocks.size()}, model, state, sums);
+    add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, sums);
     return sums;
 }
 

@@ -162,7 +162,9 @@ void Simulation::check_state() const
 Equilibrium Simulation::equilibrium() const
 {
     Equilibrium sums;
-    add_equilibrium({0, state_.blocks.size()}, model_, state_, sums);
+    add_equilibrium({0, state_.blocks.size()}, model_, state_, model_.convergence.blocks, sums);
+    if (sums.free_mass == 0.0)  // nothing stands
+        add_equilibrium({0, state_.blocks.size()}, model_, state_, ConvergenceBlocks::all, sums);
     return sums;
 }
 

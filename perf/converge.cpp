@@ -50,7 +50,7 @@ class RestWatch final : public Observer
     void observe(const Model& model, const State& state) override
     {
         Equilibrium sums;
-        add_equilibrium({0, state.blocks.size()}, model, state, sums);
+        add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, sums);
         if ((rest_.speed > 0.0 && sums.kinetic_energy >= sums.kinetic_energy_at(rest_.speed)) ||
             (rest_.unbalanced_force_ratio > 0.0 && sums.unbalanced_force_ratio() >= rest_.unbalanced_force_ratio))
             last_moving_ = state.cycle;

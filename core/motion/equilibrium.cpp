@@ -14,7 +14,7 @@ double kinetic_energy(const Model& model, const Blocks& blocks, Index block)
            (pace * pace);
 }
 
-void add_equilibrium(IndexRange range, const Model& model, const State& state, Equilibrium& sums)
+void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums)
 {
     const Blocks& blocks = state.blocks;
     std::vector<Vec2> applied(static_cast<std::size_t>(range.size()));
@@ -25,7 +25,7 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, E
             for (const Index i : load.blocks)
                 if (i >= range.begin && i < range.end)
                     applied[i - range.begin] += model.mass[i] * load.acceleration + load.force;
-    const bool only_standing = model.convergence.blocks == ConvergenceBlocks::standing;
+    const bool only_standing = which == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {
         if (!blocks.is_free(i) || (only_standing && blocks.is_loose(i, model.convergence.loose_distance)))

@@ -6,7 +6,7 @@
 
 namespace hdem
 {
-/// Sums over the free blocks that are to be at rest (ConvergenceDef::blocks); ranges add up.
+/// Sums over free blocks; ranges add up.
 struct Equilibrium
 {
     double kinetic_energy = 0.0;    ///< [J]
@@ -21,8 +21,8 @@ struct Equilibrium
     [[nodiscard]] double kinetic_energy_at(double speed) const { return 0.5 * free_mass * speed * speed; }
 };
 
-/// Reads motion and the cycle's forces; adds in block order.
-void add_equilibrium(IndexRange range, const Model& model, const State& state, Equilibrium& sums);
+/// Reads motion and the cycle's forces of all free blocks, or of those that stand; adds in block order.
+void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums);
 
 [[nodiscard]] double kinetic_energy(const Model& model, const Blocks& blocks, Index block);
 

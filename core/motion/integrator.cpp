@@ -3,8 +3,6 @@
 #include "core/motion/block_lanes.h"
 #include "core/motion/rest.h"
 
-#include <utility>
-
 namespace hdem
 {
 namespace

@@ -79,7 +79,7 @@ TunnelRun::TunnelRun(const std::string& run_name, const std::string& run_method,
     const auto watch = [this](const Model& model, const State& state)
     {
         Equilibrium now;
-        add_equilibrium({0, model.blocks()}, model, state, now);
+        add_equilibrium({0, model.blocks()}, model, state, ConvergenceBlocks::all, now);
         limit = now.kinetic_energy_at(model.convergence.mean_speed);
         if (now.kinetic_energy > 0.0)  // a logarithm knows no zero
         {

@@ -103,6 +103,22 @@ TEST(Convergence, MayBeOfStandingBlocksOnly)
     }
 }
 
+TEST(Convergence, OfStandingBlocksWaitsForAllWhereNoneStands)
+{
+    CaseDef scene = scenes::block_on_ground();
+    for (Vec2& p : scene.blocks[1].polygon)
+        p.y() += 1.0;
+    scene.convergence.blocks = ConvergenceBlocks::standing;
+    scene.convergence.loose_distance = 0.2;
+    scene.convergence.least_cycles = 1;
+    scene.stages[0].cycles.reset();
+    scene.stages[0].until_converged = true;
+    scene.stages[0].max_cycles = 100000;
+    CaseRun run(scene);
+    ASSERT_TRUE(run_stages(run.simulation, {})[0].converged);
+    EXPECT_NEAR(run.displacement("block").y(), -1.0, 1e-4) << "it has landed";
+}
+
 TEST(DisplacementReport, CountsWhatStayedAndNamesWhatDetached)
 {
     CaseDef scene = scenes::stack(3);
