@@ -25,6 +25,7 @@ StoredEnergy stored_energy(const Model& model, const State& state)
         const SpringEnergy springs = spring_energy(model, state.blocks, state.contacts.get(i));
         stored.elastic_normal += springs.normal;
         stored.elastic_shear += springs.shear;
+        stored.pending += springs.pending;
     }
     return stored;
 }
@@ -47,9 +48,12 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
         energy.normal -= 0.5 * point.tilt_force * (surface_velocity(p, ref.w, inc.w) - turning.surface * dt) * dt;
         if (point.regime != Regime::stick && point.regime != Regime::slip)
             continue;
-        const double overlap = point.overlap + (p.v_m - turning.m * dt) * dt;
+        const double next = point.overlap + (p.v_m - turning.m * dt) * dt - point.rest_overlap;
         const double stretch = point.shear_force / shear_stiffness - (p.v_t - 0.5 * turning.t * dt) * dt;
-        energy.normal += 0.5 * point.normal_force * (overlap - point.rest_overlap);
+        const double normal = 0.5 * point.normal_force * next;
+        const double held = std::max(point.overlap - point.rest_overlap, 0.0) * std::max(next, 0.0);
+        energy.normal += normal;
+        energy.pending += normal - 0.5 * joint.normal_stiffness * contact.last_length * held;
         energy.shear += 0.5 * point.shear_force * stretch;
     }
     return energy;

@@ -12,6 +12,7 @@ struct StoredEnergy
     double kinetic = 0.0;
     double elastic_normal = 0.0;
     double elastic_shear = 0.0;
+    double pending = 0.0;        ///< of elastic_normal, see SpringEnergy
     double one_step_fall = 0.0;  ///< kinetic energy that gravity gives the free blocks in one step, for scale
     [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
 };
@@ -19,7 +20,8 @@ struct StoredEnergy
 /// Sum over all blocks and closed force points, in their order.
 ///
 /// Velocities live half a step after the poses, so the energy of a spring is taken there too: 1/2 F(t) u(t + dt). With it
-/// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2.
+/// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2. In the cycles in which a spring closes and opens
+/// this is less than what it holds, and the next one makes up for it: the ledger's sums explain total(), and total() - pending is there.
 [[nodiscard]] StoredEnergy stored_energy(const Model& model, const State& state);
 
 /// Energy in the springs of one contact, at the same half step [J].
@@ -27,6 +29,8 @@ struct SpringEnergy
 {
     double normal = 0.0;
     double shear = 0.0;
+    /// normal less 1/2 K L u(t)+ u(t + dt)+, u+ = max(u, 0): not 0 only where the spring closes or opens (contact/closing.h).
+    double pending = 0.0;
     [[nodiscard]] double total() const { return normal + shear; }
 };
 [[nodiscard]] SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact);

@@ -218,7 +218,8 @@ SectionSpec damping_section()
         {field<&DampingDef::preset>({.name = "preset",
                                      .effect = "`default`: local damping while force contacts hold a block, none once it slides or "
                                                "flies, so that it slides at the right acceleration; `paper`: the published scheme "
-                                               "(sect. 3.3) to the letter; `dynamic`: no local damping, exact motion.",
+                                               "(sect. 3.3) to the letter, springs that close and open late included; `dynamic`: "
+                                               "no local damping, exact motion.",
                                      .choices = {"default", "paper", "dynamic"}}),
          field<&DampingDef::local>(
              {.name = "local",
@@ -251,7 +252,8 @@ SectionSpec time_section()
                   "prescribed motions.",
               .example = "5e-5",
               .range = {.low = 0, .high = 1e6, .low_included = false},
-              .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness))"}),
+              .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness)); a block with a side L above 4 m "
+                              "counts with 4 m / L of its mass (not under `preset = \"paper\"`)"}),
          field<&TimeDef::fraction>({.name = "fraction",
                                     .effect = "FRAC of Eq. (32), when step is not given.",
                                     .range = {.low = 0, .high = 1, .low_included = false}}),

@@ -69,7 +69,10 @@ void CycleRunner::prepare(const Model& model, const State& state)
         part.unstable = no_index;
         part.stiff.clear();
         if (state.method != Method::impulse)
+        {
             find_stiff_contacts(part.range, model, state.blocks, state.contacts, part.stiff);
+            part.closing = closing_of(part.range, model, state.contacts);
+        }
         has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
     }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
@@ -204,6 +207,7 @@ void CycleRunner::leave_out(const State& state, const Team& team)
 void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
+    const bool whole_cycles = relaxing_ || state.damping == DampingPreset::paper;
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
@@ -216,8 +220,9 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
             clock.lap(CycleStage::narrow);
         }
         part.tally = {};
+        const RegimeRule rule{state.method, relaxing_, whole_cycles ? Closing::whole_cycles : part.closing};
         for (const IndexRange& range : part.active)
-            part.tally += evaluate_contacts(range, model, {state.method, relaxing_}, state.blocks, state.contacts,
+            part.tally += evaluate_contacts(range, model, rule, state.blocks, state.contacts,
                                             work_.loads);  // Eqs. (1)-(10), (24)-(28)
         if (!part.stiff.empty())
             part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);

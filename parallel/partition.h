@@ -1,6 +1,7 @@
 #pragma once
 /// Contacts and blocks cut into pieces of work, and colours for pieces that must not run at the same time.
 
+#include "core/contact/regime.h"
 #include "core/motion/pace.h"
 #include "core/motion/step_check.h"
 #include "core/state/energy_terms.h"
@@ -14,13 +15,14 @@ namespace hdem
 struct ContactPart
 {
     IndexRange range;
-    ContactTally tally;                  ///< of this cycle
-    Index searched = 0;                  ///< features searched in this cycle
-    EnergyLedger ledger;                 ///< of this cycle
-    std::vector<ImpulsePoint> impulses;  ///< of this cycle
-    std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
-    std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
-    Index unstable = no_index;           ///< of these, found in this cycle
+    ContactTally tally;                     ///< of this cycle
+    Index searched = 0;                     ///< features searched in this cycle
+    EnergyLedger ledger;                    ///< of this cycle
+    std::vector<ImpulsePoint> impulses;     ///< of this cycle
+    std::vector<IndexRange> active;         ///< contacts that are not left out, see core/motion/rest.h
+    std::vector<StiffContact> stiff;        ///< to be looked at in every cycle
+    Index unstable = no_index;              ///< of these, found in this cycle
+    Closing closing = Closing::all_points;  ///< of springs outside of stages that have whole cycles
 };
 
 struct BlockPart

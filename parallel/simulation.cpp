@@ -51,8 +51,8 @@ std::vector<Problem> Simulation::find_problems()
         problems.push_back({.key = "time.step",
                             .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                                     " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
-                                    " s of the contacts). Give a smaller step, or none to use Eq. (32): " +
-                                    with_digits("%.4g", model_.paper_time_step) + " s."});
+                                    " s of the contacts). Give a smaller step, or none to use " +
+                                    with_digits("%.4g", model_.default_time_step) + " s."});
     return problems;
 }
 

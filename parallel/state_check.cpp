@@ -29,11 +29,11 @@ std::string two_blocks(const Model& model, const State& state, Index contact)
 
 std::string step_above(const Model& model, double limit)
 {
-    const bool better = model.paper_time_step < 0.5 * limit && model.paper_time_step < model.time_step;
+    const bool better = model.default_time_step < 0.5 * limit && model.default_time_step < model.time_step;
     return "time step = " + with_digits("%.4g", model.time_step) +
            " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
            " s of the springs that act here: they would throw the blocks apart). Give a smaller time.step" +
-           (better ? ", or none to use Eq. (32): " + with_digits("%.4g", model.paper_time_step) + " s."
+           (better ? ", or none to use " + with_digits("%.4g", model.default_time_step) + " s."
                    : ", e.g. " + with_digits("%.2g", 0.2 * limit) + " s.");
 }
 }  // namespace

@@ -1,5 +1,6 @@
 #include "core/contact/contact_forces.h"
 
+#include "core/contact/closing.h"
 #include "core/contact/contact_group.h"
 #include "core/contact/force_law.h"
 #include "core/energy_ledger.h"
@@ -35,11 +36,11 @@ struct Sums
     Pack normal[2], work = 0.0;  ///< normal forces, and the sum of normal force times stretch
 };
 
-/// Do impulses play a part at four contacts, in this cycle or the last?
-enum class Impulses
+/// What four contacts need of the laws.
+enum class Contact4
 {
-    none,  ///< springs only, none with a rest overlap: so rests most rock under the hybrid method, at the price of the force method
-    maybe
+    rests,  ///< springs only, none with a rest overlap, none that closes or opens: so is most rock, at the price of the force method under the hybrid one too
+    any
 };
 
 /// Share of the last impulse's force that its spring begins with, from the stretch it was left with.
@@ -50,35 +51,36 @@ inline Pack kept_share(const ContactGroup& g, int k, Pack stretch)
     return select(g.last_normal[k] > zero, min(kept / g.last_normal[k], Pack(1.0)), zero);
 }
 
-template <Impulses impulses>
-[[gnu::always_inline]] inline void evaluate_point(const ContactGroup& g, int k, Mask impulsive, Pack dt, ContactLanes& l,
-                                                  std::uint8_t* regime, Sums& sums)
+template <Contact4 contact>
+[[gnu::always_inline]] inline void evaluate_point(const ContactGroup& g, int k, Mask impulsive, Pack share, Pack dt,
+                                                  ContactLanes& l, std::uint8_t* regime, Sums& sums)
 {
-    constexpr bool none = impulses == Impulses::none;
+    constexpr bool rests = contact == Contact4::rests;
     const Pack zero = 0.0;
     const BasicTouchPoint<Pack>& p = g.touch.point[k];
-    const Pack spring_normal = none ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
-    const Pack spring_shear = none ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
-    const Pack last_rest = none ? zero : load_lane(l.rest_overlap[k]);
-    const Pack rest = none ? zero : rest_overlap(p.overlap, last_rest);
+    const Pack spring_normal = rests ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
+    const Pack spring_shear = rests ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
+    const Pack last_rest = rests ? zero : load_lane(l.rest_overlap[k]);
+    const Pack rest = rests ? zero : rest_overlap(p.overlap, last_rest);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
     const Pack start = spring_shear * g.shear_share;
-    const Pack handed = none ? start
-                             : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
-                                      start);
+    const Pack handed = rests ? start
+                              : select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, load_lane(l.overlap[k]) - last_rest),
+                                       start);
     const Pack curved = Pack(0.5) * dt * g.turning[k].t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, none ? p.overlap : p.overlap - rest, v_t, dt, handed);
-    const Mask spring = none ? g.closed[k] : g.closed[k] & !impulsive;
+    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, rests ? p.overlap : share * (p.overlap - rest), v_t, dt,
+                                                 handed);
+    const Mask spring = rests ? g.closed[k] : g.closed[k] & !impulsive;
     const Pack normal = select(spring, f.normal, zero);
     const Pack shear = select(spring, f.shear, zero);
     const Mask slips = spring & !(f.excess == zero);
     // The history of an impulse point stays until its impulses of this cycle are known.
     const Mask held = g.closed[k] & impulsive;
-    store_bytes((spring.v & 1) + (slips.v & 1) + (none ? Mask::V{} : held.v & 3), regime);
+    store_bytes((spring.v & 1) + (slips.v & 1) + (rests ? Mask::V{} : held.v & 3), regime);
 
     // Energies of this step; u is the stretch of the normal spring.
-    const Pack u = none ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
+    const Pack u = rests ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
     // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
     const Pack strayed = (p.v_m - g.turning[k].m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
     const Pack plastic = -v_t * dt - (shear - start) * (g.joint->shear_compliance * g.length_inverse);
@@ -87,18 +89,18 @@ template <Impulses impulses>
     sums.friction += select(stays, slipped, zero);
     sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
                     Pack(0.5) * (spring_normal * strayed + dt * ((spring_shear - shear) * curved + (start - spring_shear) * v_t));
-    if constexpr (!none)
+    if constexpr (!rests)
     {
         // An impulse point keeps its stretch until its impulses are known: where they would leave its spring empty.
         const Pack last_stretch = select(g.last_normal[k] > zero, max(load_lane(l.overlap[k]) - last_rest, zero), zero);
         store_lane(l.rest_overlap[k], select(spring, rest, select(held, p.overlap - last_stretch, zero)));
     }
     store_lane(l.overlap[k], p.overlap);
-    store_lane(l.normal_force[k], none ? normal : select(held, g.last_normal[k], normal));
-    store_lane(l.shear_force[k], none ? shear : select(held, g.last_shear[k], shear));
+    store_lane(l.normal_force[k], rests ? normal : select(held, g.last_normal[k], normal));
+    store_lane(l.shear_force[k], rests ? shear : select(held, g.last_shear[k], shear));
 
     sums.normal[k] = normal;
-    sums.work += normal * (none ? p.overlap : p.overlap - rest);
+    sums.work += normal * (rests ? p.overlap : p.overlap - rest);
     sums.used += abs(shear);
     sums.strength += select(spring, f.strength, zero);
     sums.f_t += shear;
@@ -130,15 +132,16 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
 }
 
 template <Method method>
-ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_springs, const Blocks& blocks, Contacts& contacts,
+ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                       ContactLoads& loads)
 {
     const double dt = model.time_step;
     const Threshold threshold{model.threshold_scale, dt * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
-                              rock_keeps_springs};
+                              rule.rock_keeps_springs};
     LawLanes laws(model.joints.laws);
     Pack friction = 0.0, changes = 0.0;
     Mask::V closed{}, impulses{}, stale{};
+    const bool all_points = rule.closing == Closing::all_points;
     for (Index i = range.begin; i < range.end; i += lanes)
     {
         ContactLanes& l = contacts.lane[i / lanes];
@@ -176,12 +179,23 @@ ContactTally evaluate(IndexRange range, const Model& model, bool rock_keeps_spri
         Sums sums;
         const Mask past = g.was_impulse[0] | g.was_impulse[1] |
                           load_lane(l.rest_overlap[0]) + load_lane(l.rest_overlap[1]) > Pack(0.0);
-        if (!any(past | impulsive))
+        Mask act = past | impulsive;
+        if (rule.closing == Closing::fast_points)
+            act = act | may_close_or_open(touch.point, dt);
+        if (!all_points && !any(act))
             for (int k = 0; k < 2; ++k)
-                evaluate_point<Impulses::none>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+                evaluate_point<Contact4::rests>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
         else
+        {
+            std::array<Pack, 2> share{1.0, 1.0};
+            if (rule.closing != Closing::whole_cycles)
+                share = closing_shares(blocks, l, at_ref, at_inc, touch, g.joint->law.normal_stiffness * g.length, dt);
+            if (rule.closing == Closing::fast_points)  // what is slow must not depend on which contacts it is handled with
+                for (Pack& s : share)
+                    s = select(may_close_or_open(touch.point, dt), s, 1.0);
             for (int k = 0; k < 2; ++k)
-                evaluate_point<Impulses::maybe>(g, k, impulsive, dt, l, &contacts.regime[k][i], sums);
+                evaluate_point<Contact4::any>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
+        }
         add_tilt_forces(g, floor, dt, l, sums);
         store_lane(l.last_length, g.length);
         friction += sums.friction;
@@ -214,11 +228,11 @@ ContactTally evaluate_contacts(IndexRange range, const Model& model, const Regim
     switch (rule.method)
     {
     case Method::force:
-        return evaluate<Method::force>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
+        return evaluate<Method::force>(range, model, rule, blocks, contacts, loads);
     case Method::impulse:
-        return evaluate<Method::impulse>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
+        return evaluate<Method::impulse>(range, model, rule, blocks, contacts, loads);
     case Method::hybrid:
-        return evaluate<Method::hybrid>(range, model, rule.rock_keeps_springs, blocks, contacts, loads);
+        return evaluate<Method::hybrid>(range, model, rule, blocks, contacts, loads);
     }
     return {};
 }

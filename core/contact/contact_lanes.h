@@ -54,6 +54,21 @@ inline void store_lane(ContactLanes::Lane& lane, Pack value)
     return i;
 }
 
+/// Net forces and moments on four blocks in the last cycle.
+struct ForceLanes
+{
+    Pack x, y, moment;
+};
+[[nodiscard]] inline ForceLanes load_forces(const std::vector<BlockForce>& force, const Index* at)
+{
+    Pack x = Pack::load(&force[at[0]].x);
+    Pack y = Pack::load(&force[at[1]].x);
+    Pack moment = Pack::load(&force[at[2]].x);
+    Pack reserve = Pack::load(&force[at[3]].x);
+    transpose(x, y, moment, reserve);
+    return {x, y, moment};
+}
+
 /// Joint laws of four contacts.
 struct JointLanes
 {

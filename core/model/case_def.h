@@ -164,7 +164,7 @@ struct ContactDef
 enum class DampingPreset
 {
     automatic,  ///< hdem's own: see core/motion/damping.h
-    paper,      ///< sect. 3.3 to the letter
+    paper,      ///< sect. 3.3 to the letter, and springs that close and open by whole cycles (core/contact/closing.h)
     dynamic     ///< no local damping: exact motion
 };
 
@@ -180,7 +180,7 @@ struct DampingDef
 /// [time]
 struct TimeDef
 {
-    std::optional<double> step;        ///< [s]; not given: Eq. (32)
+    std::optional<double> step;        ///< [s]; not given: default_time_step, core/motion/time_step.h
     double fraction = 0.1;             ///< FRAC of Eq. (32) [-]
     double stable_fraction = 0.9;      ///< of the largest stable step, see core/motion/pace.h [-]
 };

@@ -89,6 +89,7 @@ struct Model
     OutputDef output;
     double time_step = 0.0;                ///< [s]
     double paper_time_step = 0.0;          ///< Eq. (32) [s]
+    double default_time_step = 0.0;        ///< what a case without a step takes, see core/motion/time_step.h [s]
     bool is_driven = false;                ///< some motion is prescribed, by a load or of a block that cannot leave it
     bool has_own_step = false;             ///< stages that look for rest take a share of the largest stable step, see core/motion/pace.h
     double stable_fraction = 0.9;          ///< that share [-]

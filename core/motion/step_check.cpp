@@ -12,16 +12,25 @@ namespace hdem
 {
 namespace
 {
+/// Upper bound on what a unit force moves a block, at its rim [1/kg].
+double mobility_bound(const Model& model, Index block, const Vec3& inverse_mass)
+{
+    return inverse_mass[0] + inverse_mass[1] + model.radius[block] * model.radius[block] * inverse_mass[2];
+}
+
+/// Greatest length of a contact of two blocks [m].
+double length_bound(const Model& model, const Contacts& contacts, Index i)
+{
+    return std::max(2.0 * std::min(model.radius[contacts.ref[i]], model.radius[contacts.inc[i]]), contacts.length_floor(i));
+}
+
 /// Upper bound on omega_max^2 of the springs of a contact `length` long, wherever on its blocks [1/s2].
 double frequency_squared_bound(const Model& model, const Blocks& blocks, const Contacts& contacts, Index i, double length)
 {
     const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
     double mobility = 0.0;
     for (const Index b : {contacts.ref[i], contacts.inc[i]})
-    {
-        const Vec3 inverse = inverse_masses(blocks, b);
-        mobility += inverse[0] + inverse[1] + model.radius[b] * model.radius[b] * inverse[2];
-    }
+        mobility += mobility_bound(model, b, inverse_masses(blocks, b));
     return std::max(joint.normal_stiffness, joint.shear_stiffness) * length * mobility;
 }
 
@@ -61,11 +70,29 @@ void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blo
     stiff.clear();
     for (Index i = range.begin; i < range.end; ++i)
     {
-        const double smaller = 2.0 * std::min(model.radius[contacts.ref[i]], model.radius[contacts.inc[i]]);
-        const double length = std::max(smaller, contacts.length_floor(i));
+        const double length = length_bound(model, contacts, i);
         if (!is_stable(model.time_step, frequency_squared_bound(model, blocks, contacts, i, length)))
             stiff.push_back({i, acts(contacts, i)});
     }
+}
+
+Closing closing_of(IndexRange range, const Model& model, const Contacts& contacts)
+{
+    double stiffness = 0.0, greatest = 0.0;
+    for (const CoulombSlip& joint : model.joints.laws)
+        stiffness = std::max(stiffness, joint.normal_stiffness);
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        double mobility = 0.0;
+        for (const Index b : {contacts.ref[i], contacts.inc[i]})
+        {
+            const BlockInertia& inertia = model.full_inertia[b];
+            mobility += mobility_bound(model, b, Vec3(inertia.inverse_mass_x, 0.0, inertia.inverse_inertia));
+        }
+        greatest = std::max(greatest, 0.5 * length_bound(model, contacts, i) * mobility);
+    }
+    const double answer = stiffness * greatest * model.time_step * model.time_step;
+    return answer > 0.3 ? Closing::all_points : Closing::fast_points;
 }
 
 Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& contacts, std::vector<StiffContact>& stiff)

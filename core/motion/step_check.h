@@ -1,6 +1,7 @@
 #pragma once
 /// Is the step too great for the springs that act while a case runs? At its start only what touches there is known.
 
+#include "core/contact/regime.h"
 #include "core/model/model.h"
 #include "core/motion/time_step.h"
 #include "core/state/state.h"
@@ -20,6 +21,11 @@ struct StiffContact
 ///   omega_max^2 <= max(K_N, K_S) L  sum over both of (2 / m + r^2 / I)         L the diameter of the smaller
 void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
                          std::vector<StiffContact>& stiff);
+
+/// Which springs of `range` must be looked at for closing and opening: all, if one may by itself take more than 0.3 of an overlap in a cycle; slower ones take six
+/// cycles or more to turn a motion round. (With Eq. (32)'s step 0.1 to 0.3; needles of 1:100 2.) Counted with all blocks free and the stiffest joint everywhere, so that
+/// it is the same for as long as the pairs are.
+[[nodiscard]] Closing closing_of(IndexRange range, const Model& model, const Contacts& contacts);
 
 /// The first whose springs have begun to act in this cycle though, without all others, 2 / omega_max is below the step; no_index without one. Other contacts
 /// of its blocks can only make omega_max greater. An impact at such a step lasts one cycle, or two, and throws the blocks apart: it has to be seen in that cycle.

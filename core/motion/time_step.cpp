@@ -1,6 +1,7 @@
 #include "core/motion/time_step.h"
 
 #include "core/detection/contact_tracking.h"
+#include "core/geometry/convex_part.h"
 #include "core/motion/contact_springs.h"
 #include "core/motion/pace.h"
 
@@ -16,6 +17,28 @@ namespace hdem
 double paper_time_step(double smallest_mass, double greatest_stiffness, double fraction)
 {
     return fraction * 2.0 * std::sqrt(smallest_mass / (2.0 * greatest_stiffness));
+}
+
+namespace
+{
+/// Of a block's outline [m].
+double longest_side(const Shapes& shapes, Index block)
+{
+    double longest = 0.0;
+    for (Index e = shapes.vertex_begin[shapes.part_begin[block]]; e < shapes.vertex_begin[shapes.part_begin[block + 1]]; ++e)
+        if (shapes.edge_source[e] != edge_internal)
+            longest = std::max(longest, shapes.edge_length[e]);
+    return longest;
+}
+}  // namespace
+
+double default_time_step(const Model& model, const Blocks& blocks, double greatest_stiffness, double fraction)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < model.blocks(); ++i)
+        if (blocks.is_free(i))
+            least = std::min(least, model.mass[i] / std::max(1.0, 0.25 * longest_side(model.shapes, i)));
+    return paper_time_step(least, greatest_stiffness, fraction);
 }
 
 namespace

@@ -255,8 +255,12 @@ Setup build_model(const CaseDef& def)
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
     const double smallest = smallest_free_mass(model, setup.state.blocks);
-    model.paper_time_step = paper_time_step(smallest, greatest_stiffness(model.joints), def.time.fraction);
-    model.time_step = def.time.step.value_or(model.paper_time_step);
+    const double stiffest = greatest_stiffness(model.joints);
+    model.paper_time_step = paper_time_step(smallest, stiffest, def.time.fraction);
+    model.default_time_step = def.damping.preset == DampingPreset::paper
+                                  ? model.paper_time_step
+                                  : default_time_step(model, setup.state.blocks, stiffest, def.time.fraction);
+    model.time_step = def.time.step.value_or(model.default_time_step);
     model.is_driven = is_driven(def, setup.state.blocks);
     model.has_own_step = !def.time.step && def.loads.empty() && !model.is_driven;
     model.stable_fraction = def.time.stable_fraction;

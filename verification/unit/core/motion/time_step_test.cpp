@@ -32,6 +32,20 @@ TEST(PaperTimeStep, OfAModelBelongsToItsLightestFreeBlock)
     EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, 2.0 * run.model().time_step);
 }
 
+TEST(DefaultTimeStep, CountsLongSidesAsStiffer)
+{
+    CaseDef scene = scenes::block_on_ground(10.0, 0.1);
+    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(2700.0 / 2.5, 7e9, 0.1)) << "10 m: 2.5 times as stiff";
+    scene.damping.preset = DampingPreset::paper;
+    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(2700.0, 7e9, 0.1)) << "to the letter";
+    scene.damping.preset = DampingPreset::automatic;
+    scenes::add_block(scene, "light", scenes::rectangle({20.0, 0.0}, {20.5, 0.5}));
+    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(0.25 * 2700.0, 7e9, 0.1)) << "lighter than a quarter of 10 m deserves";
+    scene.blocks[2].polygon = scenes::rectangle({20.0, 0.0}, {24.0, 4.0});
+    scene.blocks[1].polygon = scenes::rectangle({-2.0, 0.0}, {2.0, 4.0});
+    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, CaseRun(scene).model().paper_time_step) << "sides of 4 m";
+}
+
 double critical(const CaseRun& run, int iterations)
 {
     return critical_time_step(run.model(), run.state().blocks, run.state().contacts, iterations);
