@@ -252,8 +252,7 @@ void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombS
         const PointHistory& then = old.point[k];
         const PointHistory& now = contact.point[k];
         const double overlap = std::max(now.overlap, 0.0);
-        const double old_overlap = then.normal_force > 0.0 ? then.overlap - then.rest_overlap : 0.0;
-        old_normal += old_law.normal_stiffness * old.last_length * old_overlap * old_overlap;
+        old_normal += then.normal_force * then.normal_force / (old_law.normal_stiffness * old.last_length);
         old_shear += then.shear_force * then.shear_force / (old_law.shear_stiffness * old.last_length);
         normal += law.normal_stiffness * contact.last_length * overlap * overlap;
         shear += now.shear_force * now.shear_force / (law.shear_stiffness * contact.last_length);

@@ -35,7 +35,7 @@ struct RobustOutcome
 struct RobustBars
 {
     double overlap = 0.25;      ///< of a width: half of what lets a block come out behind
-    double energy_gain = 0.01;  ///< of the greatest energy: a spring takes hold and lets go up to a cycle late, (omega dt)^2 / 4
+    double energy_gain = 0.01;  ///< of the greatest energy: contacts know of each other what the last cycle did
     double speed = 1.01;        ///< of what energy allows
     double late_speed = 5e-4;   ///< the speed at which hdem calls rock at rest [m/s]
     double carried = 0.01;      ///< of the weight
