@@ -26,7 +26,7 @@ using OverlapCourse = BasicOverlapCourse<double>;
 /// A force works over (u' - u") / 2 in a step (energy_ledger.h), so this one changes the springs' energy from K_N L u"+ u+ / 2 to K_N L u+ u'+ / 2 and
 /// nothing else. Whole forces take K_N L |u"| u / 2 from the blocks as a spring takes hold up to a cycle late, and as it lets go late as much comes
 /// from nowhere: up to (omega dt)^2 / 4 of their energy each. Needles that lay on each other undamped rattled so by themselves, and six that fell gained up to
-/// half of the energy of the fall; now 0.7 % at most in 364 scenes.
+/// half of the energy of the fall; now 0.7 % at most in 364 scenes at the same step.
 ///
 /// Exact for a point by itself and for the two of a face. What other forces do is known from the last cycle only, and counts on the side that loses energy: as a
 /// spring closes, what they press together; as it opens, twice what they pull apart. (With all of it 4 of 184 scenes gained 1 to 2 %; with nothing, 7 up to 5 %;
