@@ -103,8 +103,9 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
                          simulation.count_contacts().closed()));
     log.line(fmt::format("method    {}; threshold scale {:.4g}", method_name(state.method), model.threshold_scale));
     log.line(fmt::format("threads   {} ({})", simulation.threads(), origin_of_threads(options)));
-    log.line(fmt::format("time step {:.4g} s; Eq. (32) {:.4g} s, stable limit of the present contacts {:.4g} s", model.time_step,
-                         model.paper_time_step, simulation.critical_step()));
+    const bool is_shortened = model.time_step == model.default_time_step && model.time_step < model.paper_time_step;
+    log.line(fmt::format("time step {:.4g} s{}; Eq. (32) {:.4g} s, stable limit of the present contacts {:.4g} s", model.time_step,
+                         is_shortened ? " (shorter for sides above 4 m)" : "", model.paper_time_step, simulation.critical_step()));
     log.line(fmt::format("memory    {:.0f} MB", peak_megabytes()));
     if (const int processors = processors_at_hand(); simulation.threads() > processors)
         log.line(fmt::format(
