@@ -30,7 +30,8 @@ class InputError : public std::runtime_error
 {
   public:
     explicit InputError(std::vector<Problem> problems)
-        : std::runtime_error(problems.empty() ? "bad input" : problems.front().text), problems_(std::move(problems))
+        : std::runtime_error(problems.empty() ? "bad input" : problems.front().text),
+          problems_(std::move(problems))
     {
     }
 

@@ -11,12 +11,13 @@ namespace hdem
 StoredEnergy stored_energy(const Model& model, const State& state)
 {
     StoredEnergy stored;
+    const double fall = model.gravity.norm() * state.blocks.step.last;
     for (Index i = 0; i < state.blocks.size(); ++i)
     {
         if (state.blocks.present[i] != 0)
             stored.kinetic += kinetic_energy(model, state.blocks, i);
         if (state.blocks.is_free(i))
-            stored.one_step_fall += 0.5 * model.mass[i] * model.gravity.squaredNorm() * model.time_step * model.time_step;
+            stored.one_step_fall += 0.5 * model.mass[i] * fall * fall;
     }
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
@@ -37,7 +38,7 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
     const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
     const CoulombSlip& joint = model.joints.laws[contact.law];
     const double shear_stiffness = joint.shear_stiffness * contact.last_length;
-    const double dt = model.time_step;
+    const double dt = blocks.step.last;
     SpringEnergy energy;
     for (int k = 0; k < 2; ++k)
     {
@@ -73,5 +74,15 @@ double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored)
                                   std::abs(ledger.friction), std::abs(ledger.local_damping), std::abs(ledger.global_damping),
                                   std::abs(ledger.impulse_loss), stored.total(), stored.one_step_fall});
     return most > 0.0 ? residual(ledger, stored) / most : 0.0;
+}
+
+void LedgerWatch::look_at(const Model& model, const State& state)
+{
+    const EnergyLedger& ledger = state.ledger;
+    const double now = std::abs(relative_residual(ledger, stored_energy(model, state)));
+    const bool has_impulses = ledger.impulse_loss != 0.0 || ledger.position_correction != 0.0;
+    const double of_bar = now / (has_impulses ? impulses_residual : springs_residual);
+    if (!(of_bar <= share))
+        *this = {.residual = now, .share = of_bar, .cycle = state.cycle};
 }
 }  // namespace hdem

@@ -52,4 +52,19 @@ template <typename R>
 [[nodiscard]] double residual(const EnergyLedger& ledger, const StoredEnergy& stored);
 /// The same as a share of the energy that went through: the largest of the ledger's terms, or of one step's fall where nothing moves [-].
 [[nodiscard]] double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored);
+
+/// Largest relative residual that is as it should be: of springs alone, and with impulses [-]. Ten times as much is an error of the run.
+inline constexpr double springs_residual = 1e-6;
+inline constexpr double impulses_residual = 1e-4;
+inline constexpr double wrong_residual = 10.0;
+
+/// The worst residual that a run has had, against what it should have.
+struct LedgerWatch
+{
+    double residual = 0.0;  ///< relative [-]
+    double share = 0.0;     ///< of the bar
+    std::int64_t cycle = 0;
+
+    void look_at(const Model& model, const State& state);
+};
 }  // namespace hdem

@@ -13,7 +13,7 @@ namespace
 {
 struct KnownOfBlock
 {
-    const char* quantity;    ///< stands for all columns that name it
+    const char* quantity;  ///< stands for all columns that name it
     Column column;
     double (*value)(const Model&, const State&, Index);
 };
@@ -28,18 +28,32 @@ struct KnownOfPair
 const std::vector<KnownOfBlock>& known_of_block()
 {
     static const std::vector<KnownOfBlock> all = {
-        {"displacement", {"displacement_x", "m"}, [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).x(); }},
-        {"displacement", {"displacement_y", "m"}, [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).y(); }},
-        {"position", {"position_x", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.x() + s.blocks.motion[i].x; }},
-        {"position", {"position_y", "m"}, [](const Model& m, const State& s, Index i) { return m.origin.y() + s.blocks.motion[i].y; }},
+        {"displacement",
+         {"displacement_x", "m"},
+         [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).x(); }},
+        {"displacement",
+         {"displacement_y", "m"},
+         [](const Model&, const State& s, Index i) { return s.blocks.displacement(i).y(); }},
+        {"position",
+         {"position_x", "m"},
+         [](const Model& m, const State& s, Index i) { return m.origin.x() + s.blocks.motion[i].x; }},
+        {"position",
+         {"position_y", "m"},
+         [](const Model& m, const State& s, Index i) { return m.origin.y() + s.blocks.motion[i].y; }},
         {"velocity", {"velocity_x", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).x(); }},
         {"velocity", {"velocity_y", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).y(); }},
         {"speed", {"speed", "m/s"}, [](const Model&, const State& s, Index i) { return s.blocks.velocity(i).norm(); }},
-        {"rotation", {"rotation", "rad"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].angle - s.blocks.reference_angle[i]; }},
-        {"angular_velocity", {"angular_velocity", "rad/s"}, [](const Model&, const State& s, Index i) { return s.blocks.motion[i].w; }},
+        {"rotation",
+         {"rotation", "rad"},
+         [](const Model&, const State& s, Index i) { return s.blocks.motion[i].angle - s.blocks.reference_angle[i]; }},
+        {"angular_velocity",
+         {"angular_velocity", "rad/s"},
+         [](const Model&, const State& s, Index i) { return s.blocks.motion[i].w; }},
         {"force", {"force_x", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].x; }},
         {"force", {"force_y", "N"}, [](const Model&, const State& s, Index i) { return s.blocks.force[i].y; }},
-        {"kinetic_energy", {"kinetic_energy", "J"}, [](const Model& m, const State& s, Index i) { return kinetic_energy(m, s.blocks, i); }},
+        {"kinetic_energy",
+         {"kinetic_energy", "J"},
+         [](const Model& m, const State& s, Index i) { return kinetic_energy(m, s.blocks, i); }},
     };
     return all;
 }
@@ -52,9 +66,11 @@ const std::vector<KnownOfPair>& known_of_pair()
         {"overlap", {"overlap", "m"}, [](const Model&, const PairSample& p) { return p.overlap; }},
         {"shear_displacement", {"shear_displacement", "m"}, [](const Model&, const PairSample& p) { return p.shear_displacement; }},
         {"contact_length", {"contact_length", "m"}, [](const Model&, const PairSample& p) { return p.length; }},
-        {"normal_impulse", {"normal_impulse", "N s"}, [](const Model& m, const PairSample& p) { return p.normal_force * m.time_step; }},
-        {"shear_impulse", {"shear_impulse", "N s"}, [](const Model& m, const PairSample& p) { return p.shear_force * m.time_step; }},
-        {"impulse_points", {"impulse_points", "1"}, [](const Model&, const PairSample& p) { return static_cast<double>(p.impulse_points); }},
+        {"normal_impulse", {"normal_impulse", "N s"}, [](const Model&, const PairSample& p) { return p.normal_force * p.step; }},
+        {"shear_impulse", {"shear_impulse", "N s"}, [](const Model&, const PairSample& p) { return p.shear_force * p.step; }},
+        {"impulse_points",
+         {"impulse_points", "1"},
+         [](const Model&, const PairSample& p) { return static_cast<double>(p.impulse_points); }},
     };
     return all;
 }
@@ -103,13 +119,17 @@ const std::vector<std::string>& contact_history_quantities()
     return all;
 }
 
-HistorySampler::HistorySampler(const Model& model, const HistoryDef& def) : name_(def.name), every_(std::max<std::int64_t>(def.every, 1))
+HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
+    : name_(def.name),
+      every_(std::max<std::int64_t>(def.every, 1))
 {
     const std::string object = "history \"" + def.name + "\": ";
-    const auto find = [&](const std::string& block) {
+    const auto find = [&](const std::string& block)
+    {
         const Index at = model.find_block(block);
         if (at == no_index)
-            throw InputError(Problem{.key = "history", .text = object + "block \"" + block + "\" (no such block). Give the name of a block."});
+            throw InputError(
+                Problem{.key = "history", .text = object + "block \"" + block + "\" (no such block). Give the name of a block."});
         return at;
     };
     const bool pair = def.between.size() == 2;
@@ -117,10 +137,12 @@ HistorySampler::HistorySampler(const Model& model, const HistoryDef& def) : name
     second_user_ = pair ? model.user_number[find(def.between[1])] : no_index;
     for (const std::string& quantity : def.quantities)
     {
-        const bool known = pair ? select(known_of_pair(), quantity, columns_, of_pair_) : select(known_of_block(), quantity, columns_, of_block_);
+        const bool known = pair ? select(known_of_pair(), quantity, columns_, of_pair_)
+                                : select(known_of_block(), quantity, columns_, of_block_);
         if (!known)
-            throw InputError(Problem{.key = "history", .text = object + "quantity \"" + quantity + "\" (not known for " +
-                                     (pair ? "contacts" : "a block") + "). See [[history]] in io/case_format.md."});
+            throw InputError(Problem{.key = "history",
+                                     .text = object + "quantity \"" + quantity + "\" (not known for " +
+                                             (pair ? "contacts" : "a block") + "). See [[history]] in io/case_format.md."});
     }
 }
 
@@ -144,7 +166,7 @@ void HistorySampler::find_contacts(const Model& model, const State& state)
 
 PairSample HistorySampler::sample_pair(const State& state)
 {
-    PairSample sums;
+    PairSample sums{.step = state.blocks.step.last};
     double longest = -1.0;
     for (const Index i : contacts_)
     {

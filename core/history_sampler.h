@@ -18,18 +18,19 @@ const std::vector<std::string>& contact_history_quantities();
 struct Column
 {
     std::string name;
-    std::string unit;    ///< "m", "N", ...; "1" without one
+    std::string unit;  ///< "m", "N", ...; "1" without one
 };
 
 /// Sums over the closed contact points of two blocks.
 struct PairSample
 {
-    double normal_force = 0.0;           ///< [N]
-    double shear_force = 0.0;            ///< [N]
-    double overlap = 0.0;                ///< greatest [m]
-    double length = 0.0;                 ///< [m]
-    double shear_displacement = 0.0;     ///< [m]
+    double normal_force = 0.0;        ///< [N]
+    double shear_force = 0.0;         ///< [N]
+    double overlap = 0.0;             ///< greatest [m]
+    double length = 0.0;              ///< [m]
+    double shear_displacement = 0.0;  ///< [m]
     int impulse_points = 0;
+    double step = 0.0;  ///< of the last cycle [s]
 };
 
 /// Reads a state after a cycle. Forces are those of that cycle, found at the poses at its start; everything else belongs to
@@ -70,14 +71,14 @@ class HistorySampler
     std::string name_;
     std::int64_t every_ = 1;
     std::vector<Column> columns_;
-    Index first_user_ = no_index;        ///< or the only block; number that the user knows
+    Index first_user_ = no_index;  ///< or the only block; number that the user knows
     Index second_user_ = no_index;
-    Index first_ = no_index;             ///< where a pair is now
+    Index first_ = no_index;  ///< where a pair is now
     Index second_ = no_index;
     std::vector<BlockQuantity> of_block_;
     std::vector<PairQuantity> of_pair_;
-    std::vector<Index> contacts_;        ///< of the pair
-    std::int64_t broad_phase_runs_ = -1; ///< when contacts_ was found
-    Vec2 normal_ = {0.0, 0.0};           ///< last known, zero before
+    std::vector<Index> contacts_;         ///< of the pair
+    std::int64_t broad_phase_runs_ = -1;  ///< when contacts_ was found
+    Vec2 normal_ = {0.0, 0.0};            ///< last known, zero before
 };
 }  // namespace hdem

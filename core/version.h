@@ -8,12 +8,12 @@ namespace hdem
 {
 struct Version
 {
-    std::string_view number;        ///< "0.1.0"
-    std::string_view commit;        ///< full git hash, "unknown" without a git checkout
-    bool dirty = false;             ///< tracked files differed from the commit
-    std::string_view compiler;      ///< "GNU 12.2.0"
-    std::string_view flags;         ///< compiler flags except warnings
-    std::string_view build_type;    ///< "Release"
+    std::string_view number;      ///< "0.1.0"
+    std::string_view commit;      ///< full git hash, "unknown" without a git checkout
+    bool dirty = false;           ///< tracked files differed from the commit
+    std::string_view compiler;    ///< "GNU 12.2.0"
+    std::string_view flags;       ///< compiler flags except warnings
+    std::string_view build_type;  ///< "Release"
 };
 
 /// Of the library this program is linked with.

@@ -85,8 +85,9 @@ void write_block_data(Hdf5Writer& file, const PartCells& parts, const Model& mod
     write_cell_vectors(file, "displacement", n, [&](std::size_t i) { return blocks.displacement(parts.block[i]); });
     write_cell_vectors(file, "velocity", n, [&](std::size_t i) { return blocks.velocity(parts.block[i]); });
     write_cell_data<float>(file, "speed", n, [&](std::size_t i) { return blocks.velocity(parts.block[i]).norm(); });
-    write_cell_data<float>(file, "rotation", n, [&](std::size_t i) { return motion(i).angle - blocks.reference_angle[parts.block[i]]; });
-    write_cell_data<float>(file, "angular_velocity", n, [&](std::size_t i) { return motion(i).w / blocks.pace[parts.block[i]]; });
+    write_cell_data<float>(file, "rotation", n,
+                           [&](std::size_t i) { return motion(i).angle - blocks.reference_angle[parts.block[i]]; });
+    write_cell_data<float>(file, "angular_velocity", n, [&](std::size_t i) { return motion(i).w; });
     write_cell_data<float>(file, "kinetic_energy", n, [&](std::size_t i) { return kinetic_energy(model, blocks, parts.block[i]); });
     write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return regime_of(blocks.force[parts.block[i]]); });
     write_cell_data<std::uint8_t>(file, "fixed", n, [&](std::size_t i) { return !blocks.is_free(parts.block[i]); });

@@ -1,3 +1,4 @@
+#include "core/stage/rules.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -86,7 +87,9 @@ class RunCheck : public CaseCheck
         if (given("time.step") && given("time.fraction"))
             problems_.warn("time.fraction", "[time]", "fraction", "has no effect: step is given", "Remove one of the two.");
         check_stable_fraction();
-        if (given("damping.local") && def_.damping.preset == DampingPreset::dynamic)
+        const std::vector<StageRules> rules = resolve_rules(def_);
+        const auto undamped = [](const StageRules& stage) { return stage.damping.local == 0.0; };
+        if (given("damping.local") && def_.damping.local > 0.0 && !rules.empty() && std::ranges::all_of(rules, undamped))
             problems_.warn("damping.local", "[damping]", "local", "has no effect: the preset \"dynamic\" has no local damping",
                            "Remove it, or choose another preset.");
     }
@@ -97,22 +100,14 @@ class RunCheck : public CaseCheck
             return;
         const auto warn = [&](const char* why, const char* remedy)
         { problems_.warn("time.stable_fraction", "[time]", "stable_fraction", fmt::format("has no effect: {}", why), remedy); };
-        DampingPreset damping = def_.damping.preset;
-        const auto looks_for_rest = [&](const StageDef& stage)
-        {
-            damping = stage.damping.value_or(damping);
-            return stage.until_converged && damping == DampingPreset::automatic;
-        };
-        const auto is_driven = [](const BlockDef& block)
-        {
-            return (block.fix_x && block.velocity.x() != 0.0) || (block.fix_y && block.velocity.y() != 0.0) ||
-                   (block.fix_rotation && block.angular_velocity != 0.0);
-        };
+        const std::vector<StageRules> rules = resolve_rules(def_);
+        if (std::ranges::any_of(rules, [](const StageRules& stage) { return stage.step.varies && !stage.step.keeps_given; }))
+            return;
         if (given("time.step"))
             warn("step is given", "Remove one of the two.");
-        else if (!def_.loads.empty() || std::any_of(def_.blocks.begin(), def_.blocks.end(), is_driven))
+        else if (std::ranges::any_of(rules, [](const StageRules& stage) { return stage.contact.rock_keeps_springs; }))
             warn("with loads or prescribed motions every stage keeps the step of Eq. (32)", "Remove it, or give fraction instead.");
-        else if (std::none_of(def_.stages.begin(), def_.stages.end(), looks_for_rest))
+        else
             warn("no stage runs until converged under the default damping", "Remove it, or give fraction instead.");
     }
 

@@ -143,12 +143,13 @@ SectionSpec load_section()
 
 SectionSpec contact_section()
 {
-    KeySpec scale = spec({.name = "threshold_scale",
-                          .effect = "C_scale of Eq. (25): a contact faster than C_scale × (gravity's and the springs' velocity) is "
-                                    "impulse-based. `\"model\"`: Eq. (28), area of the smallest rectangle around the model / mean block area.",
-                          .range = positive,
-                          .choices = {"model"}},
-                         ValueType::number_or_text);
+    KeySpec scale = spec(
+        {.name = "threshold_scale",
+         .effect = "C_scale of Eq. (25): a contact faster than C_scale × (gravity's and the springs' velocity) is "
+                   "impulse-based. `\"model\"`: Eq. (28), area of the smallest rectangle around the model / mean block area.",
+         .range = positive,
+         .choices = {"model"}},
+        ValueType::number_or_text);
     return {
         "contact",
         SectionKind::table,
@@ -185,7 +186,8 @@ SectionSpec contact_section()
          field<&ContactDef::correction_rate>(
              {.name = "correction_rate",
               .unit = "1/s",
-              .effect = "What this correction takes back at most in a second beyond the approach of each cycle, as a share of the smaller block's "
+              .effect = "What this correction takes back at most in a second beyond the approach of each cycle, as a share of the "
+                        "smaller block's "
                         "size. More presses blocks into springs on their other side, which adds energy.",
               .range = {.low = 0, .high = 1e12}}),
          field<&ContactDef::length_floor>({.name = "length_floor",

@@ -82,19 +82,21 @@ SectionSpec domain_section()
               .default_note = "none"}),
          field<&DomainDef::material>(
              {.name = "material", .effect = "Name of the [material.NAME] of all blocks cut from the domain."}),
-         field<&DomainDef::traces_file>({.name = "traces_file",
-                                         .effect = "File with joint traces of finite length (below). They cut the domain first; joint "
-                                                   "sets cut the pieces.",
-                                         .example = "\"traces.wkt\"",
-                                         .default_note = "no file"}),
+         field<&DomainDef::traces_file>(
+             {.name = "traces_file",
+              .effect = "File with joint traces of finite length (below). They cut the domain first; joint "
+                        "sets cut the pieces.",
+              .example = "\"traces.wkt\"",
+              .default_note = "no file"}),
          field<&DomainDef::traces_joint>({.name = "traces_joint",
                                           .effect = "Name of the [joint.NAME] for contacts along traces.",
                                           .default_note = "by the materials of the two blocks"}),
-         field<&DomainDef::traces_snap>({.name = "traces_snap",
-                                         .unit = "m",
-                                         .effect = "Every trace is made longer by this at both ends, so that mapped traces that end "
-                                                   "just short of each other meet.",
-                                         .range = non_negative})},
+         field<&DomainDef::traces_snap>(
+             {.name = "traces_snap",
+              .unit = "m",
+              .effect = "Every trace is made longer by this at both ends, so that mapped traces that end "
+                        "just short of each other meet.",
+              .range = non_negative})},
         [](CaseDef& def, const std::string&) -> void*
         {
             def.domain.given = true;

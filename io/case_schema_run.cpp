@@ -7,52 +7,77 @@ using namespace fields;
 
 SectionSpec convergence_section()
 {
-    return {"convergence",
-            SectionKind::table,
-            "convergence",
-            "When a stage with `until = \"converged\"` ends.",
-            {field<&ConvergenceDef::criteria>({.name = "criteria",
-                                               .effect = "All that are listed must hold.",
-                                               .choices = {"kinetic_energy", "unbalanced_force_ratio"}}),
-             field<&ConvergenceDef::blocks>(
-                 {.name = "blocks",
-                  .effect = "What is to be at rest. `standing`: only blocks that have not moved farther than loose_distance in their stage; a run then ends "
-                            "while others may still be falling, and what these would do to standing rock is not waited for. Where nothing stands, all count. Energy, limit and unbalanced "
-                            "force on the screen and in summary.json are of the same blocks.",
-                  .choices = {"all", "standing"}}),
-             field<&ConvergenceDef::mean_speed>(
-                 {.name = "mean_speed",
-                  .unit = "m/s",
-                  .effect = "`kinetic_energy` holds when all these blocks together have less than they would have at this speed.",
-                  .range = {.low = 0, .high = 1e6, .low_included = false}}),
-             field<&ConvergenceDef::unbalanced_force_ratio>({.name = "unbalanced_force_ratio",
-                                                             .effect = "`unbalanced_force_ratio` holds below this.",
-                                                             .range = {.low = 0, .high = 1, .low_included = false}}),
-             field<&ConvergenceDef::least_cycles>(
-                 {.name = "least_cycles", .effect = "Not tested earlier in a stage.", .range = count_or_none}),
-             field<&ConvergenceDef::check_every>(
-                 {.name = "check_every", .effect = "Tested at multiples of this many cycles.", .range = count}),
-             field<&ConvergenceDef::loose_distance>(
-                 {.name = "loose_distance",
-                  .unit = "m",
-                  .effect = "In a stage with `until = \"converged\"` under the default damping, blocks that moved farther in it are loose. Once the other rock is "
-                            "at rest they run ahead of it, all by one clock, up to 64 times as fast, and the time in results runs with them: they slide "
-                            "and fall along their path in fewer cycles. To keep them with the rock give a distance they will not reach, e.g. 1e6, or "
-                            "`preset = \"paper\"` or `\"dynamic\"` in [damping].",
-                  .range = length}),
-             field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
-                                                        .unit = "m",
-                                                        .effect = "A block that moved farther counts as detached in summary.json.",
-                                                        .range = length})},
-            part<&CaseDef::convergence>};
+    return {
+        "convergence",
+        SectionKind::table,
+        "convergence",
+        "When a stage with `until = \"converged\"` ends.",
+        {field<&ConvergenceDef::criteria>(
+             {.name = "criteria",
+              .effect = "All that are listed must hold. `every_block`: each block by itself is slower than mean_speed and its "
+                        "unbalanced force is below block_unbalanced_ratio, at all checks of a span of hold_time. Without it blocks "
+                        "that slide or fly may be called at rest, if they are few among many.",
+              .choices = {"kinetic_energy", "unbalanced_force_ratio", "every_block"}}),
+         field<&ConvergenceDef::blocks>({.name = "blocks",
+                                         .effect = "What is to be at rest. `standing`: only blocks that have not moved farther "
+                                                   "than loose_distance in their stage; a run then ends "
+                                                   "while others may still be falling, and what these would do to standing rock is "
+                                                   "not waited for. Where nothing stands, all count. Energy, limit and unbalanced "
+                                                   "force on the screen and in summary.json are of the same blocks.",
+                                         .choices = {"all", "standing"}}),
+         field<&ConvergenceDef::mean_speed>(
+             {.name = "mean_speed",
+              .unit = "m/s",
+              .effect = "`kinetic_energy` holds when all these blocks together have less than they would have at this speed.",
+              .range = {.low = 0, .high = 1e6, .low_included = false}}),
+         field<&ConvergenceDef::unbalanced_force_ratio>({.name = "unbalanced_force_ratio",
+                                                         .effect = "`unbalanced_force_ratio` holds below this.",
+                                                         .range = {.low = 0, .high = 1, .low_included = false}}),
+         field<&ConvergenceDef::block_unbalanced_ratio>(
+             {.name = "block_unbalanced_ratio",
+              .effect = "`every_block` holds when the net force on each block, with the net moment over its radius, is below this "
+                        "share of its weight and loads. Blocks with less than half of it "
+                        "are left out until what they carry changes.",
+              .range = {.low = 0, .high = 1, .low_included = false}}),
+         field<&ConvergenceDef::hold_time>(
+             {.name = "hold_time",
+              .unit = "s",
+              .effect = "`every_block` must have held at all checks for so long. A block whose driving force is 1 % above its "
+                        "strength has become faster than mean_speed by then.",
+              .range = {.low = 0, .high = 1e6}}),
+         field<&ConvergenceDef::least_cycles>(
+             {.name = "least_cycles", .effect = "Not tested earlier in a stage.", .range = count_or_none}),
+         field<&ConvergenceDef::check_every>(
+             {.name = "check_every", .effect = "Tested at multiples of this many cycles.", .range = count}),
+         field<&ConvergenceDef::loose_distance>({.name = "loose_distance",
+                                                 .unit = "m",
+                                                 .effect = "In a stage with `until = \"converged\"` under the default damping, "
+                                                           "blocks that moved farther in it are loose. While only loose "
+                                                           "blocks move, the step may be longer than a time.step that is given. "
+                                                           "Loose blocks take impulses, other rock keeps its springs.",
+                                                 .range = length}),
+         field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
+                                                    .unit = "m",
+                                                    .effect = "A block that moved farther counts as detached in summary.json.",
+                                                    .range = length}),
+         field<&ConvergenceDef::lost_distance>({.name = "lost_distance",
+                                                .unit = "m",
+                                                .effect = "In a stage with `until = \"converged\"` a block that is this far "
+                                                          "outside the model as it was at the start has left it: "
+                                                          "it is held where it is, and named in the warnings of summary.json.",
+                                                .range = length,
+                                                .default_note = "ten times the model's width or height"})},
+        part<&CaseDef::convergence>};
 }
 
 SectionSpec stage_section()
 {
     KeySpec until = spec({.name = "until",
-                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. It asks where blocks come to rest, not when: under the default "
-                                    "damping, loose ones run ahead of rock at rest (convergence.loose_distance), all take the largest stable step where "
-                                    "time.step is not given, and blocks at rest are left out until what they carry changes.",
+                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. Under the default damping "
+                                    "the step is then as long as what moves, or is "
+                                    "about to touch, can bear (where time.step is given: only once no standing rock moves), and "
+                                    "blocks at rest are left "
+                                    "out until what they carry changes.",
                           .example = "\"converged\"",
                           .choices = {"converged"},
                           .default_note = "cycles or duration is given instead"},
@@ -80,6 +105,14 @@ SectionSpec stage_section()
              field<&StageDef::max_cycles>({.name = "max_cycles",
                                            .effect = "With until: give up after this many; the program then ends with exit code 4.",
                                            .range = count}),
+             field<&StageDef::solver>(
+                 {.name = "solver",
+                  .effect = "With until: `\"static\"` first tries to find the state of rest by Newton's iteration, "
+                            "without cycles. That takes 200 free blocks, no loads, springs at all contacts and the "
+                            "default damping. Blocks that come away fall in the cycles that follow; where there is no "
+                            "equilibrium all is left to cycles. A block on the verge of falling may stand in its answer. "
+                            "`\"dynamic\"`: cycles alone.",
+                  .choices = {"static", "dynamic"}}),
              field<&StageDef::excavate>({.name = "excavate",
                                          .effect = "Names of excavations or blocks that are removed.",
                                          .example = "[\"tunnel\"]",

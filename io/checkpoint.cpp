@@ -15,7 +15,7 @@ namespace hdem
 namespace
 {
 constexpr const char* file_type = "hdem-checkpoint";
-constexpr std::int64_t major_version = 1;  // other numbers are refused
+constexpr std::int64_t major_version = 2;  // other numbers are refused
 constexpr std::int64_t minor_version = 0;
 
 void write_record(Hdf5Writer& file, const RunRecord& record)

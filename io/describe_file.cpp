@@ -1,6 +1,7 @@
 #include "io/describe_file.h"
 
 #include "core/check.h"
+#include "core/stage/rules.h"
 #include "io/digest.h"
 #include "io/hdf5_reader.h"
 #include "io/load_case.h"
@@ -162,9 +163,9 @@ void describe_case(Page& page, const fs::path& file)
     for (const StageDef& stage : def.stages)
         page.add("stage",
                  fmt::format("{}: {}{}", stage.name,
-                             stage.until_converged ? fmt::format("until converged, at most {} cycles", stage.max_cycles)
-                             : stage.cycles        ? fmt::format("{} cycles", *stage.cycles)
-                                                   : fmt::format("{:.6g} s", stage.duration.value_or(0.0)),
+                             ends_at_rest(stage) ? fmt::format("until converged, at most {} cycles", stage.max_cycles)
+                             : stage.cycles      ? fmt::format("{} cycles", *stage.cycles)
+                                                 : fmt::format("{:.6g} s", stage.duration.value_or(0.0)),
                              stage.excavate.empty() ? "" : fmt::format(", excavates {}", fmt::join(stage.excavate, ", "))));
     for (const HistoryDef& history : def.histories)
         page.add("history", fmt::format("{}: {}", history.name, fmt::join(history.quantities, ", ")));

@@ -1,6 +1,7 @@
 #include "io/frame_writer.h"
 
 #include "core/check.h"
+#include "core/observer.h"
 #include "io/atomic_file.h"
 #include "io/hdf5_reader.h"
 
@@ -50,6 +51,11 @@ catch (const RunError&)
 {
     return std::nullopt;
 }
+/// Would the run have no frame of this cycle, had it gone on?
+bool is_of_interruption(const Model& model, const State& state)
+{
+    return state.cycle > state.stage_begin_cycle && next_multiple(state.cycle - 1, model.output.frame_every) != state.cycle;
+}
 }  // namespace
 
 std::string frame_file(const std::string& kind, int number)
@@ -78,7 +84,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
         if (frame_number(name) < 0)
             continue;
         const std::optional<Frame> frame = read_frame(file);
-        if (!frame || frame->cycle > state.cycle)
+        if (!frame || frame->cycle > state.cycle || (frame->cycle == state.cycle && is_of_interruption(model, state)))
             younger_.push_back(file);
         else if (name.starts_with("blocks_"))
             frames_.push_back(*frame);

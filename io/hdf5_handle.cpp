@@ -19,12 +19,18 @@ StoredType types_of(ElementType type)
 {
     switch (type)
     {
-    case ElementType::float64: return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 8};
-    case ElementType::float32: return {H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, 4};
-    case ElementType::int64: return {H5T_NATIVE_INT64, H5T_STD_I64LE, 8};
-    case ElementType::uint64: return {H5T_NATIVE_UINT64, H5T_STD_U64LE, 8};
-    case ElementType::int32: return {H5T_NATIVE_INT32, H5T_STD_I32LE, 4};
-    case ElementType::uint8: break;
+    case ElementType::float64:
+        return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 8};
+    case ElementType::float32:
+        return {H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, 4};
+    case ElementType::int64:
+        return {H5T_NATIVE_INT64, H5T_STD_I64LE, 8};
+    case ElementType::uint64:
+        return {H5T_NATIVE_UINT64, H5T_STD_U64LE, 8};
+    case ElementType::int32:
+        return {H5T_NATIVE_INT32, H5T_STD_I32LE, 4};
+    case ElementType::uint8:
+        break;
     }
     return {H5T_NATIVE_UINT8, H5T_STD_U8LE, 1};
 }

@@ -48,7 +48,8 @@ void prepare_hdf5();
 std::string hdf5_reason();
 
 /// Throws RunError: "FILE: OBJECT: cannot be ACTION (reason). advice"
-[[noreturn]] void fail_hdf5(const std::filesystem::path& file, const std::string& object, const char* action, const std::string& reason);
+[[noreturn]] void fail_hdf5(const std::filesystem::path& file, const std::string& object, const char* action,
+                            const std::string& reason);
 
 /// In memory.
 hid_t native_type(ElementType type);

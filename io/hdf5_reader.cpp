@@ -15,7 +15,7 @@ namespace
 /// Deflate cannot pack better than about 1 : 1032; what claims more is not honest.
 constexpr std::uint64_t greatest_compression = 1100;
 constexpr std::uint64_t small_bytes = 1U << 20U;
-constexpr std::uint64_t longest_attribute = 1U << 20U;   // [bytes]
+constexpr std::uint64_t longest_attribute = 1U << 20U;  // [bytes]
 constexpr int greatest_rank = 4;
 
 std::string describe(const Shape& shape)
@@ -68,7 +68,8 @@ struct Hdf5Reader::Handles
     [[nodiscard]] Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const
     {
         const Hdf5Handle holder = open(object);
-        Hdf5Handle id(H5Aexists(holder.id(), attribute.c_str()) > 0 ? H5Aopen(holder.id(), attribute.c_str(), H5P_DEFAULT) : -1, H5Aclose);
+        Hdf5Handle id(H5Aexists(holder.id(), attribute.c_str()) > 0 ? H5Aopen(holder.id(), attribute.c_str(), H5P_DEFAULT) : -1,
+                      H5Aclose);
         if (id.id() < 0)
             fail(object + "@" + attribute, "not in this file");
         return id;
@@ -90,13 +91,15 @@ struct Hdf5Reader::Handles
     {
         const Hdf5Handle properties(H5Dget_create_plist(dataset.id()), H5Pclose);
         const H5D_layout_t layout = H5Pget_layout(properties.id());
-        if (H5Pget_external_count(properties.id()) != 0 || (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT))
+        if (H5Pget_external_count(properties.id()) != 0 ||
+            (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT))
             fail(what, "its elements are not in this file");
         if (layout != H5D_CHUNKED)
             return;
         std::vector<hsize_t> chunk(shape.size() + 1);
         const int rank = H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
-        if (rank != static_cast<int>(shape.size()) || !std::equal(shape.begin(), shape.end(), chunk.begin(), std::greater_equal<>()))
+        if (rank != static_cast<int>(shape.size()) ||
+            !std::equal(shape.begin(), shape.end(), chunk.begin(), std::greater_equal<>()))
             fail(what, "a chunk that is larger than the data: the file is damaged");
     }
 
@@ -241,7 +244,8 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
     return handles_->is_here(object) && H5Aexists_by_name(handles_->file.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-std::uint64_t Hdf5Reader::checked_attribute_count(const std::string& object, const std::string& name, ElementType type, const Shape& expected) const
+std::uint64_t Hdf5Reader::checked_attribute_count(const std::string& object, const std::string& name, ElementType type,
+                                                  const Shape& expected) const
 {
     const std::string what = object + "@" + name;
     const Hdf5Handle id = handles_->open_attribute(object, name);

@@ -54,7 +54,8 @@ class Hdf5Reader
   private:
     [[nodiscard]] std::uint64_t checked_count(const std::string& path, ElementType type, const Shape& expected) const;
     void read_elements(const std::string& path, void* values, ElementType type) const;
-    [[nodiscard]] std::uint64_t checked_attribute_count(const std::string& object, const std::string& name, ElementType type, const Shape& expected) const;
+    [[nodiscard]] std::uint64_t checked_attribute_count(const std::string& object, const std::string& name, ElementType type,
+                                                        const Shape& expected) const;
     void read_attribute(const std::string& object, const std::string& name, void* values, ElementType type) const;
 
     struct Handles;

@@ -27,7 +27,8 @@ LoadedCase load_case(const std::filesystem::path& file, std::span<const Override
     return built(read_case_file(file, overrides));
 }
 
-LoadedCase load_case(std::string text, const NamedFiles& files, const std::filesystem::path& file, std::span<const Override> overrides)
+LoadedCase load_case(std::string text, const NamedFiles& files, const std::filesystem::path& file,
+                     std::span<const Override> overrides)
 {
     return built(read_case_text(std::move(text), file, overrides, &files));
 }

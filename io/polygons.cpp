@@ -77,10 +77,12 @@ std::string read_shape(const CsvShapes::Shape& shape, BlockDef& block)
     if (!shape.more.empty() && !shape.more[0].empty())
         block.material = shape.more[0];
     if (shape.more.size() > 1 && !read_fixed(shape.more[1], block))
-        return fmt::format("\"{}\" does not say what is fixed). Write fixed, or a list of x, y, rotation with spaces.", printable(shape.more[1]));
+        return fmt::format("\"{}\" does not say what is fixed). Write fixed, or a list of x, y, rotation with spaces.",
+                           printable(shape.more[1]));
     if (block.polygon.size() < 3)
-        return fmt::format("\"{}\" has {} rows, a polygon has at least 3 vertices). Give each vertex a row, rows of a block after each other.",
-                           printable(shape.name), block.polygon.size());
+        return fmt::format(
+            "\"{}\" has {} rows, a polygon has at least 3 vertices). Give each vertex a row, rows of a block after each other.",
+            printable(shape.name), block.polygon.size());
     return "";
 }
 }  // namespace
@@ -121,7 +123,10 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
 {
     PolygonFile result;
     const auto complain = [&](int line, const std::string& why)
-    { result.problems.push_back({Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)}); };
+    {
+        result.problems.push_back(
+            {Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)});
+    };
     const bool is_csv = file_name.ends_with(".csv");
     CsvShapes rows;
     const auto add = [&](int line, std::string_view text)

@@ -16,11 +16,11 @@ namespace hdem
 /// Rows of numbers with their cycles and times; a group of one-dimensional datasets in the file.
 struct Table
 {
-    std::string path;                        ///< of the group, "/energy", "/history/NAME"
+    std::string path;  ///< of the group, "/energy", "/history/NAME"
     std::vector<Column> columns;
     std::vector<std::int64_t> cycle;
-    std::vector<double> time;                ///< [s]
-    std::vector<std::vector<double>> values; ///< per column
+    std::vector<double> time;                 ///< [s]
+    std::vector<std::vector<double>> values;  ///< per column
 };
 
 /// Tables are kept in memory, and the whole file is written anew each time: whoever opens it while the run goes on, or after

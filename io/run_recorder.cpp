@@ -22,7 +22,8 @@ Equilibrium equilibrium_of(const Model& model, const State& state)
 
 RunRecorder::Quantity points_in(Regime regime)
 {
-    return [regime](const Model&, const State& state) {
+    return [regime](const Model&, const State& state)
+    {
         std::int64_t points = 0;
         for (const auto& end : state.contacts.regime)
             points += std::count(end.begin(), end.end(), static_cast<std::uint8_t>(regime));
@@ -32,14 +33,17 @@ RunRecorder::Quantity points_in(Regime regime)
 }  // namespace
 
 RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance)
-    : frames_(folder, model), results_(folder / "results.h5", std::move(provenance))
+    : frames_(folder, model),
+      results_(folder / "results.h5", std::move(provenance))
 {
     add_tables(model);
 }
 
 RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart,
                          std::span<const Vec2> history_axes)
-    : frames_(folder, model, restart), results_(folder / "results.h5", std::move(provenance)), take_over_(restart.cycle)
+    : frames_(folder, model, restart),
+      results_(folder / "results.h5", std::move(provenance)),
+      take_over_(restart.cycle)
 {
     add_tables(model);
     for (std::size_t i = 0; i < std::min(samplers_.size(), history_axes.size()); ++i)
@@ -62,14 +66,18 @@ void RunRecorder::add_tables(const Model& model)
     {
         samplers_.emplace_back(model, def);
         const std::string path = "/history/" + def.name;
-        const bool taken = std::any_of(results_.tables().begin(), results_.tables().end(), [&](const Table& table) { return table.path == path; });
+        const bool taken = std::any_of(results_.tables().begin(), results_.tables().end(),
+                                       [&](const Table& table) { return table.path == path; });
         if (taken || def.name.empty() || def.name == "." || def.name.find('/') != std::string::npos)
-            throw InputError(Problem{.key = "history", .text = "history: name = \"" + def.name + "\" (" + (taken ? "used twice" : "cannot name a group of results.h5") +
-                                     "). Give each history a name of its own, without /."});
+            throw InputError(Problem{.key = "history",
+                                     .text = "history: name = \"" + def.name + "\" (" +
+                                             (taken ? "used twice" : "cannot name a group of results.h5") +
+                                             "). Give each history a name of its own, without /."});
         table_of_sampler_.push_back(results_.add_table(path, samplers_.back().columns()));
     }
     add_energy({"kinetic_energy", "J"}, [](const Model& m, const State& s) { return equilibrium_of(m, s).kinetic_energy; });
-    add_energy({"unbalanced_force_ratio", "1"}, [](const Model& m, const State& s) { return equilibrium_of(m, s).unbalanced_force_ratio(); });
+    add_energy({"unbalanced_force_ratio", "1"},
+               [](const Model& m, const State& s) { return equilibrium_of(m, s).unbalanced_force_ratio(); });
     add_energy({"greatest_speed", "m/s"}, [](const Model& m, const State& s) { return equilibrium_of(m, s).greatest_speed; });
     add_energy({"stick_points", "1"}, points_in(Regime::stick));
     add_energy({"slip_points", "1"}, points_in(Regime::slip));
@@ -202,6 +210,12 @@ void RunRecorder::write_results()
     await_frame();
     frames_.write_series();
     results_.write(frames_.frames(), frames_.has_contacts());
+}
+
+void RunRecorder::show_interruption(const Model& model, const State& state)
+{
+    write_frame(model, state);
+    write_results();
 }
 
 void RunRecorder::finish(const Model& model, const State& state)

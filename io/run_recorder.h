@@ -40,6 +40,8 @@ class RunRecorder : public Observer
     /// Last words: a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
     /// to go on from a checkpoint: it would not have these rows without the break.
     void finish(const Model& model, const State& state);
+    /// A frame of a run that is broken off. It goes when the run goes on.
+    void show_interruption(const Model& model, const State& state);
 
   private:
     void add_tables(const Model& model);
@@ -60,8 +62,8 @@ class RunRecorder : public Observer
     std::vector<Quantity> energies_;
     std::size_t energy_table_ = 0;
     bool has_tables_ = false;
-    std::int64_t take_over_ = -1;            ///< rows up to this cycle come from the file
+    std::int64_t take_over_ = -1;  ///< rows up to this cycle come from the file
     std::vector<double> row_;
-    std::future<void> frame_;                ///< on its way to the disk; the last member: it ends before the others go
+    std::future<void> frame_;  ///< on its way to the disk; the last member: it ends before the others go
 };
 }  // namespace hdem

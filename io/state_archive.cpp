@@ -97,20 +97,21 @@ void exchange_run(Archive& archive, State& state)
     archive.group("/state");
     archive.template value<std::int64_t>("/state", "cycle", state.cycle);
     archive.template value<double>("/state", "time", state.time);
-    archive.template value<double>("/state", "ahead", state.ahead);
-    archive.template value<double>("/state", "rock_pace", state.pace.rock);
-    archive.template value<double>("/state", "loose_pace", state.pace.loose);
+    archive.template value<double>("/state", "last_step", state.blocks.step.last);
+    archive.template value<double>("/state", "next_step", state.blocks.step.next);
     archive.template value<std::int32_t>("/state", "stage", state.stage);
     archive.template value<std::uint8_t>("/state", "stage_begun", state.stage_begun);
     archive.template value<std::int64_t>("/state", "stage_begin_cycle", state.stage_begin_cycle);
+    archive.template value<double>("/state", "quiet_since", state.quiet_since);
     archive.template value<std::uint8_t>("/state", "method", state.method);
     archive.template value<std::uint8_t>("/state", "damping", state.damping);
     archive.template value<std::int64_t>("/state", "excavation_cycle", state.excavation_cycle);
     archive.template value<std::int64_t>("/state", "broad_phase_runs", state.broad_phase_runs);
     archive.template value<std::int64_t>("/state", "feature_searches", state.feature_searches);
     archive.template value<std::uint8_t>("/state", "contacts_outdated", state.contacts_outdated);
+    archive.template value<std::uint8_t>("/state", "rest_changed", state.rest_changed);
     archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
-                                        [](StageOutcome& s) { return std::tie(s.cycles, s.converged); });
+                                        [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest); });
     EnergyLedger& ledger = state.ledger;
     archive.group("/state/ledger");
     archive.template value<double>("/state/ledger", "initial", ledger.initial);
@@ -141,7 +142,7 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                         [](BlockForce& f) { return std::tie(f.contacts); });
     archive.template rows<double>("/blocks/inverse_inertia", n, blocks.inertia,
                                   [](BlockInertia& i) { return std::tie(i.inverse_mass_x, i.inverse_mass_y, i.inverse_inertia); });
-    archive.template rows<double>("/blocks/pace", n, blocks.pace, itself);
+    archive.template rows<double>("/blocks/stable_step", n, blocks.stable_step, itself);
     archive.template rows<double>("/blocks/margin", n, blocks.margin, itself);
     archive.template rows<std::uint8_t>("/blocks/rest", n, blocks.rest, itself);
     archive.template rows<std::uint8_t>("/blocks/present", n, blocks.present, itself);

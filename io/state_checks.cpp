@@ -1,6 +1,5 @@
 #include "io/state_checks.h"
 
-#include "core/motion/pace.h"
 #include "core/motion/rest.h"
 
 #include <algorithm>
@@ -47,10 +46,11 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
     }
     if (state.stage_begin_cycle != begin || state.cycle < begin || state.cycle > longest_run)
         return Damage{"/state@stage_begin_cycle", "cycles do not add up"};
-    if (!are_paces(state.pace))
-        return Damage{"/state@rock_pace, loose_pace", "not from 1 to 64, and from that to 64 times as much"};
-    if (!(state.ahead >= 0.0) || state.time != static_cast<double>(state.cycle) * model.time_step + state.ahead)
-        return Damage{"/state@time", "does not belong to the cycle"};
+    const auto is_step = [](double step) { return step > 0.0 && std::isfinite(step); };
+    if (!is_step(state.blocks.step.last) || !is_step(state.blocks.step.next))
+        return Damage{"/state@last_step, next_step", "not a time step"};
+    if (!(state.time >= 0.0) || !std::isfinite(state.time) || !(state.quiet_since <= state.time))
+        return Damage{"/state@time, quiet_since", "not a time"};
     if (state.method > Method::hybrid || state.damping > DampingPreset::dynamic)
         return Damage{"/state@method", "unknown method or damping"};
     if (state.excavation_cycle < -1 || state.excavation_cycle > state.cycle || state.broad_phase_runs < 1)
@@ -62,10 +62,10 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
     return std::nullopt;
 }
 
-/// The block's own inverse mass by its clock, or 0 where its motion is prescribed.
-bool is_inertia_of(const BlockInertia& inertia, const BlockInertia& full, double pace)
+/// The block's own inverse mass, or 0 where its motion is prescribed.
+bool is_inertia_of(const BlockInertia& inertia, const BlockInertia& full)
 {
-    const auto fits = [&](double value, double own) { return value == 0.0 || value == pace * pace * own; };
+    const auto fits = [](double value, double own) { return value == 0.0 || value == own; };
     return fits(inertia.inverse_mass_x, full.inverse_mass_x) && fits(inertia.inverse_mass_y, full.inverse_mass_y) &&
            fits(inertia.inverse_inertia, full.inverse_inertia);
 }
@@ -86,14 +86,14 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
         if (!are_finite({f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y}) ||
             f.contacts > (contact_force | contact_impulse))
             return Damage{"/blocks/force", "not a force"};
-        if (!is_pace(blocks.pace[i]))
-            return Damage{"/blocks/pace", "not from 1 to 4096"};
+        if (!(blocks.stable_step[i] >= 0.0))
+            return Damage{"/blocks/stable_step", "not a time step"};
         const BlockMotion& m = blocks.motion[i];
         if (!std::isfinite(blocks.margin[i]) || blocks.margin[i] < 0.0)
             return Damage{"/blocks/margin", "not a length"};
         if (blocks.rest[i] > left_out || (blocks.rest[i] >= stopped && (m.vx != 0.0 || m.vy != 0.0 || m.w != 0.0)))
             return Damage{"/blocks/rest", "does not belong to the velocity"};
-        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i], blocks.pace[i]))
+        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i]))
             return Damage{"/blocks/inverse_inertia", "not that of the block"};
         if (!blocks.reference_position[i].allFinite() || !std::isfinite(blocks.reference_angle[i]))
             return Damage{"/blocks/reference_position", "not a finite number"};

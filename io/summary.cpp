@@ -45,7 +45,11 @@ std::string summary_text(const RunSummary& s)
 {
     Json stages = Json::array();
     for (const StageSummary& stage : s.stages)
-        stages.push_back({{"name", stage.name}, {"cycles", stage.cycles}, {"until_converged", stage.until_converged}, {"converged", stage.converged}});
+        stages.push_back({{"name", stage.name},
+                          {"cycles", stage.cycles},
+                          {"until_converged", stage.sought_rest},
+                          {"converged", stage.at_rest},
+                          {"not_at_rest", stage.not_at_rest}});
     Json stage_seconds = Json::array();
     for (const StageSummary& stage : s.stages)
         stage_seconds.push_back(stage.wall_seconds);
@@ -75,6 +79,7 @@ std::string summary_text(const RunSummary& s)
         {"mean_displacement_all", s.mean_displacement_all},
         {"max_displacement_all", s.max_displacement_all},
         {"detached_blocks", s.detached_blocks},
+        {"lost_blocks", s.lost_blocks},
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
         {"stage_wall_seconds", stage_seconds},

@@ -21,8 +21,8 @@ enum class CellType : std::uint8_t
 struct VtkCells
 {
     CellType type = CellType::polygon;
-    std::vector<double> points;              ///< x, y, 0 [m]
-    std::vector<std::int64_t> offsets = {0}; ///< one more than cells: where each one's vertices begin
+    std::vector<double> points;               ///< x, y, 0 [m]
+    std::vector<std::int64_t> offsets = {0};  ///< one more than cells: where each one's vertices begin
 
     void add_point(const Vec2& p) { points.insert(points.end(), {p.x(), p.y(), 0.0}); }
     void end_cell() { offsets.push_back(static_cast<std::int64_t>(points.size() / 3)); }

@@ -6,12 +6,11 @@
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
 #include "core/motion/loads.h"
-#include "core/motion/pace.h"
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
 #include "parallel/impulse_sweeps.h"
 #include "parallel/openmp.h"
-#include "parallel/pace_update.h"
+#include "parallel/step_update.h"
 
 #include <algorithm>
 
@@ -26,6 +25,7 @@ constexpr std::int64_t timed_every = 16;
 
 void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
 {
+    rules_ = resolve_rules(model, state);
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
     with_team(threads,
               [&](const Team& team)
@@ -59,7 +59,7 @@ std::vector<StageTimes> CycleRunner::stage_times() const
 void CycleRunner::prepare(const Model& model, const State& state)
 {
     const Index blocks = state.blocks.size();
-    make_partition(state, state.method != Method::force, partition_);
+    make_partition(state, rules_.contact.law != ContactLaw::springs, partition_);
     for (ContactPart& part : partition_.contacts)
         part.tally.stale = static_cast<Index>(std::count(state.contacts.stale.begin() + part.range.begin,
                                                          state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
@@ -68,21 +68,18 @@ void CycleRunner::prepare(const Model& model, const State& state)
     {
         part.unstable = no_index;
         part.stiff.clear();
-        if (state.method != Method::impulse)
+        if (rules_.contact.law != ContactLaw::impulses)
         {
             find_stiff_contacts(part.range, model, state.blocks, state.contacts, part.stiff);
-            part.closing = closing_of(part.range, model, state.contacts);
+            part.answer = greatest_answer(part.range, model, state.contacts);
         }
         has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
     }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
     work_.loads.resize(state.contacts.stale.size());
-    work_.pace_bounds.resize(static_cast<std::size_t>(blocks));
-    work_.joint_bounds.resize(static_cast<std::size_t>(blocks));
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
-    work_.external.assign(model.loads.empty() ? 0 : static_cast<std::size_t>(blocks), {});
+    work_.external.assign(rules_.has_loads ? static_cast<std::size_t>(blocks) : 0, {});
     prepared_ = true;
-    prepared_for_ = state.method;
     first_evaluation_ = state.cycle;
 }
 
@@ -94,14 +91,18 @@ Index CycleRunner::find_unstable_contact() const
     return no_index;
 }
 
+bool CycleRunner::found_deep_overlap() const
+{
+    return std::ranges::any_of(partition_.contacts, [](const ContactPart& part) { return part.tally.deep > 0; });
+}
+
 Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
-    const bool relaxing = is_relaxing(model, state);
-    if (!prepared_ || prepared_for_ != state.method || relaxing != relaxing_)
+    const StageRules rules = resolve_rules(model, state);
+    const bool same = prepared_ && rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out;
+    rules_ = rules;
+    if (!same)
         prepare(model, state);
-    relaxing_ = relaxing;
-    rests_ = relaxing && model.loads.empty() && !model.is_driven;
-    limits_ = rest_limits(model);
     const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
     const std::int64_t begin = state.cycle;
     // A bound on the share of their margins that blocks have used up since the contacts were found; it only decides when to look closely.
@@ -127,7 +128,7 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, in
 bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
 {
     bool renewed = false;
-    const double most = relaxing_ ? 1.0 - flight_share : 1.0;
+    const double most = rules_.step.varies ? 1.0 - flight_share : 1.0;
     if (!(way <= most))
     {
         team.alone([&] { used_ = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
@@ -143,11 +144,11 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         }
     }
     // Where no loads have been found yet all contacts take part.
-    if (rests_ && now != first_evaluation_)
+    if (rules_.rest.leaves_out && now != first_evaluation_ && (state.rest_changed || now == first_evaluation_ + 1))
         leave_out(state, team);
-    if (relaxing_ && !model.is_driven)
-        update_paces(model, state, team, now, renewed, partition_, work_);
-    if (!model.loads.empty())
+    if (rules_.step.varies)
+        update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
+    if (rules_.has_loads)
         team.alone(
             [&]
             {
@@ -160,9 +161,11 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     clock.lap(CycleStage::force);
     team.barrier();
     clock.lap(CycleStage::wait);
-    const bool stable = !has_stiff_contacts_ || find_unstable_contact() == no_index;
+    bool goes_on = !has_stiff_contacts_ || find_unstable_contact() == no_index;
+    for (const ContactPart& part : partition_.contacts)
+        goes_on = goes_on && part.tally.deep == 0;
     Index impulses = 0;
-    if (state.method != Method::force)
+    if (rules_.contact.law != ContactLaw::springs)
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
     if (impulses == 0)
@@ -177,23 +180,34 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     for (const BlockPart& part : partition_.blocks)
         farthest = max(farthest, part.way);
     way += farthest;
-    if (!team.is_first())
-        return stable;
+    if (team.is_first())
+        close_cycle(model, state);
+    if (rules_.step.varies || rules_.rest.leaves_out)
+        team.barrier();  // all read the step and who rests
+    return goes_on;
+}
+
+void CycleRunner::close_cycle(const Model& model, State& state)
+{
+    bool rest_changed = false;
     for (const BlockPart& part : partition_.blocks)
+    {
         state.ledger.add(part.ledger);
-    if (!model.loads.empty())
+        rest_changed = rest_changed || part.rest_changed;
+    }
+    if (rules_.has_loads)
         add_load_work(model, state.cycle, state.blocks, work_.loaded, state.ledger);
     ++state.cycle;
-    state.ahead += (state.pace.loose - 1.0) * model.time_step;
-    state.time = static_cast<double>(state.cycle) * model.time_step + state.ahead;
-    return stable;
+    Steps& step = state.blocks.step;
+    state.time += step.next;
+    if (step.last != step.next)
+        step.last = step.next;
+    if (state.rest_changed != rest_changed)
+        state.rest_changed = rest_changed;
 }
 
 void CycleRunner::leave_out(const State& state, const Team& team)
 {
-    const auto changed = [](const BlockPart& part) { return part.rest_changed; };
-    if (std::none_of(partition_.blocks.begin(), partition_.blocks.end(), changed))
-        return;
     const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
     const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
@@ -207,7 +221,6 @@ void CycleRunner::leave_out(const State& state, const Team& team)
 void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
-    const bool whole_cycles = relaxing_ || state.damping == DampingPreset::paper;
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
@@ -220,7 +233,9 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
             clock.lap(CycleStage::narrow);
         }
         part.tally = {};
-        const RegimeRule rule{state.method, relaxing_, whole_cycles ? Closing::whole_cycles : part.closing};
+        RegimeRule rule = rules_.contact;
+        if (rule.closing != Closing::whole_cycles)
+            rule.closing = closing_of(part.answer, state.blocks.step.next);
         for (const IndexRange& range : part.active)
             part.tally += evaluate_contacts(range, model, rule, state.blocks, state.contacts,
                                             work_.loads);  // Eqs. (1)-(10), (24)-(28)
@@ -246,18 +261,20 @@ void CycleRunner::add_up_contacts(State& state)
 
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
 {
-    const bool check = now % rest_every == 0;
     part.ledger = {};
-    part.rest_changed = now == first_evaluation_;
-    const DampingRule damping{state.damping, relaxing_};
+    part.rest_changed = false;
+    const auto let_rest = [&](IndexRange range)
+    { part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed; };
     for (const IndexRange& range : part.active)
     {
-        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, needs_joint(damping),
+        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
-        if (rests_)
-            part.rest_changed = update_rest(range, model, limits_, check, state.blocks, part.ledger) || part.rest_changed;
-        update_velocities(range, model, damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+        if (rules_.rest.leaves_out)
+            let_rest(range);
+        update_velocities(range, model, rules_.damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
     }
+    if (rules_.rest.leaves_out && now % support_every == 0)  // also where no block takes part any more
+        let_rest(part.range);
 }
 
 double CycleRunner::change_positions(const Model& model, State& state, const BlockPart& part, std::vector<Triple>* pseudo)

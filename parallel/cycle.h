@@ -3,6 +3,7 @@
 
 #include "core/model/model.h"
 #include "core/motion/rest.h"
+#include "core/stage/rules.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 #include "parallel/contact_rebuild.h"
@@ -36,11 +37,14 @@ class CycleRunner
     [[nodiscard]] std::vector<StageTimes> stage_times() const;
     /// Count times from here.
     void forget_times() { samples_.clear(); }
+    /// Was an overlap above contact.overlap_limit in the last cycle? `run` then ends with it.
+    [[nodiscard]] bool found_deep_overlap() const;
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
     /// @return  whether the step is small enough for the springs that have begun to act
     bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
+    void close_cycle(const Model& model, State& state);
     void prepare(const Model& model, const State& state);
     [[nodiscard]] Index find_unstable_contact() const;
     [[nodiscard]] StageSamples& samples_of(const Team& team);
@@ -59,12 +63,9 @@ class CycleRunner
     std::vector<StageSamples> samples_;
     double used_ = 0.0;  ///< share of their margins
     std::int64_t contact_point_updates_ = 0;
-    Method prepared_for_ = Method::force;
+    StageRules rules_;  ///< of the running stage
     bool prepared_ = false;
-    bool rests_ = false;                 ///< blocks at rest are left out,
-    RestLimits limits_;                  ///< which are those
-    std::int64_t first_evaluation_ = 0;  ///< cycle in which the contacts found last are evaluated first
+    std::int64_t first_evaluation_ = 0;  ///< cycle in which all contacts take part: they were found then, or a run goes on
     bool has_stiff_contacts_ = false;
-    bool relaxing_ = false;              ///< the stage looks for a state of rest, and not for the way to it
 };
 }  // namespace hdem

@@ -1,10 +1,13 @@
 #include "parallel/impulse_sweeps.h"
 
 #include "core/contact/impulse_forces.h"
+#include "core/contact/impulse_islands.h"
 #include "core/contact/impulse_law.h"
 #include "core/contact/position_correction.h"
 #include "core/motion/integrator.h"
 #include "parallel/openmp.h"
+
+#include <algorithm>
 
 namespace hdem
 {
@@ -27,6 +30,39 @@ void for_colours(const Team& team, bool together, Partition& partition, const St
             team.barrier();
     }
 }
+
+/// Islands that sweeps do not bring to an end, each by one thread. Which these are does not depend on the number of threads.
+void solve_islands(const Model& model, State& state, const Team& team, Partition& partition, Workspace& work)
+{
+    Blocks& blocks = state.blocks;
+    MassRange masses;
+    for (const ContactPart& part : partition.contacts)
+        if (!part.impulses.empty())
+            masses.add(part.masses);
+    if (masses.suits_sweeps(model.contact.impulse_sweeps))
+        return;
+    const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));
+    for (Index i = parts.begin; i < parts.end; ++i)
+        partition.contacts[i].unsolved = are_unsolved(model, partition.contacts[i].impulses, blocks, work.pseudo);
+    team.barrier();
+    if (std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
+        return;
+    team.alone(
+        [&]
+        {
+            std::vector<std::vector<ImpulsePoint>*> lists;
+            for (ContactPart& part : partition.contacts)
+                lists.push_back(&part.impulses);
+            partition.island_finder.find(lists, blocks, partition.islands);
+        });
+    const IndexRange islands = team.share(static_cast<Index>(partition.islands.size()));
+    for (Index i = islands.begin; i < islands.end; ++i)
+        solve_island(model, blocks, work.pseudo, partition.islands[i]);
+    team.barrier();
+    if (team.is_first())
+        for (const Island& island : partition.islands)
+            state.ledger.impulse_loss += island.loss;
+}
 }  // namespace
 
 void apply_impulses(const Model& model, State& state, const Team& team, Index impulses, Partition& partition, Workspace& work)
@@ -35,7 +71,10 @@ void apply_impulses(const Model& model, State& state, const Team& team, Index im
     Blocks& blocks = state.blocks;
     const IndexRange contact_parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
-        aim_impulses(model, blocks, partition.contacts[i].impulses);
+    {
+        aim_impulses(blocks, partition.contacts[i].impulses);
+        partition.contacts[i].masses = mass_range(partition.contacts[i].impulses, blocks);
+    }
     team.barrier();
     for_colours(team, together, partition,
                 [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses(part.impulses, blocks); });
@@ -47,19 +86,20 @@ void apply_impulses(const Model& model, State& state, const Team& team, Index im
                         sweep_correction(model, blocks, part.impulses, work.pseudo);        // Eq. (19)
                     });
     team.barrier();
+    solve_islands(model, state, team, partition, work);
     const IndexRange block_parts = team.share(static_cast<Index>(partition.blocks.size()));
     for (Index i = block_parts.begin; i < block_parts.end; ++i)
         add_correction_gravity(partition.blocks[i].range, model, blocks, work.pseudo, partition.blocks[i].ledger);
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
     {
         ContactPart& part = partition.contacts[i];
-        add_correction_springs(part.range, model, blocks, state.contacts, work.pseudo, part.ledger);
+        add_correction_springs(part.range, blocks, state.contacts, work.pseudo, part.ledger);
         add_impulse_work(model, part.impulses, blocks, part.ledger);
-        store_impulses(model, part.impulses, state.contacts);  // Eqs. (29), (30)
+        store_impulses(blocks, part.impulses, state.contacts);  // Eqs. (29), (30)
     }
     team.barrier();
     if (team.is_first())
         for (const ContactPart& part : partition.contacts)
-            add_impulse_forces(model, part.impulses, blocks.force);
+            add_impulse_forces(part.impulses, blocks);
 }
 }  // namespace hdem

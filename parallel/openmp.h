@@ -37,6 +37,23 @@ class Team
 #endif
     }
 
+    /// Run work(i) for each of `count` pieces, each on whichever member is free; all wait at the end. For pieces that have nothing to do with each other.
+    template <typename Work>
+    void deal(Index count, const Work& work) const
+    {
+#ifdef _OPENMP
+        if (threads_ > 1)
+        {
+#pragma omp for schedule(dynamic)
+            for (Index i = 0; i < count; ++i)
+                work(i);
+            return;
+        }
+#endif
+        for (Index i = 0; i < count; ++i)
+            work(i);
+    }
+
     /// Run `work` on the first member while the others wait.
     template <typename Work>
     void alone(const Work& work) const

@@ -1,9 +1,10 @@
 #pragma once
 /// Contacts and blocks cut into pieces of work, and colours for pieces that must not run at the same time.
 
+#include "core/contact/impulse_islands.h"
 #include "core/contact/regime.h"
-#include "core/motion/pace.h"
 #include "core/motion/step_check.h"
+#include "core/motion/step_control.h"
 #include "core/state/energy_terms.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
@@ -15,26 +16,26 @@ namespace hdem
 struct ContactPart
 {
     IndexRange range;
-    ContactTally tally;                     ///< of this cycle
-    Index searched = 0;                     ///< features searched in this cycle
-    EnergyLedger ledger;                    ///< of this cycle
-    std::vector<ImpulsePoint> impulses;     ///< of this cycle
-    std::vector<IndexRange> active;         ///< contacts that are not left out, see core/motion/rest.h
-    std::vector<StiffContact> stiff;        ///< to be looked at in every cycle
-    Index unstable = no_index;              ///< of these, found in this cycle
-    Closing closing = Closing::all_points;  ///< of springs outside of stages that have whole cycles
+    ContactTally tally;                  ///< of this cycle
+    Index searched = 0;                  ///< features searched in this cycle
+    EnergyLedger ledger;                 ///< of this cycle
+    std::vector<ImpulsePoint> impulses;  ///< of this cycle
+    MassRange masses;                    ///< of their blocks
+    bool unsolved = false;               ///< they need more than sweeps
+    std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
+    std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
+    Index unstable = no_index;           ///< of these, found in this cycle
+    double answer = 0.0;                 ///< greatest_answer of its springs [1/s2]
 };
 
 struct BlockPart
 {
     IndexRange range;
     std::vector<IndexRange> active;  ///< blocks that are not left out
-    bool rest_changed = false;       ///< what is left out is to be found anew
+    bool rest_changed = false;       ///< blocks have been stopped or woken
     EnergyLedger ledger;             ///< of this cycle
     double way = 0.0;                ///< no point of these blocks went farther in this cycle, as a share of the block's margin
-    StandingRock standing;
-    double pace_bound = 0.0;   ///< of the loose blocks that move
-    double stable_step = 0.0;  ///< [s]
+    StepBound step;                  ///< of these blocks
 };
 
 struct Partition
@@ -43,6 +44,8 @@ struct Partition
     std::vector<BlockPart> blocks;
     /// Numbers of contact parts: two of one colour share no movable block. Whatever the number of threads, impulses are swept colour after colour.
     std::vector<std::vector<Index>> colours;
+    IslandFinder island_finder;
+    std::vector<Island> islands;  ///< of this cycle's impulses
 };
 
 /// Parts for the present contacts and blocks; `with_colours`: only impulses need them.

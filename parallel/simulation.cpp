@@ -2,7 +2,6 @@
 
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
-#include "core/motion/pace.h"
 #include "core/motion/rest.h"
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
@@ -45,9 +44,11 @@ std::vector<Problem> Simulation::find_problems()
     if (!std::isnormal(model_.time_step))
         return {{.key = "time.step",
                  .text = "time: step = " + with_digits("%.4g", model_.time_step) +
-                         " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a step."}};
+                         " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a "
+                         "step."}};
     const double limit = critical_step();
-    if (model_.time_step > limit && state_.method != Method::impulse)
+    const StageRules rules = resolve_rules(model_, state_);
+    if (model_.time_step > limit && rules.contact.law != ContactLaw::impulses && rules.step.needs_stable_step())
         problems.push_back({.key = "time.step",
                             .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                                     " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
@@ -105,7 +106,8 @@ void Simulation::begin_stage(Index stage)
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
-    reset_paces(model_, state_);
+    state_.quiet_since = -1.0;
+    state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
@@ -127,11 +129,48 @@ void Simulation::begin_stage(Index stage)
         state_.blocks.reference_position[i] = {state_.blocks.motion[i].x, state_.blocks.motion[i].y};
         state_.blocks.reference_angle[i] = state_.blocks.motion[i].angle;
     }
+    statics_.reset();
+    if (resolve_rules(model_, state_).tries_statics && can_solve_statics(model_, state_))
+        solve_statics();
 }
 
-void Simulation::note_outcome(bool converged)
+void Simulation::solve_statics()
 {
-    state_.stages_done.push_back({.cycles = state_.cycle - state_.stage_begin_cycle, .converged = converged});
+    statics_ = hdem::solve_statics(model_, state_, threads_, static_rule(model_));
+    if (statics_->kind == StaticOutcome::Kind::balanced)
+        runner_.renew_contacts(model_, state_, threads_);
+}
+
+void Simulation::finish_by_statics()
+{
+    if (!resolve_rules(model_, state_).tries_statics || !can_solve_statics(model_, state_) ||
+        equilibrium().fastest.value >= model_.convergence.mean_speed)
+        return;
+    State before = state_;
+    solve_statics();
+    if (statics_->kind == StaticOutcome::Kind::balanced && !statics_->loose.empty())
+    {
+        state_ = std::move(before);  // what slides slowly is not stopped on its way
+        runner_.renew_contacts(model_, state_, threads_);
+    }
+}
+
+void Simulation::hold_lost_blocks()
+{
+    for (Index i = 0; i < model_.blocks(); ++i)
+        if (state_.blocks.is_free(i) && has_left(i, model_, state_.blocks))
+        {
+            state_.ledger.removed += kinetic_energy(model_, state_.blocks, i);
+            set_mobility(model_, i, false, state_.blocks);
+            state_.contacts_outdated = true;
+        }
+    if (state_.contacts_outdated)
+        renew_contacts();
+}
+
+void Simulation::note_outcome(bool at_rest)
+{
+    state_.stages_done.push_back({.cycles = state_.cycle - state_.stage_begin_cycle, .at_rest = at_rest});
 }
 
 void Simulation::advance(std::int64_t cycles)
@@ -142,6 +181,8 @@ void Simulation::advance(std::int64_t cycles)
             renew_contacts();
         if (const Index stiff = runner_.run(model_, state_, end - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
+        if (runner_.found_deep_overlap())
+            refuse_overlap(model_, state_);
     }
 }
 
@@ -152,10 +193,10 @@ void Simulation::renew_contacts()
     runner_.renew_contacts(model_, state_, threads_);
 }
 
-void Simulation::check_state() const
+void Simulation::check_state()
 {
     check_finite(model_, state_);
-    check_overlaps(model_, state_);
+    watch_.look_at(model_, state_);
     check_step(model_, state_);
 }
 
@@ -166,6 +207,23 @@ Equilibrium Simulation::equilibrium() const
     if (sums.free_mass == 0.0)  // nothing stands
         add_equilibrium({0, state_.blocks.size()}, model_, state_, ConvergenceBlocks::all, sums);
     return sums;
+}
+
+bool Simulation::check_rest()
+{
+    const ConvergenceDef& convergence = model_.convergence;
+    if (!holds(convergence, equilibrium()))
+    {
+        state_.quiet_since = -1.0;
+        const RestRule rest = resolve_rules(model_, state_).rest;
+        if (rest.leaves_out && wake_if_all_rest(model_, rest.model_unsupported, state_.blocks))
+            state_.rest_changed = true;
+        return false;
+    }
+    if (state_.quiet_since < 0.0)
+        state_.quiet_since = state_.time;
+    const bool must_last = std::ranges::find(convergence.criteria, "every_block") != convergence.criteria.end();
+    return !must_last || state_.time - state_.quiet_since >= convergence.hold_time;
 }
 
 ContactCounts Simulation::count_contacts() const

@@ -2,10 +2,13 @@
 /// A run: model, state and scratch together, advanced cycle by cycle.
 
 #include "core/check.h"
+#include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
 #include "parallel/cycle.h"
+#include "parallel/static_solver.h"
 
 #include <array>
+#include <optional>
 
 namespace hdem
 {
@@ -32,17 +35,26 @@ class Simulation
     /// Problems that need contacts to be seen: a step above the stable limit.
     [[nodiscard]] std::vector<Problem> find_problems();
 
-    /// Excavate, fix, free; set method and damping; count displacements from here.
+    /// Excavate, fix, free; set method and damping; count displacements from here. Where the stage ends at rest a static solution is tried.
     void begin_stage(Index stage);
+    /// Free blocks that have left the model are held where they are; their kinetic energy is removed.
+    void hold_lost_blocks();
+    /// The same later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where a block comes away.
+    void finish_by_statics();
+    /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.
+    [[nodiscard]] const std::optional<StaticOutcome>& statics() const { return statics_; }
     /// How the present stage ended; before the next one begins.
-    void note_outcome(bool converged);
+    void note_outcome(bool at_rest);
 
     /// Throws RunError in the cycle in which springs begin to act that are too stiff for the step.
     void advance(std::int64_t cycles);
-    /// Throws RunError: see state_check.h.
-    void check_state() const;
+    /// Throws RunError: see state_check.h. Looks at the ledger.
+    void check_state();
+    [[nodiscard]] const LedgerWatch& ledger_watch() const { return watch_; }
 
     [[nodiscard]] Equilibrium equilibrium() const;
+    /// Do the criteria of rest hold, and every_block, where it is one of them, for long enough? Each check is remembered.
+    bool check_rest();
     [[nodiscard]] ContactCounts count_contacts() const;
     [[nodiscard]] double critical_step();  ///< 2 / omega_max [s]
     /// Closed contact points summed over all cycles run by this object.
@@ -53,10 +65,13 @@ class Simulation
   private:
     void excavate(const std::string& name);
     void renew_contacts();
+    void solve_statics();
 
     Model model_;
     State state_;
     CycleRunner runner_;
+    LedgerWatch watch_;
     int threads_ = 1;
+    std::optional<StaticOutcome> statics_;
 };
 }  // namespace hdem

@@ -1,5 +1,7 @@
 #include "parallel/stages.h"
 
+#include "core/stage/rules.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@ namespace hdem
 namespace
 {
 constexpr std::int64_t check_every = 1000;
+constexpr std::int64_t finish_every = 10'000;  ///< cycles between static solutions in a stage whose blocks are all slow
 
 void show(Simulation& simulation, std::span<Observer* const> observers, bool all)
 {
@@ -53,17 +56,23 @@ class StageRunner
         def_ = &simulation_.model().stages[state.stage];
         begin_ = state.stage_begin_cycle;
         end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
-        StageResult result{.name = def_->name, .first_cycle = begin_, .until_converged = def_->until_converged};
-        result.converged = has_converged();
-        while (state.cycle < end_ && !result.converged && !broken_off_)
+        StageResult result{.name = def_->name, .first_cycle = begin_, .sought_rest = ends_at_rest(*def_)};
+        result.at_rest = is_at_rest();
+        while (state.cycle < end_ && !result.at_rest && !broken_off_)
         {
             const std::int64_t now = state.cycle;
             simulation_.advance(next_stop(now) - now);
             pace_.took(state.cycle - now);
             if (state.cycle % check_every == 0 || state.cycle == end_)
+            {
                 simulation_.check_state();
-            result.converged = has_converged();
-            show(simulation_, observers_, state.cycle == end_ || result.converged);
+                if (result.sought_rest)
+                    simulation_.hold_lost_blocks();
+            }
+            result.at_rest = is_at_rest();
+            if (!result.at_rest && state.cycle % finish_every == 0)
+                simulation_.finish_by_statics();
+            show(simulation_, observers_, state.cycle == end_ || result.at_rest);
             broken_off_ = keeper_ != nullptr && !keeper_->keep(simulation_);
         }
         result.cycles = state.cycle - begin_;
@@ -71,6 +80,8 @@ class StageRunner
         if (broken_off_)
             return result;
         simulation_.check_state();
+        if (result.sought_rest && !result.at_rest)
+            result.not_at_rest = moving_blocks();
         for (Observer* const observer : observers_)
             observer->end_stage(simulation_.model(), state);
         return result;
@@ -79,20 +90,39 @@ class StageRunner
     [[nodiscard]] bool broken_off() const { return broken_off_; }
 
   private:
-    [[nodiscard]] bool has_converged() const
+    /// Looks at the rock if this is a cycle for it. The criterion every_block must have held for some time.
+    bool is_at_rest()
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
         const std::int64_t cycle = simulation_.state().cycle;
-        return def_->until_converged && cycle - begin_ >= std::max<std::int64_t>(criteria.least_cycles, 1) &&
-               cycle % criteria.check_every == 0 && is_converged(criteria, simulation_.equilibrium());
+        if (!ends_at_rest(*def_) || cycle == begin_ || cycle % criteria.check_every != 0 || is_load_to_change(cycle))
+            return false;
+        return simulation_.check_rest() && cycle - begin_ >= criteria.least_cycles;
+    }
+
+    /// Does a load begin or end later in this stage? The rock is at rest only after that.
+    [[nodiscard]] bool is_load_to_change(std::int64_t cycle) const
+    {
+        const auto is_to_come = [&](std::int64_t change) { return change >= cycle && change < end_; };
+        return std::ranges::any_of(simulation_.model().loads, [&](const Load& load)
+                                   { return load.from < load.until && (is_to_come(load.from) || is_to_come(load.until)); });
+    }
+
+    [[nodiscard]] std::vector<Index> moving_blocks() const
+    {
+        std::vector<Index> moving;
+        for (const Index block : simulation_.model().slot_of_user)
+            if (simulation_.state().blocks.is_free(block) && !is_supported(block, simulation_.model(), simulation_.state()))
+                moving.push_back(block);
+        return moving;
     }
 
     [[nodiscard]] std::int64_t next_stop(std::int64_t now) const
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
         std::int64_t next = std::min(end_, next_multiple(now, check_every));
-        if (def_->until_converged)
-            next = std::min(next, std::max(begin_ + criteria.least_cycles, next_multiple(now, criteria.check_every)));
+        if (ends_at_rest(*def_))
+            next = std::min(next, next_multiple(now, criteria.check_every));
         for (const Observer* const observer : observers_)
             next = std::min(next, observer->next_cycle(now));
         return keeper_ == nullptr ? next : std::min({next, now + pace_.cycles(), keeper_->next_cycle(now)});
@@ -117,32 +147,24 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
     {
         const StageOutcome& outcome = state.stages_done[i];
         const StageDef& def = model.stages[i];
-        results.push_back({def.name, begin, outcome.cycles, def.until_converged, outcome.converged, 0.0});
+        results.push_back({.name = def.name,
+                           .first_cycle = begin,
+                           .cycles = outcome.cycles,
+                           .sought_rest = ends_at_rest(def),
+                           .at_rest = outcome.at_rest});
         begin += outcome.cycles;
     }
     return results;
 }
 }  // namespace
 
-bool is_converged(const ConvergenceDef& criteria, const Equilibrium& now)
-{
-    for (const std::string& criterion : criteria.criteria)
-    {
-        const bool holds = criterion == "kinetic_energy" ? now.kinetic_energy < now.kinetic_energy_at(criteria.mean_speed)
-                                                         : now.unbalanced_force_ratio() < criteria.unbalanced_force_ratio;
-        if (!holds)
-            return false;
-    }
-    return !criteria.criteria.empty();
-}
-
 std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step)
 {
-    if (stage.until_converged)
-        return begin + stage.max_cycles;
     if (stage.cycles)
         return begin + *stage.cycles;
-    return begin + static_cast<std::int64_t>(std::ceil(stage.duration.value_or(0.0) / time_step * (1.0 - 1e-12)));
+    if (stage.duration)
+        return begin + static_cast<std::int64_t>(std::ceil(*stage.duration / time_step * (1.0 - 1e-12)));
+    return begin + stage.max_cycles;
 }
 
 std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper)
@@ -163,7 +185,7 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
             observer->begin_stage(simulation.model(), state);
         results.push_back(runner.run());
         if (i + 1 < stages && !runner.broken_off())
-            simulation.note_outcome(results.back().converged);
+            simulation.note_outcome(results.back().at_rest);
     }
     return results;
 }

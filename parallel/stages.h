@@ -29,13 +29,11 @@ struct StageResult
     std::string name;
     std::int64_t first_cycle = 0;
     std::int64_t cycles = 0;
-    bool until_converged = false;  ///< that was its aim
-    bool converged = false;
-    double wall_seconds = 0.0;  ///< since the start or restart
+    bool sought_rest = false;  ///< it was to end when the rock is at rest
+    bool at_rest = false;
+    std::vector<Index> not_at_rest;  ///< blocks that were not supported when the stage ended without rest
+    double wall_seconds = 0.0;       ///< since the start or restart
 };
-
-/// Is the rock at rest by all criteria of the case?
-[[nodiscard]] bool is_converged(const ConvergenceDef& criteria, const Equilibrium& now);
 
 /// Last cycle the stage may reach, seen from where it begins.
 [[nodiscard]] std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step);

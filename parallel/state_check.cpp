@@ -4,6 +4,7 @@
 #include "core/contact/contact_report.h"
 #include "core/detection/edge_touch.h"
 #include "core/motion/step_check.h"
+#include "core/stage/rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,14 +58,14 @@ void check_finite(const Model& model, const State& state)
     }
 }
 
-void check_overlaps(const Model& model, const State& state)
+void refuse_overlap(const Model& model, const State& state)
 {
     const Contacts& contacts = state.contacts;
     for (Index i = 0; i < contacts.size(); ++i)
     {
         const Index ref = contacts.ref[i], inc = contacts.inc[i];
-        const EdgeTouch touch = touch_edges(contacts.edges(i), state.blocks.motion[ref], state.blocks.motion[inc]);
-        const double overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : 0.0;
+        const Contact contact = contacts.get(i);
+        const double overlap = std::max(contact.point[0].overlap, contact.point[1].overlap);
         const double limit = model.contact.overlap_limit * std::min(model.size(ref), model.size(inc));
         if (overlap > limit)
             throw RunError(
@@ -72,13 +73,15 @@ void check_overlaps(const Model& model, const State& state)
                 " m (above contact.overlap_limit: " + with_digits("%.4g", limit) +
                 " m). Give a smaller time.step or a greater joint normal_stiffness, or raise the limit if this overlap is meant.");
     }
+    throw RunError(moment(state) + "an overlap is above contact.overlap_limit. Give a smaller time.step.");
 }
 
 void check_step(const Model& model, const State& state)
 {
-    if (state.method == Method::impulse)
+    const StageRules rules = resolve_rules(model, state);
+    if (rules.contact.law == ContactLaw::impulses || !rules.step.needs_stable_step())
         return;
-    const StableLimit limit = exceeded_limit(model, state.blocks, state.contacts);
+    const StableLimit limit = exceeded_limit(model.time_step, model, state.blocks, state.contacts);
     if (limit.block != no_index)
         throw RunError(moment(state) + "block \"" + model.name[limit.block] + "\": " + step_above(model, limit.step));
 }

@@ -13,10 +13,11 @@ namespace hdem
 [[nodiscard]] std::string with_digits(const char* format, double value);
 
 void check_finite(const Model& model, const State& state);
-void check_overlaps(const Model& model, const State& state);
 /// @see core/motion/step_check.h
 void check_step(const Model& model, const State& state);
 
+/// An overlap of the last cycle is above contact.overlap_limit.
+[[noreturn]] void refuse_overlap(const Model& model, const State& state);
 /// The springs of `contact`, which began to act in the last cycle, swing too fast for the step.
 [[noreturn]] void refuse_step(const Model& model, const State& state, Index contact);
 }  // namespace hdem

@@ -120,7 +120,7 @@ void run_to_rest(benchmark::State& bench, const Rest& rest, Method method, const
         bench.SetIterationTime(time.wall);
     }
     const std::int64_t cycles = own_criteria ? last.cycles : rest_watch.last_moving() + 1;
-    if (own_criteria ? !last.converged : cycles >= last.cycles)
+    if (own_criteria ? !last.at_rest : cycles >= last.cycles)
         bench.SkipWithError("not at rest within its limit of cycles");
     const auto updates = static_cast<double>(run.contact_point_updates());
     report_points(bench, updates);

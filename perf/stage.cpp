@@ -4,6 +4,7 @@
 #include "core/contact/contact_forces.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
+#include "core/stage/rules.h"
 #include "core/state/state_hash.h"
 
 namespace hdem::perf
@@ -30,17 +31,18 @@ StageScratch::StageScratch(const State& from) : state(from)
 
 void evaluate(const Model& model, StageScratch& scratch)
 {
-    const DampingRule damping{.preset = scratch.state.damping};
-    const ContactTally tally = evaluate_contacts(scratch.all_contacts(), model, {.method = scratch.state.method}, scratch.state.blocks,
+    const StageRules rules = resolve_rules(model, scratch.state);
+    const ContactTally tally = evaluate_contacts(scratch.all_contacts(), model, rules.contact, scratch.state.blocks,
                                                  scratch.state.contacts, scratch.loads);
     benchmark::DoNotOptimize(tally.closed);
-    sum_forces(scratch.all_blocks(), model, scratch.block_contacts, scratch.loads, {}, needs_joint(damping),
+    sum_forces(scratch.all_blocks(), model, scratch.block_contacts, scratch.loads, {}, rules.damping.needs_joint(),
                scratch.state.blocks);
 }
 
 void move(const Model& model, StageScratch& scratch)
 {
-    update_velocities(scratch.all_blocks(), model, {.preset = scratch.state.damping}, scratch.state.blocks, scratch.state.ledger);
+    update_velocities(scratch.all_blocks(), model, resolve_rules(model, scratch.state).damping, scratch.state.blocks,
+                      scratch.state.ledger);
     benchmark::DoNotOptimize(update_positions(scratch.all_blocks(), model, scratch.state.blocks));
 }
 

@@ -5,6 +5,7 @@
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
 #include "verification/checks/figure_json.h"
+#include "verification/rest/rest.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -207,11 +208,16 @@ int verify(int argc, char** argv)
     CLI::App app("hdem_verify: published numbers and textbook answers beside hdem's own", "hdem_verify");
     Options options;
     app.add_option("CASE", options.names,
-                   "Checks to run: a name of --list, a group (paper, closed_form, robust), or short; all by default");
+                   "Checks to run: a name of --list, a group (paper, closed_form, robust, rest), or short; all by default");
     app.add_option("--json", options.json_file, "Write all rows to this file");
     app.add_option("--curves", options.curves_file, "Write the figures' curves to this file");
     app.add_option("--jobs", options.jobs, "Checks at a time; default: one a core")->check(CLI::Range(1, 1024));
     app.add_option("--cases", options.cases, "Folder of the case files")->check(CLI::ExistingDirectory);
+    RestOptions& rest = rest_options();
+    CLI::Option* const scene = app.add_option("--scene", rest.scene, "Of rest.NAME: only this scene, and all that was found")
+                                   ->check(CLI::NonNegativeNumber);
+    app.add_option("--scenes", rest.scenes, "Of rest.*: only the first so many scenes of each")->check(CLI::PositiveNumber);
+    app.add_option("--write-case", rest.write_case, "Write the case files of --scene into this folder")->needs(scene);
     app.add_flag("--list", options.list, "Only list the checks");
     app.add_flag("--commands", options.commands, "Show the hdem commands that repeat the runs");
     app.add_flag("--misses", options.misses, "Show only rows that miss their bar");

@@ -11,7 +11,8 @@ template <typename R>
 struct BasicOverlapCourse
 {
     R now = 0.0;     ///< u(t) >= 0
-    R past = 0.0;    ///< u(t) - u(t - dt)
+    R past = 0.0;    ///< u(t) - u(t - dt), dt the last step
+    R coast = 0.0;   ///< what the velocities of now add to u(t + dt), dt the next step
     R others = 0.0;  ///< what other forces on the two blocks add to u(t + dt), taken from the last cycle
     R answer = 0.0;  ///< >= 0, what the contact's own forces take off it, if they act in whole
 };
@@ -19,7 +20,7 @@ using OverlapCourse = BasicOverlapCourse<double>;
 
 /// Share of its force that a normal spring gives in this cycle: 1 but where it has closed since the last cycle or will be open by the next.
 ///
-///   F = s K_N L u,  s = (u'+ - u"+) / (u' - u"),  u' = u + past + others - s answer
+///   F = s K_N L u,  s = (u'+ - u"+) / (u' - u"),  u' = u + coast + others - s answer
 ///
 ///   u", u, u'  overlaps at t - dt, t, t + dt      u+ = max(u, 0)
 ///
@@ -44,31 +45,40 @@ template <typename R>
     const R gap = u.past - u.now;  // at t - dt; < 0 if the spring was closed
     const auto square = [](R x) { return x * x; };
     // Closing: u'^2 + (gap + answer - free) u' = free gap.
-    const R free = max(u.now + u.past + max(u.others, zero), zero);
+    const R free = max(u.now + u.coast + max(u.others, zero), zero);
     const R half = R(0.5) * (free - gap - u.answer);
     const R next = half + sqrt(square(half) + free * max(gap, zero));
     // Opening: the same with u' = -beyond and an overlap `last` before.
     const R last = max(-gap, zero);
-    const R end = u.now + u.past + select(u.answer > u.now, max(u.others, zero), zero) + R(2.0) * min(u.others, zero);
+    const R end = u.now + u.coast + select(u.answer > u.now, max(u.others, zero), zero) + R(2.0) * min(u.others, zero);
     const R mean = R(0.5) * (end + last);
     const R beyond = sqrt(max(square(mean) + (u.answer - end) * last, zero)) - mean;
     return select(gap > zero, next / max(next + gap, tiny), select(end < u.answer, last / max(last + beyond, tiny), R(1.0)));
 }
 
-/// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
-[[nodiscard]] inline Mask may_close_or_open(const BasicTouchPoint<Pack>* p, Pack dt)
+/// Contacts with a point at which one block moves past the other faster than `speed`.
+[[nodiscard]] inline Mask are_faster(const BasicTouchPoint<Pack>* p, double speed)
 {
+    const auto square = [](const BasicTouchPoint<Pack>& point) { return point.v_m * point.v_m + point.v_t * point.v_t; };
+    return max(square(p[0]), square(p[1])) > Pack(speed * speed);
+}
+
+/// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
+[[nodiscard]] inline Mask may_close_or_open(const BasicTouchPoint<Pack>* p, const Steps& step)
+{
+    const double dt = std::max(step.last, step.next);
     const Pack ways = Pack(4.0) * dt * dt;
     const auto slowness = [&](const BasicTouchPoint<Pack>& point)
     { return point.overlap * point.overlap - ways * point.v_m * point.v_m; };
     return min(slowness(p[0]), slowness(p[1])) < Pack(0.0);
 }
 
-/// closing_share of both points of four contacts. `stiffness`: K_N L of each point [N/m].
+/// closing_share of both points of four contacts. `stiffness`: K_N L of each point [N/m], `recovery`: way of rest_overlap [m].
 /// (The touch as a copy, not in line: to hand out its address costs the force law 4 % even where this is never called.)
 [[nodiscard, gnu::noinline]] inline std::array<Pack, 2> closing_shares(const Blocks& blocks, const ContactLanes& l,
                                                                        const Index* at_ref, const Index* at_inc,
-                                                                       const BasicEdgeTouch<Pack> touch, Pack stiffness, Pack dt)
+                                                                       const BasicEdgeTouch<Pack> touch, Pack stiffness,
+                                                                       Pack recovery)
 {
     const BasicInertia<Pack> ref = load_inertias(blocks.inertia, at_ref);
     const BasicInertia<Pack> inc = load_inertias(blocks.inertia, at_inc);
@@ -85,9 +95,10 @@ template <typename R>
     Pack u[2], last_normal[2];
     for (int k = 0; k < 2; ++k)
     {
-        u[k] = max(p[k].overlap - rest_overlap(p[k].overlap, load_lane(l.rest_overlap[k])), Pack(0.0));
+        u[k] = max(p[k].overlap - rest_overlap(p[k].overlap, load_lane(l.rest_overlap[k]), recovery), Pack(0.0));
         last_normal[k] = load_lane(l.normal_force[k]);
     }
+    const Pack acting = blocks.step.kick() * blocks.step.next;  // of an acceleration, on the overlap at t + dt
     std::array<Pack, 2> share;
     for (int k = 0; k < 2; ++k)
     {
@@ -95,9 +106,12 @@ template <typename R>
         const Pack last = touch.ex * a_y - touch.ey * a_x + turn_inc * p[k].inc_t - turn_ref * p[k].ref_t;
         const Pack others = last + own * last_normal[k] + coupling * last_normal[1 - k];
         const Pack answer = stiffness * (own * u[k] + coupling * u[1 - k]);
-        const Pack past = p[k].v_m * dt;
-        const Pack of_point = closing_share<Pack>(
-            {.now = u[k], .past = past, .others = others * dt * dt, .answer = max(answer * dt * dt, Pack(0.0))});
+        const Pack past = p[k].v_m * blocks.step.last;
+        const Pack of_point = closing_share<Pack>({.now = u[k],
+                                                   .past = past,
+                                                   .coast = p[k].v_m * blocks.step.next,
+                                                   .others = others * acting,
+                                                   .answer = max(answer * acting, Pack(0.0))});
         // In the first cycle of a run what presses is not known yet.
         share[k] = select((last_normal[k] > Pack(0.0)) | (past > u[k]), of_point, 1.0);
     }

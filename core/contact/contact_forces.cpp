@@ -61,7 +61,7 @@ template <Contact4 contact>
     const Pack spring_normal = rests ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
     const Pack spring_shear = rests ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
     const Pack last_rest = rests ? zero : load_lane(l.rest_overlap[k]);
-    const Pack rest = rests ? zero : rest_overlap(p.overlap, last_rest);
+    const Pack rest = rests ? zero : rest_overlap(p.overlap, last_rest, g.recovery);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
     const Pack start = spring_shear * g.shear_share;
     const Pack handed = rests ? start
@@ -91,6 +91,8 @@ template <Contact4 contact>
                     Pack(0.5) * (spring_normal * strayed + dt * ((spring_shear - shear) * curved + (start - spring_shear) * v_t));
     if constexpr (!rests)
     {
+        // The rest overlap has become shorter under the force of now.
+        sums.changes -= Pack(0.5) * normal * select(g.was_impulse[k], zero, last_rest - rest);
         // An impulse point keeps its stretch until its impulses are known: where they would leave its spring empty.
         const Pack last_stretch = select(g.last_normal[k] > zero, max(load_lane(l.overlap[k]) - last_rest, zero), zero);
         store_lane(l.rest_overlap[k], select(spring, rest, select(held, p.overlap - last_stretch, zero)));
@@ -131,17 +133,21 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
     sums.changes -= Pack(0.5) * dt * work;
 }
 
-template <Method method>
+template <ContactLaw law>
 ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                       ContactLoads& loads)
 {
-    const double dt = model.time_step;
-    const Threshold threshold{model.threshold_scale, dt * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
-                              rule.rock_keeps_springs};
+    const Steps& step = blocks.step;
+    const Pack dt = step.last;
+    const Threshold threshold{model.threshold_scale, step.kick() * model.gravity.norm(),
+                              model.contact.threshold_velocity.value_or(-1.0), rule.rock_keeps_springs};
     LawLanes laws(model.joints.laws);
     Pack friction = 0.0, changes = 0.0;
-    Mask::V closed{}, impulses{}, stale{};
-    const bool all_points = rule.closing == Closing::all_points;
+    Mask::V closed{}, impulses{}, stale{}, deep{};
+    const Pack floors_deep = model.contact.overlap_limit /
+                             model.contact.length_floor;  // both are shares of the smaller block's size
+    // Of the smaller block's size, of which the floor is a share (detection/manifold).
+    const Pack recovery = model.contact.correction_rate * dt / model.contact.length_floor;
     for (Index i = range.begin; i < range.end; i += lanes)
     {
         ContactLanes& l = contacts.lane[i / lanes];
@@ -157,7 +163,11 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         g.inc = at_inc;
         g.joint = &laws.load(&contacts.law[i]);
         const Pack floor = load_lane(l.length_floor);
+        g.recovery = recovery * floor;
         g.length = point_length(g.touch.length, floor);
+        const Mask is_deep = (max(touch.point[0].overlap, touch.point[1].overlap) > floors_deep * floor) &
+                             (touch.length > Pack(0.0));
+        deep -= is_deep.v;
         const Mask::V moved = have_moved(l, view);
         store_bytes(moved & 1, &contacts.stale[i]);
         stale -= moved;
@@ -169,7 +179,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
             g.last_shear[k] = load_lane(l.shear_force[k]);
             closed -= g.closed[k].v;
         }
-        const Mask impulsive = are_impulsive<method>(g, model, blocks, threshold);
+        const Mask impulsive = are_impulsive<law>(g, model, blocks, threshold);
         impulses -= (g.closed[0].v & impulsive.v) + (g.closed[1].v & impulsive.v);
 
         const Pack last_length = load_lane(l.last_length);
@@ -180,19 +190,23 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         const Mask past = g.was_impulse[0] | g.was_impulse[1] |
                           load_lane(l.rest_overlap[0]) + load_lane(l.rest_overlap[1]) > Pack(0.0);
         Mask act = past | impulsive;
+        Mask shared = g.closed[0] | g.closed[1];
         if (rule.closing == Closing::fast_points)
-            act = act | may_close_or_open(touch.point, dt);
-        if (!all_points && !any(act))
+            shared = may_close_or_open(touch.point, step);
+        if (rule.closing_speed > 0.0)
+            shared = shared & are_faster(touch.point, rule.closing_speed);
+        if (rule.closing != Closing::whole_cycles)
+            act = act | shared;
+        if (!any(act))
             for (int k = 0; k < 2; ++k)
                 evaluate_point<Contact4::rests>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
         else
         {
             std::array<Pack, 2> share{1.0, 1.0};
             if (rule.closing != Closing::whole_cycles)
-                share = closing_shares(blocks, l, at_ref, at_inc, touch, g.joint->law.normal_stiffness * g.length, dt);
-            if (rule.closing == Closing::fast_points)  // what is slow must not depend on which contacts it is handled with
-                for (Pack& s : share)
-                    s = select(may_close_or_open(touch.point, dt), s, 1.0);
+                share = closing_shares(blocks, l, at_ref, at_inc, touch, g.joint->law.normal_stiffness * g.length, g.recovery);
+            for (Pack& s : share)  // what is slow must not depend on which contacts it is handled with
+                s = select(shared, s, 1.0);
             for (int k = 0; k < 2; ++k)
                 evaluate_point<Contact4::any>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
         }
@@ -218,21 +232,21 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         store_use(select(springs, mobilised, -1.0), g.touch.ex, g.touch.ey, bits, &loads.use[i]);
     }
     const auto count = [](Mask::V v) { return static_cast<Index>(v[0] + v[1] + v[2] + v[3]); };
-    return {sum(friction), sum(changes), count(closed), count(impulses), count(stale)};
+    return {sum(friction), sum(changes), count(closed), count(impulses), count(stale), count(deep)};
 }
 }  // namespace
 
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads)
 {
-    switch (rule.method)
+    switch (rule.law)
     {
-    case Method::force:
-        return evaluate<Method::force>(range, model, rule, blocks, contacts, loads);
-    case Method::impulse:
-        return evaluate<Method::impulse>(range, model, rule, blocks, contacts, loads);
-    case Method::hybrid:
-        return evaluate<Method::hybrid>(range, model, rule, blocks, contacts, loads);
+    case ContactLaw::springs:
+        return evaluate<ContactLaw::springs>(range, model, rule, blocks, contacts, loads);
+    case ContactLaw::impulses:
+        return evaluate<ContactLaw::impulses>(range, model, rule, blocks, contacts, loads);
+    case ContactLaw::by_speed:
+        return evaluate<ContactLaw::by_speed>(range, model, rule, blocks, contacts, loads);
     }
     return {};
 }

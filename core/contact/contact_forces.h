@@ -1,8 +1,8 @@
 #pragma once
 /// The contact stage of a cycle: overlaps, regime and force of a range of contacts.
 
-#include "core/model/model.h"
 #include "core/contact/regime.h"
+#include "core/model/model.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
@@ -15,6 +15,6 @@ namespace hdem
 ///
 /// Steps 1-3 of a cycle: overlap, length and relative velocity from the stored features (Eq. 3), regime (Eqs. 24-28),
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
-ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                               ContactLoads& loads);
+ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                               Contacts& contacts, ContactLoads& loads);
 }  // namespace hdem

@@ -12,7 +12,7 @@ namespace hdem
 struct Threshold
 {
     double scale;
-    double gravity_velocity;  ///< dt |g| [m/s]
+    double gravity_velocity;  ///< what gravity gives in a cycle, dt |g| [m/s]
     double fixed;             ///< given velocity, or negative [m/s]
     bool rock_keeps_springs;  ///< RegimeRule
     [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
@@ -37,6 +37,7 @@ struct ContactGroup
     const JointLanes* joint;
     Pack length;  ///< each point's share of the contact length
     Pack last_length, length_inverse;
+    Pack recovery;     ///< by which a rest overlap shrinks in a cycle [m]
     Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
     Mask closed[2];
     Mask was_impulse[2];
@@ -102,13 +103,13 @@ inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& b
     return fast;
 }
 
-template <Method method>
+template <ContactLaw law>
 [[nodiscard, gnu::always_inline]] inline Mask are_impulsive(const ContactGroup& g, const Model& model, const Blocks& blocks,
                                                             const Threshold& threshold)
 {
     const Mask none{};
-    if constexpr (method != Method::hybrid)
-        return method == Method::impulse ? !none : none;
+    if constexpr (law != ContactLaw::by_speed)
+        return law == ContactLaw::impulses ? !none : none;
     Pack speed = 0.0;
     for (int k = 0; k < 2; ++k)
     {

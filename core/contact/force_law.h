@@ -87,13 +87,16 @@ template <typename R>
 /// 0 for a point that has closed in the force regime. A point handed over from the impulse regime may overlap by more than its last
 /// force would press it (impulses do not look at overlaps): a spring that took the whole overlap would release energy that nobody
 /// put in, 3.5 kJ for 1 mm at 7e9 Pa/m and 1 m. So the spring begins with the force that remains of the last impulse (remaining_force) at
-/// most, and the rest stays until the blocks move apart.
+/// most. The rest is given back to the spring as slowly as the position correction takes old overlap back, so that no block stays sunk:
+/// what remains in the end is what the load presses into the springs.
 ///
-///   u_0 = max(0, u - F_rem / (K_N L)) with the last impulse (first_rest_overlap);  u_0 <- min(u_0, u) afterwards
+///   u_0 = max(0, u - F_rem / (K_N L)) with the last impulse (first_rest_overlap);  u_0 <- max(0, min(u_0 - way, u)) afterwards
+///
+/// @param way  ContactDef::correction_rate times the size of the smaller block times the step [m]
 template <typename R>
-[[nodiscard]] inline R rest_overlap(R overlap, R last_rest)
+[[nodiscard]] inline R rest_overlap(R overlap, R last_rest, R way)
 {
-    return max(min(last_rest, overlap), R(0.0));
+    return max(min(last_rest - way, overlap), R(0.0));
 }
 
 /// stiffness: K_N L [N/m]

@@ -7,7 +7,7 @@ namespace hdem
 {
 void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
 {
-    const double half_step = 0.5 * model.time_step;
+    const double half_step = 0.5 * blocks.step.next;
     const auto book = [&](Index block, double x, double y, double w)
     {
         const BlockInertia& inertia = blocks.inertia[block];
@@ -30,23 +30,26 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
     }
 }
 
-void store_impulses(const Model& model, const std::vector<ImpulsePoint>& points, Contacts& contacts)
+void store_impulses(const Blocks& blocks, const std::vector<ImpulsePoint>& points, Contacts& contacts)
 {
+    const double dt = blocks.step.kick();
     for (const ImpulsePoint& p : points)
     {
-        contacts.normal_force(p.end, p.contact) = p.impulse_normal / model.time_step;
-        contacts.shear_force(p.end, p.contact) = p.impulse_shear / model.time_step;
-        const double kept = remaining_force(p.impulse_normal / model.time_step, p.load_velocity, p.restitution, p.approach,
-                                            p.spring_force + p.mass_normal * p.load_velocity / model.time_step);
+        contacts.normal_force(p.end, p.contact) = p.impulse_normal / dt;
+        contacts.shear_force(p.end, p.contact) = p.impulse_shear / dt;
+        const double kept = remaining_force(p.impulse_normal / dt, p.load_velocity, p.restitution, p.approach,
+                                            p.spring_force + p.mass_normal * p.load_velocity / dt);
         contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.overlap, kept, p.stiffness);
     }
 }
 
-void add_impulse_forces(const Model& model, const std::vector<ImpulsePoint>& points, std::vector<BlockForce>& force)
+void add_impulse_forces(const std::vector<ImpulsePoint>& points, Blocks& blocks)
 {
+    const double dt = blocks.step.kick();
+    std::vector<BlockForce>& force = blocks.force;
     for (const ImpulsePoint& p : points)
     {
-        const Kick kick(p, p.impulse_shear / model.time_step, -p.impulse_normal / model.time_step);
+        const Kick kick(p, p.impulse_shear / dt, -p.impulse_normal / dt);
         force[p.ref].x -= kick.x;
         force[p.ref].y -= kick.y;
         force[p.ref].moment -= kick.w_ref;

@@ -47,4 +47,18 @@ inline void change_velocity(const BlockInertia& inertia, double x, double y, dou
     vy += inertia.inverse_mass_y * y;
     w += inertia.inverse_inertia * moment;
 }
+
+/// Impulse (j_t, j_m) on inc and its opposite on ref.
+/// @return energy that it takes: its work with the mean of the velocities before and after it [J]
+inline double push(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
+{
+    BlockMotion& ref = blocks.motion[p.ref];
+    BlockMotion& inc = blocks.motion[p.inc];
+    const PointVelocity before = relative_velocity(p, ref, inc);
+    const Kick kick(p, j_t, j_m);
+    change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.vx, ref.vy, ref.w);
+    change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.vx, inc.vy, inc.w);
+    const PointVelocity after = relative_velocity(p, ref, inc);
+    return -0.5 * (j_t * (before.t + after.t) + j_m * (before.m + after.m));
+}
 }  // namespace hdem

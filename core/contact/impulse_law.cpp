@@ -12,20 +12,12 @@ namespace hdem
 {
 namespace
 {
-void apply(const ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
-{
-    const Kick kick(p, j_t, j_m);
-    BlockMotion& ref = blocks.motion[p.ref];
-    BlockMotion& inc = blocks.motion[p.inc];
-    change_velocity(blocks.inertia[p.ref], -kick.x, -kick.y, -kick.w_ref, ref.vx, ref.vy, ref.w);
-    change_velocity(blocks.inertia[p.inc], kick.x, kick.y, kick.w_inc, inc.vx, inc.vy, inc.w);
-}
-
 ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
                         const EdgeTouch& touch)
 {
     const TouchPoint& at = touch.point[end];
     const CoulombSlip& joint = model.joints.laws[contacts.law[contact]];
+    const double dt = blocks.step.kick();
     ImpulsePoint p;
     p.contact = contact;
     p.ref = contacts.ref[contact];
@@ -48,19 +40,17 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.approach = at.v_m;
     p.restitution = joint.restitution;
     p.friction = joint.friction_coefficient;
-    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * model.time_step;
+    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * dt;
     p.overlap = at.overlap;
     p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
-    const double pace = std::max(blocks.pace[p.ref], blocks.pace[p.inc]);
-    p.weight_velocity = model.gravity.norm() * model.time_step * pace * pace;
+    p.weight_velocity = model.gravity.norm() * dt;
     const double rest = contacts.rest_overlap(end, contact);
     p.spring_force = p.stiffness * (at.overlap - rest);
     const double size = std::min(model.size(p.ref), model.size(p.inc));
-    const double most = (std::max(at.v_m, 0.0) + model.contact.correction_rate * size) * model.time_step;
+    const double most = std::max(at.v_m, 0.0) * blocks.step.last + model.contact.correction_rate * size * blocks.step.next;
     p.excess_overlap = std::min(rest - model.contact.allowed_overlap, most);
-    p.impulse_normal = contacts.normal_force(end, contact) * model.time_step;
-    p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * model.time_step,
-                                   p.impulse_normal * p.friction + p.cohesive_impulse);
+    p.impulse_normal = contacts.normal_force(end, contact) * dt;
+    p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * dt, p.impulse_normal * p.friction + p.cohesive_impulse);
     return p;
 }
 
@@ -71,15 +61,6 @@ double coupling(const ImpulsePoint& a, const ImpulsePoint& b, const Blocks& bloc
     const BlockInertia& inc = blocks.inertia[a.inc];
     return (ref.inverse_mass_x + inc.inverse_mass_x) * a.t_y * a.t_y + (ref.inverse_mass_y + inc.inverse_mass_y) * a.t_x * a.t_x +
            ref.inverse_inertia * a.ref_t * b.ref_t + inc.inverse_inertia * a.inc_t * b.inc_t;
-}
-
-/// Energy that an impulse takes: its work with the mean of the velocities before and after it.
-double push(ImpulsePoint& p, double j_t, double j_m, Blocks& blocks)
-{
-    const PointVelocity before = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
-    apply(p, j_t, j_m, blocks);
-    const PointVelocity after = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
-    return -0.5 * (j_t * (before.t + after.t) + j_m * (before.m + after.m));
 }
 
 /// Normal impulse of a point by itself.
@@ -175,7 +156,7 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
     }
 }
 
-void aim_impulses(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points)
+void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
 {
     for (ImpulsePoint& p : points)
     {
@@ -185,7 +166,7 @@ void aim_impulses(const Model& model, const Blocks& blocks, std::vector<ImpulseP
         if (p.approach <= 0.0)
             continue;
         p.target = std::min(0.0, pressed - p.restitution * p.approach);
-        if (p.overlap > 0.0 && p.overlap <= p.approach * model.time_step)
+        if (p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;
     }
 }

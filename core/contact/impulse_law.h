@@ -26,7 +26,7 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 /// - the impact was up to a cycle ago, u / v_m, and since then the blocks have moved on as if it had not been: the way they should have moved apart by now is
 ///   added to the overlap taken back. Without it flights are too short by up to a cycle.
 /// With both, errors of the velocity in a bounce are a third (verification/README.md).
-void aim_impulses(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points);
+void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points);
 
 /// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
 /// springs' share between two points is handed over as it is. After an impact they are far too great, more than the sweeps may take back: then only

@@ -14,9 +14,8 @@ void sweep_correction(const Model& model, const Blocks& blocks, std::vector<Impu
         Triple& ref = pseudo[p.ref];
         Triple& inc = pseudo[p.inc];
         const double v_m = relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc).m;
-        const double share = p.excess_overlap > 0.0 ? model.contact.correction_fraction : 1.0;
         const double last = p.correction;
-        p.correction = std::max(0.0, last + p.mass_normal * (v_m + share * p.excess_overlap / model.time_step));
+        p.correction = std::max(0.0, last + p.mass_normal * (v_m + correction_velocity(model, blocks.step, p)));
         if (p.correction == last)
             continue;
         const Kick kick(p, 0.0, -(p.correction - last));
@@ -31,16 +30,16 @@ void add_correction_gravity(IndexRange range, const Model& model, const Blocks& 
     double gravity = 0.0;
     for (Index i = range.begin; i < range.end; ++i)
         if (is_moved(pseudo[i]) && blocks.present[i] != 0)
-            gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * model.time_step;
+            gravity += model.mass[i] * (model.gravity.x() * pseudo[i].x + model.gravity.y() * pseudo[i].y) * blocks.step.next;
     ledger.gravity_work += gravity;
     ledger.position_correction -= gravity;
 }
 
-void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
-                            const std::vector<Triple>& pseudo, EnergyLedger& ledger)
+void add_correction_springs(IndexRange range, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger)
 {
     // The contacts will find overlaps that no velocity explains, and book their work as if it had come from nowhere.
-    const double work = -spring_power(range, contacts, blocks, pseudo).normal * model.time_step;
+    const double work = -spring_power(range, contacts, blocks, pseudo).normal * blocks.step.next;
     ledger.position_correction += work;
     ledger.contact_changes += work;
 }

@@ -7,6 +7,12 @@
 
 namespace hdem
 {
+/// Velocity at which a point is to part, or, < 0, may be pressed together, by the position correction [m/s].
+[[nodiscard]] inline double correction_velocity(const Model& model, const Steps& step, const ImpulsePoint& p)
+{
+    return (p.excess_overlap > 0.0 ? model.contact.correction_fraction : 1.0) * p.excess_overlap / step.next;
+}
+
 /// One sweep of the position correction: pseudo velocities, added to positions but never to velocities, take the overlap
 /// back. As a real velocity, Eq. (19) to the letter, it would feed energy into every bounce (Table 4 is destroyed).
 ///
@@ -20,6 +26,6 @@ void sweep_correction(const Model& model, const Blocks& blocks, std::vector<Impu
 /// contacts (shear springs follow velocities, and do not notice it).
 void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
                             EnergyLedger& ledger);
-void add_correction_springs(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
-                            const std::vector<Triple>& pseudo, EnergyLedger& ledger);
+void add_correction_springs(IndexRange range, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,
+                            EnergyLedger& ledger);
 }  // namespace hdem

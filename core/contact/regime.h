@@ -1,7 +1,6 @@
 #pragma once
 /// Force or impulse: which law a contact point obeys in this cycle.
 
-#include "core/model/case_def.h"
 #include "core/state/blocks.h"
 
 #include <cmath>
@@ -11,24 +10,34 @@ namespace hdem
 /// Whose normal springs give only a share of their force in the cycles in which they close and open (contact/closing.h).
 enum class Closing
 {
-    /// None: so the paper has it. And in stages that look for a state of rest, where local damping takes what late springs give.
+    /// None: so the paper has it.
     whole_cycles,
     /// Contacts with a point that goes as far as it overlaps in two cycles: all that matter where springs take many cycles to turn a motion round.
     fast_points,
-    /// Where they do not. Rock at rest takes a third more time so.
+    /// Where they do not.
     all_points
+};
+
+/// Which law contact points obey.
+enum class ContactLaw
+{
+    springs,
+    impulses,
+    by_speed  ///< impulses above the threshold velocity, Eq. (24)
 };
 
 /// Who chooses the law of a contact point.
 struct RegimeRule
 {
-    Method method = Method::hybrid;
-    /// In a stage that looks for a state of rest the standing rock, blocks that have not come loose (see core/motion/pace.h), answers impacts with its
+    ContactLaw law = ContactLaw::by_speed;
+    /// In a stage that looks for a state of rest the standing rock, blocks that have not come loose (see core/motion/step_control.h), answers impacts with its
     /// springs, unless they are slower than `gentle_impact` sqrt(g size of the loose block). Differs from the paper: an impulse hands all of a block's
     /// momentum to the rock at once and undamped, where springs let local damping and the rock behind take their part. Tunnels in which blocks had
     /// fallen on standing rock moved 0.05 mm more (20 degrees) to 1 mm more (35 degrees) than by springs alone; so they move the same.
     bool rock_keeps_springs = false;
     Closing closing = Closing::fast_points;
+    double closing_speed =
+        0.0;  ///< slower contacts give whole forces in each cycle: rock would take a third more time to come to rest [m/s]
 };
 
 inline constexpr double gentle_impact = 0.1;

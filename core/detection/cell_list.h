@@ -20,8 +20,14 @@ inline const Box empty_box{{1.0, 1.0}, {-1.0, -1.0}};
 {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32 | static_cast<std::uint32_t>(j);
 }
-[[nodiscard]] inline Index first_of(std::uint64_t key) { return static_cast<Index>(key >> 32); }
-[[nodiscard]] inline Index second_of(std::uint64_t key) { return static_cast<Index>(key & 0xffffffffu); }
+[[nodiscard]] inline Index first_of(std::uint64_t key)
+{
+    return static_cast<Index>(key >> 32);
+}
+[[nodiscard]] inline Index second_of(std::uint64_t key)
+{
+    return static_cast<Index>(key & 0xffffffffu);
+}
 
 /// Hashed cells on several levels: a box lies in the cell of its centre on the level whose cells are just large enough for
 /// it, so a tunnel-sized block beside decimetre ones costs one entry, and an open domain costs nothing. A box meets the
@@ -48,10 +54,10 @@ class CellList
     void visit(std::size_t slot, const Cell& cell, Index box, std::vector<std::uint64_t>& pairs) const;
 
     const std::vector<Box>* boxes_ = nullptr;
-    double smallest_cell_ = 1.0;       ///< side of a cell on level 0 [m]
-    std::vector<Cell> home_;           ///< per box; level -1: empty
-    std::vector<int> used_levels_;     ///< ascending
-    std::vector<Index> head_;          ///< per hash slot: first box, the rest by next_
+    double smallest_cell_ = 1.0;    ///< side of a cell on level 0 [m]
+    std::vector<Cell> home_;        ///< per box; level -1: empty
+    std::vector<int> used_levels_;  ///< ascending
+    std::vector<Index> head_;       ///< per hash slot: first box, the rest by next_
     std::vector<Index> next_;
 };
 }  // namespace hdem

@@ -22,7 +22,7 @@ double energy_of(const Model& model, const Blocks& blocks, const Contact& contac
 double search(const Model& model, const Blocks& blocks, Contact& contact, EnergyLedger& ledger)
 {
     const double before = energy_of(model, blocks, contact);
-    const double distance = find_features(model, blocks.motion, contact);
+    const double distance = find_features(model, blocks, contact);
     ledger.contact_changes += before - energy_of(model, blocks, contact);
     return distance;
 }
@@ -36,7 +36,7 @@ double skin_width(const Model& model)
 double way_a_cycle(Index block, const Model& model, const Blocks& blocks)
 {
     const BlockMotion& m = blocks.motion[block];
-    return (std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block]) * model.time_step;
+    return (std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block]) * blocks.step.next;
 }
 
 void set_margins(const Model& model, Blocks& blocks)
@@ -47,7 +47,8 @@ void set_margins(const Model& model, Blocks& blocks)
     for (Index b = 0; b < blocks.size(); ++b)
     {
         const double way = way_a_cycle(b, model, blocks);
-        blocks.margin[b] = way * cycles > least ? std::min(way * cycles, most * least) : least;  // least where `way` is not a number
+        blocks.margin[b] = way * cycles > least ? std::min(way * cycles, most * least)
+                                                : least;  // least where `way` is not a number
     }
 }
 

@@ -10,7 +10,7 @@ namespace hdem
 /// Distance two blocks at rest may be apart and still be tracked as a contact [m].
 [[nodiscard]] double skin_width(const Model& model);
 
-/// How far any point of a block moves in a cycle, at most [m].
+/// How far any point of a block moves in the next cycle, at most [m].
 [[nodiscard]] double way_a_cycle(Index block, const Model& model, const Blocks& blocks);
 
 /// Give each block its margin: half the skin, for fast ones their way in the next 64 cycles, up to eight times as much. Two blocks are tracked as a contact
@@ -23,7 +23,7 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
 /// Greatest share of its margin that a block of `range` has moved since the rebuild; turning counts with its radius. Contacts must be found anew once it
 /// exceeds 1.
 [[nodiscard]] double margin_used(IndexRange range, const Model& model, const Blocks& blocks,
-                                   const std::vector<BlockMotion>& rebuilt_at);
+                                 const std::vector<BlockMotion>& rebuilt_at);
 
 /// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out. Contacts that `old` already has
 /// (same parts, ascending) keep their history; those between blocks at rest, which have not moved, their features as well. Appends to `out` in key order.

@@ -242,6 +242,7 @@ void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& co
 /// Springs of new features hold no more energy than the old ones did. A corner that turns past the middle between its two sides passes from a face over which
 /// it has 0.1 m to one over which it has 0.7 m: with the whole overlap of now its spring would hold seven times the energy, which nobody put in. What is too
 /// much of the overlap becomes rest overlap, as after impulses (contact/force_law.h); where the new springs hold less, the rest is lost.
+/// So too where the old ones held nothing: a corner that slides off one face may be millimetres behind the next.
 void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombSlip& law, Contact& contact)
 {
     double old_normal = 0.0, old_shear = 0.0, normal = 0.0, shear = 0.0;  // twice the energies [J]
@@ -257,8 +258,6 @@ void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombS
         normal += law.normal_stiffness * contact.last_length * overlap * overlap;
         shear += now.shear_force * now.shear_force / (law.shear_stiffness * contact.last_length);
     }
-    if (old_normal == 0.0)
-        return;
     const double kept = normal > old_normal ? std::sqrt(old_normal / normal) : 1.0;
     const double kept_shear = shear > old_shear ? std::sqrt(old_shear / shear) : 1.0;
     for (PointHistory& point : contact.point)
@@ -275,8 +274,9 @@ void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
 }
 }  // namespace
 
-double find_features(const Model& model, const std::vector<BlockMotion>& motion, Contact& contact)
+double find_features(const Model& model, const Blocks& blocks, Contact& contact)
 {
+    const std::vector<BlockMotion>& motion = blocks.motion;
     const Shapes& shapes = model.shapes;
     const Index a = contact.part_a;
     const Index b = contact.part_b;
@@ -322,7 +322,7 @@ double find_features(const Model& model, const std::vector<BlockMotion>& motion,
                                         model.material[contact.ref], model.material[contact.inc]);
         if (old.ref_edge != no_index)
             carry_history(motion, old, contact);
-        start_points(motion, model.time_step, contact);
+        start_points(motion, blocks.step.last, contact);
         if (old.ref_edge != no_index)
             limit_energy(model.joints.laws[old.law], old, model.joints.laws[contact.law], contact);
     }

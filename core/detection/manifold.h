@@ -17,5 +17,5 @@ namespace hdem
 ///
 /// @return distance of the two parts along the best axis, negative when they overlap [m]; with no external edge: infinite
 /// @see verification/unit/core/detection/manifold_test.cpp
-double find_features(const Model& model, const std::vector<BlockMotion>& motion, Contact& contact);
+double find_features(const Model& model, const Blocks& blocks, Contact& contact);
 }  // namespace hdem

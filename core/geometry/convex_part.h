@@ -12,15 +12,15 @@ namespace hdem
 /// >= 0: number of the joint set; the rest as named.
 enum EdgeSource : std::int32_t
 {
-    edge_internal = -1,    ///< between two convex parts of one block: never touches anything
-    edge_plain = -2,       ///< edge of an explicit block or of the domain
-    edge_outline = -3      ///< cut by an excavation outline
+    edge_internal = -1,  ///< between two convex parts of one block: never touches anything
+    edge_plain = -2,     ///< edge of an explicit block or of the domain
+    edge_outline = -3    ///< cut by an excavation outline
 };
 
 /// Convex, anticlockwise; edge i runs from vertex i to vertex i+1 and came from source[i].
 struct ConvexPart
 {
-    Polygon vertices;                    ///< [m]
-    std::vector<std::int32_t> source;    ///< one per edge, see EdgeSource
+    Polygon vertices;                  ///< [m]
+    std::vector<std::int32_t> source;  ///< one per edge, see EdgeSource
 };
 }  // namespace hdem

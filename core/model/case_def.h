@@ -26,37 +26,38 @@ enum class Method
 struct DomainDef
 {
     bool given = false;
-    double width = 0.0;                ///< [m]
-    double height = 0.0;               ///< [m]
-    Vec2 origin = {0.0, 0.0};          ///< lower left corner of the rectangle [m]
-    Polygon polygon;                   ///< instead of width and height; simple, any orientation [m]
-    std::vector<std::string> fixed;    ///< "left", "right", "bottom", "top": blocks with an edge on that side are fixed
-    std::vector<int> fixed_edges;      ///< same for edges of the polygon, 0 = first to second vertex
+    double width = 0.0;              ///< [m]
+    double height = 0.0;             ///< [m]
+    Vec2 origin = {0.0, 0.0};        ///< lower left corner of the rectangle [m]
+    Polygon polygon;                 ///< instead of width and height; simple, any orientation [m]
+    std::vector<std::string> fixed;  ///< "left", "right", "bottom", "top": blocks with an edge on that side are fixed
+    std::vector<int> fixed_edges;    ///< same for edges of the polygon, 0 = first to second vertex
     std::string material = "rock";
-    std::string traces_file;           ///< WKT or CSV of joint traces; cut by io/ into CaseDef::trace_cells
-    std::string traces_joint;          ///< name of a [joint.NAME] for contacts along traces; "" = by materials
-    double traces_snap = 0.0;          ///< a trace that ends nearer than this to another one meets it [m]
+    std::string traces_file;   ///< WKT or CSV of joint traces; cut by io/ into CaseDef::trace_cells
+    std::string traces_joint;  ///< name of a [joint.NAME] for contacts along traces; "" = by materials
+    double traces_snap = 0.0;  ///< a trace that ends nearer than this to another one meets it [m]
 };
 
 /// [[joint_set]]: parallel joints at a regular spacing.
 struct JointSetDef
 {
-    std::string name;                  ///< "set1", "set2", ... when not given
-    double dip_deg = 0.0;              ///< inclination of the trace to the x axis, positive anticlockwise [deg]
-    double spacing = 0.0;              ///< distance between neighbouring joints, across them [m]
-    double deviation_deg = 0.0;        ///< each joint's dip is uniform in dip_deg +- deviation_deg
-    double persistence = 1.0;          ///< chance that a block in a joint's path is cut, 0 < p <= 1
-    std::optional<Vec2> origin;        ///< one (undeviated) joint passes through this point [m]; default: centre of the domain
-    std::optional<std::uint64_t> seed; ///< of this set's random stream; default: derived from generator.seed and the set's number
-    std::string joint;                 ///< name of a [joint.NAME] for contacts on this set's faces; "" = by materials
+    std::string name;                   ///< "set1", "set2", ... when not given
+    double dip_deg = 0.0;               ///< inclination of the trace to the x axis, positive anticlockwise [deg]
+    double spacing = 0.0;               ///< distance between neighbouring joints, across them [m]
+    double deviation_deg = 0.0;         ///< each joint's dip is uniform in dip_deg +- deviation_deg
+    double persistence = 1.0;           ///< chance that a block in a joint's path is cut, 0 < p <= 1
+    std::optional<Vec2> origin;         ///< one (undeviated) joint passes through this point [m]; default: centre of the domain
+    std::optional<std::uint64_t> seed;  ///< of this set's random stream; default: derived from generator.seed and the set's number
+    std::string joint;                  ///< name of a [joint.NAME] for contacts on this set's faces; "" = by materials
 };
 
 /// [generator]
 struct GeneratorDef
 {
     std::uint64_t seed = 1;
-    double smallest_block_area = 0.0;  ///< a cut that would leave a piece below it is refused; outline pieces below it are merged [m2]
-    double smallest_edge = 0.0;        ///< a cut that would leave an edge shorter than this is refused [m]
+    double
+        smallest_block_area = 0.0;  ///< a cut that would leave a piece below it is refused; outline pieces below it are merged [m2]
+    double smallest_edge = 0.0;     ///< a cut that would leave an edge shorter than this is refused [m]
 };
 
 enum class OutlineShape
@@ -78,45 +79,45 @@ struct ExcavationDef
 {
     std::string name;
     OutlineShape shape = OutlineShape::polygon;
-    Vec2 position = {0.0, 0.0};        ///< [m]
-    double width = 0.0;                ///< [m] horseshoe, rectangle
-    double height = 0.0;               ///< [m] horseshoe, rectangle
-    double diameter = 0.0;             ///< [m] circle
-    int arc_segments = 16;             ///< straight edges of the half circle (horseshoe) or circle
-    Polygon polygon;                   ///< [m]
+    Vec2 position = {0.0, 0.0};  ///< [m]
+    double width = 0.0;          ///< [m] horseshoe, rectangle
+    double height = 0.0;         ///< [m] horseshoe, rectangle
+    double diameter = 0.0;       ///< [m] circle
+    int arc_segments = 16;       ///< straight edges of the half circle (horseshoe) or circle
+    Polygon polygon;             ///< [m]
     InsideOutline inside = InsideOutline::jointed;
 };
 
 /// [[block]]: one explicit block.
 struct BlockDef
 {
-    std::string name;                  ///< "block1", ... when not given
-    Polygon polygon;                   ///< simple, convex or concave, any orientation [m]
+    std::string name;  ///< "block1", ... when not given
+    Polygon polygon;   ///< simple, convex or concave, any orientation [m]
     std::string material = "rock";
-    bool fix_x = false;                ///< the velocity component never changes by forces (it stays at `velocity`)
+    bool fix_x = false;  ///< the velocity component never changes by forces (it stays at `velocity`)
     bool fix_y = false;
     bool fix_rotation = false;
-    Vec2 velocity = {0.0, 0.0};        ///< at the start [m/s]
-    double angular_velocity = 0.0;     ///< at the start [rad/s]
+    Vec2 velocity = {0.0, 0.0};     ///< at the start [m/s]
+    double angular_velocity = 0.0;  ///< at the start [rad/s]
 };
 
 /// [material.NAME]
 struct MaterialDef
 {
     std::string name;
-    double density = 0.0;              ///< [kg/m3]
+    double density = 0.0;  ///< [kg/m3]
 };
 
 /// [joint.NAME]: properties of a contact; "default" must exist.
 struct JointDef
 {
     std::string name;
-    double normal_stiffness = 0.0;     ///< [Pa/m]
-    double shear_stiffness = 0.0;      ///< [Pa/m]
-    double friction_angle_deg = 0.0;   ///< [deg]
-    double cohesion = 0.0;             ///< [Pa]
-    std::optional<double> restitution; ///< [-] instead of contact.restitution
-    std::vector<std::string> materials;///< the two materials this joint lies between; empty: only used by name
+    double normal_stiffness = 0.0;       ///< [Pa/m]
+    double shear_stiffness = 0.0;        ///< [Pa/m]
+    double friction_angle_deg = 0.0;     ///< [deg]
+    double cohesion = 0.0;               ///< [Pa]
+    std::optional<double> restitution;   ///< [-] instead of contact.restitution
+    std::vector<std::string> materials;  ///< the two materials this joint lies between; empty: only used by name
 };
 
 // ---- loads, method, time --------------------------------------------------------------------------------------------
@@ -152,13 +153,15 @@ struct ContactDef
     std::optional<double> threshold_velocity;  ///< instead of Eq. (25) [m/s]
     bool fixed_mass_counts = false;            ///< fixed blocks keep their mass in m_c of Eqs. (16), (27)
     int impulse_sweeps = 10;
-    double correction_fraction = 1.0;          ///< share of the overlap that impulse contacts take back each cycle, Eq. (19)
-    double allowed_overlap = 1.0e-7;           ///< overlap that position correction leaves [m]
-    double correction_rate = 0.02;             ///< overlap older than a cycle that is taken back at most in a second, as a share of the smaller block's size [1/s]
-    double length_floor = 1.0e-3;              ///< least contact length, as a share of the smaller block's size [-]
-    double overlap_limit = 0.25;               ///< a run stops when an overlap exceeds this share of the smaller block's size [-]
-    double recycling_distance = 1.0e-4;        ///< features are searched anew once a pair moved this share of the smaller block's size [-]; 0: every cycle
-    double skin = 0.05;                        ///< pairs closer than this share of the mean block size are tracked [-]
+    double correction_fraction = 1.0;  ///< share of the overlap that impulse contacts take back each cycle, Eq. (19)
+    double allowed_overlap = 1.0e-7;   ///< overlap that position correction leaves [m]
+    double correction_rate =
+        0.02;  ///< most of older overlap that is taken back in a second, as a share of the smaller block's size [1/s]
+    double length_floor = 1.0e-3;  ///< least contact length, as a share of the smaller block's size [-]
+    double overlap_limit = 0.25;   ///< a run stops when an overlap exceeds this share of the smaller block's size [-]
+    double recycling_distance =
+        1.0e-4;          ///< way after which features are searched anew, as a share of the smaller block's size [-]; 0: every cycle
+    double skin = 0.05;  ///< pairs closer than this share of the mean block size are tracked [-]
 };
 
 enum class DampingPreset
@@ -172,17 +175,17 @@ enum class DampingPreset
 struct DampingDef
 {
     DampingPreset preset = DampingPreset::automatic;
-    double local = 0.8;                    ///< alpha of Eqs. (13), (14) [-]
-    double global_damping_ratio = 0.0;     ///< xi_g of Eq. (22) [-]
-    double average_frequency = 0.0;        ///< omega_avg of Eq. (22) [rad/s]
+    double local = 0.8;                 ///< alpha of Eqs. (13), (14) [-]
+    double global_damping_ratio = 0.0;  ///< xi_g of Eq. (22) [-]
+    double average_frequency = 0.0;     ///< omega_avg of Eq. (22) [rad/s]
 };
 
 /// [time]
 struct TimeDef
 {
-    std::optional<double> step;        ///< [s]; not given: default_time_step, core/motion/time_step.h
-    double fraction = 0.1;             ///< FRAC of Eq. (32) [-]
-    double stable_fraction = 0.9;      ///< of the largest stable step, see core/motion/pace.h [-]
+    std::optional<double> step;    ///< [s]; not given: default_time_step, core/motion/time_step.h
+    double fraction = 0.1;         ///< FRAC of Eq. (32) [-]
+    double stable_fraction = 0.9;  ///< of the largest stable step, see core/motion/step_control.h [-]
 };
 
 // ---- the run --------------------------------------------------------------------------------------------------------
@@ -198,63 +201,75 @@ enum class ConvergenceBlocks
 struct ConvergenceDef
 {
     ConvergenceBlocks blocks = ConvergenceBlocks::all;
-    std::vector<std::string> criteria = {"kinetic_energy"};  ///< "kinetic_energy", "unbalanced_force_ratio": all listed must hold
-    double mean_speed = 5.0e-4;                 ///< kinetic energy of all free blocks at this speed is the limit [m/s]
-    double unbalanced_force_ratio = 1.0e-5;     ///< [-]
-    std::int64_t least_cycles = 1000;           ///< not tested earlier in a stage
-    std::int64_t check_every = 10;              ///< tested at multiples of this many cycles
-    double loose_distance = 0.05;              ///< a block that moved farther in its stage is loose: see core/motion/pace.h [m]
-    double detached_distance = 0.1;             ///< a block that moved farther counts as detached [m]
+    std::vector<std::string> criteria = {"kinetic_energy", "unbalanced_force_ratio", "every_block"};  ///< all listed must hold
+    double mean_speed = 5.0e-4;              ///< kinetic energy of all free blocks at this speed is the limit [m/s]
+    double unbalanced_force_ratio = 1.0e-5;  ///< [-]
+    double block_unbalanced_ratio = 1.0e-4;  ///< [-]
+    double hold_time = 0.025;                ///< they must have held at all checks for so long [s]
+    std::int64_t least_cycles = 1000;        ///< not tested earlier in a stage
+    std::int64_t check_every = 10;           ///< tested at multiples of this many cycles
+    double loose_distance = 0.05;            ///< a block that moved farther in its stage is loose [m]
+    double detached_distance = 0.1;          ///< a block that moved farther counts as detached [m]
+    std::optional<double> lost_distance;     ///< one farther outside the model has left it; not given: ten times its size [m]
+};
+
+/// How a stage that ends at rest looks for it.
+enum class RestSolver
+{
+    statics,  ///< by a static solution where that is possible, then by cycles
+    dynamics  ///< by cycles alone
 };
 
 /// [[stage]]
 struct StageDef
 {
     std::string name;
-    std::optional<std::int64_t> cycles;      ///< run this many
-    std::optional<double> duration;          ///< or this long [s]
-    bool until_converged = false;            ///< or until converged, at most max_cycles
+    std::optional<std::int64_t> cycles;  ///< run this many
+    std::optional<double> duration;      ///< or this long [s]
+    bool until_converged = false;        ///< or until converged, at most max_cycles
     std::int64_t max_cycles = 1'000'000;
-    std::vector<std::string> excavate;       ///< excavation or block names removed at the start of the stage
-    std::vector<std::string> fix;            ///< block names fixed at the start
-    std::vector<std::string> free;           ///< block names freed at the start
-    std::optional<Method> method;            ///< from here on
-    std::optional<DampingPreset> damping;    ///< from here on
+    RestSolver solver = RestSolver::dynamics;
+    std::vector<std::string> excavate;     ///< excavation or block names removed at the start of the stage
+    std::vector<std::string> fix;          ///< block names fixed at the start
+    std::vector<std::string> free;         ///< block names freed at the start
+    std::optional<Method> method;          ///< from here on
+    std::optional<DampingPreset> damping;  ///< from here on
 };
 
 /// [[history]]: quantities sampled every n cycles into results.h5.
 struct HistoryDef
 {
     std::string name;
-    std::string block;                       ///< block quantities: displacement, position, velocity, rotation, angular_velocity, force, kinetic_energy
-    std::vector<std::string> between;        ///< or contact quantities between two named blocks: normal_force, shear_force, overlap, shear_displacement, contact_length, impulse_points
+    std::string block;  ///< block quantities: displacement, position, velocity, rotation, angular_velocity, force, kinetic_energy
+    std::vector<std::string>
+        between;  ///< or contact quantities between two named blocks: normal_force, shear_force, overlap, shear_displacement, contact_length, impulse_points
     std::vector<std::string> quantities;
-    std::int64_t every = 1;                  ///< cycles
+    std::int64_t every = 1;  ///< cycles
 };
 
 /// [output]
 struct OutputDef
 {
-    std::int64_t row_every = 1000;           ///< cycles between rows on the screen and in run.log, and samples of the energy history
-    std::int64_t frame_every = 0;            ///< cycles between frames; 0: at the end of each stage only
-    bool contacts = true;                    ///< write contact frames as well
-    std::int64_t checkpoint_every = 0;       ///< cycles between checkpoints; 0: by wall time only
-    double checkpoint_wall_minutes = 10.0;   ///< of a clock on the wall; 0: by cycles only
+    std::int64_t row_every = 1000;          ///< cycles between rows on the screen and in run.log, and samples of the energy history
+    std::int64_t frame_every = 0;           ///< cycles between frames; 0: at the end of each stage only
+    bool contacts = true;                   ///< write contact frames as well
+    std::int64_t checkpoint_every = 0;      ///< cycles between checkpoints; 0: by wall time only
+    double checkpoint_wall_minutes = 10.0;  ///< of a clock on the wall; 0: by cycles only
 };
 
 struct CaseDef
 {
     std::string title;
     DomainDef domain;
-    TraceCells trace_cells;                  ///< what domain.traces_file cuts the domain into, found by io/; empty without
+    TraceCells trace_cells;  ///< what domain.traces_file cuts the domain into, found by io/; empty without
     std::vector<JointSetDef> joint_sets;
     GeneratorDef generator;
     std::vector<ExcavationDef> excavations;
     std::vector<BlockDef> blocks;
-    std::string blocks_file;                 ///< WKT, one POLYGON a line; read by io/ into `blocks`
+    std::string blocks_file;  ///< WKT, one POLYGON a line; read by io/ into `blocks`
     std::vector<MaterialDef> materials;
     std::vector<JointDef> joints;
-    Vec2 gravity = {0.0, -9.81};             ///< [m/s2]
+    Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
     std::vector<LoadDef> loads;
     ContactDef contact;
     DampingDef damping;

@@ -17,18 +17,21 @@ namespace hdem
 /// Shapes of all blocks as convex parts, vertices anticlockwise in the block's own frame (origin = its centroid).
 struct Shapes
 {
-    std::vector<Index> part_begin;         ///< per block + 1: its parts
-    std::vector<Index> part_block;         ///< per part
-    std::vector<Index> vertex_begin;       ///< per part + 1: its vertices
-    std::vector<Vec2> vertex;              ///< body frame [m]; edge i runs from vertex i to the next of its part
-    std::vector<Vec2> edge_tangent;        ///< per vertex: unit vector along edge i [-]; outward normal = tangent turned right
-    std::vector<double> edge_length;       ///< per vertex [m]
-    std::vector<std::int32_t> edge_source; ///< per vertex: EdgeSource, or number of the joint set; traces are one more
-    std::vector<Vec2> part_centre;         ///< per part: centre of its bounding circle, body frame [m]
-    std::vector<double> part_radius;       ///< per part: of that circle [m]
+    std::vector<Index> part_begin;          ///< per block + 1: its parts
+    std::vector<Index> part_block;          ///< per part
+    std::vector<Index> vertex_begin;        ///< per part + 1: its vertices
+    std::vector<Vec2> vertex;               ///< body frame [m]; edge i runs from vertex i to the next of its part
+    std::vector<Vec2> edge_tangent;         ///< per vertex: unit vector along edge i [-]; outward normal = tangent turned right
+    std::vector<double> edge_length;        ///< per vertex [m]
+    std::vector<std::int32_t> edge_source;  ///< per vertex: EdgeSource, or number of the joint set; traces are one more
+    std::vector<Vec2> part_centre;          ///< per part: centre of its bounding circle, body frame [m]
+    std::vector<double> part_radius;        ///< per part: of that circle [m]
 
     [[nodiscard]] Index parts() const { return static_cast<Index>(part_block.size()); }
-    [[nodiscard]] Index next_vertex(Index part, Index v) const { return v + 1 == vertex_begin[part + 1] ? vertex_begin[part] : v + 1; }
+    [[nodiscard]] Index next_vertex(Index part, Index v) const
+    {
+        return v + 1 == vertex_begin[part + 1] ? vertex_begin[part] : v + 1;
+    }
 };
 
 /// Which joint lies between two touching edges: by joint set, else by pair of materials, else the default.
@@ -36,8 +39,8 @@ struct JointTable
 {
     std::vector<std::string> names;
     std::vector<CoulombSlip> laws;
-    std::vector<Index> of_joint_set;       ///< per joint set, and for all traces: law, or no_index
-    std::vector<Index> of_materials;       ///< materials x materials: law
+    std::vector<Index> of_joint_set;  ///< per joint set, and for all traces: law, or no_index
+    std::vector<Index> of_materials;  ///< materials x materials: law
     Index materials = 0;
 
     [[nodiscard]] Index find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const;
@@ -47,12 +50,12 @@ struct JointTable
 struct Load
 {
     std::vector<Index> blocks;
-    Vec2 acceleration = {0.0, 0.0};        ///< [m/s2]
-    Vec2 force = {0.0, 0.0};               ///< [N]
-    double moment = 0.0;                   ///< [N m]
-    std::optional<double> velocity_x;      ///< [m/s]
-    std::optional<double> velocity_y;      ///< [m/s]
-    std::optional<double> angular_velocity;///< [rad/s]
+    Vec2 acceleration = {0.0, 0.0};          ///< [m/s2]
+    Vec2 force = {0.0, 0.0};                 ///< [N]
+    double moment = 0.0;                     ///< [N m]
+    std::optional<double> velocity_x;        ///< [m/s]
+    std::optional<double> velocity_y;        ///< [m/s]
+    std::optional<double> angular_velocity;  ///< [rad/s]
     std::int64_t from = 0;
     std::int64_t until = 0;
 };
@@ -60,20 +63,23 @@ struct Load
 struct Model
 {
     std::string title;
-    Vec2 origin = {0.0, 0.0};              ///< of the local coordinates in the user's [m]
+    Vec2 origin = {0.0, 0.0};  ///< of the local coordinates in the user's [m]
+    Vec2 centre = {0.0, 0.0};  ///< of the box around all blocks at the start [m]
+    double lost_beyond = std::numeric_limits<
+        double>::infinity();  ///< blocks farther than this from the centre have left the model [m]
     Shapes shapes;
 
     // one per block
     std::vector<std::string> name;
-    std::vector<Index> user_number;        ///< position in the user's order
-    std::vector<Index> slot_of_user;       ///< its inverse
+    std::vector<Index> user_number;   ///< position in the user's order
+    std::vector<Index> slot_of_user;  ///< its inverse
     std::vector<Index> material;
-    std::vector<Index> excavation;         ///< number of the excavation it lies in, or no_index
-    std::vector<double> area;              ///< [m2]
-    std::vector<double> mass;              ///< [kg per m]
-    std::vector<double> inertia;           ///< about the centroid [kg m2 per m]
-    std::vector<BlockInertia> full_inertia;///< with the block's own mass even where its motion is prescribed
-    std::vector<double> radius;            ///< of the smallest circle about the centroid that holds the block [m]
+    std::vector<Index> excavation;           ///< number of the excavation it lies in, or no_index
+    std::vector<double> area;                ///< [m2]
+    std::vector<double> mass;                ///< [kg per m]
+    std::vector<double> inertia;             ///< about the centroid [kg m2 per m]
+    std::vector<BlockInertia> full_inertia;  ///< with the block's own mass even where its motion is prescribed
+    std::vector<double> radius;              ///< of the smallest circle about the centroid that holds the block [m]
 
     std::vector<std::string> material_names;
     std::vector<std::string> excavation_names;
@@ -82,22 +88,22 @@ struct Model
     std::vector<StageDef> stages;
     std::vector<HistoryDef> histories;
 
-    Vec2 gravity = {0.0, -9.81};           ///< [m/s2]
+    Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
     ContactDef contact;
     DampingDef damping;
     ConvergenceDef convergence;
     OutputDef output;
-    double time_step = 0.0;                ///< [s]
-    double paper_time_step = 0.0;          ///< Eq. (32) [s]
-    double default_time_step = 0.0;        ///< what a case without a step takes, see core/motion/time_step.h [s]
-    bool is_driven = false;                ///< some motion is prescribed, by a load or of a block that cannot leave it
-    bool has_own_step = false;             ///< stages that look for rest take a share of the largest stable step, see core/motion/pace.h
-    double stable_fraction = 0.9;          ///< that share [-]
-    double threshold_scale = 1.0;          ///< C_scale of Eq. (25) [-]
-    double mean_size = 0.0;                ///< square root of the mean block area [m]
+    double time_step = 0.0;          ///< [s]
+    double paper_time_step = 0.0;    ///< Eq. (32) [s]
+    double default_time_step = 0.0;  ///< what a case without a step takes, see core/motion/time_step.h [s]
+    bool is_driven = false;          ///< some motion is prescribed, by a load or of a block that cannot leave it
+    bool has_step = false;           ///< the case gives the time step
+    double stable_fraction = 0.9;    ///< that share [-]
+    double threshold_scale = 1.0;    ///< C_scale of Eq. (25) [-]
+    double mean_size = 0.0;          ///< square root of the mean block area [m]
 
     [[nodiscard]] Index blocks() const { return static_cast<Index>(mass.size()); }
-    [[nodiscard]] double size(Index block) const;   ///< square root of the area [m]
+    [[nodiscard]] double size(Index block) const;                         ///< square root of the area [m]
     [[nodiscard]] Index find_block(const std::string& block_name) const;  ///< or no_index
 };
 }  // namespace hdem

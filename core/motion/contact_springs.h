@@ -37,11 +37,10 @@ void for_springs(const Model& model, const Blocks& blocks, const Contacts& conta
     }
 }
 
-/// Inverse masses of a block of pace 1; none where its motion is prescribed.
+/// Inverse masses of a block; none where its motion is prescribed.
 [[nodiscard]] inline Vec3 inverse_masses(const Blocks& blocks, Index block)
 {
     const BlockInertia& inertia = blocks.inertia[block];
-    const double pace = blocks.pace[block];
-    return Vec3(inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia) / (pace * pace);
+    return {inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia};
 }
 }  // namespace hdem

@@ -1,7 +1,6 @@
 #pragma once
 /// Which damping acts on a block, by the contacts it has in this cycle.
 
-#include "core/model/case_def.h"
 #include "core/state/blocks.h"
 
 #include <limits>
@@ -21,25 +20,24 @@ struct BasicActing
 };
 using Acting = BasicActing<double>;
 
-/// Who chooses the damping of a block.
-struct DampingRule
-{
-    DampingPreset preset = DampingPreset::automatic;
-    bool relaxing = false;  ///< the stage looks for a state of rest (motion/pace.h); only under `automatic`
-};
-
-/// Does damping ask for the most mobilised joint of a block?
-[[nodiscard]] inline bool needs_joint(const DampingRule& rule)
-{
-    return rule.preset == DampingPreset::automatic && !rule.relaxing;
-}
-
 /// How local damping opposes a motion.
 enum class LocalDamping
 {
-    last_velocity,  ///< the one half a step before the force: locally_damped
-    along_joint,    ///< the same; translation along and across the block's most mobilised joint, along it by `reserve` at most
-    new_velocity    ///< the one half a step after the force: stopped_by_damping
+    by_axis,     ///< as published: the components along x and y, against the velocity half a step before the force (locally_damped)
+    along_joint  ///< the components along and across the block's most mobilised joint, against the new velocity (stopped_by_damping)
+};
+
+/// Who chooses the damping of a block.
+struct DampingRule
+{
+    double local = 0.0;   ///< alpha of Eqs. (13), (14) [-]
+    double global = 0.0;  ///< alpha_d = 2 xi_g omega_avg of Eq. (22) [1/s]
+    LocalDamping form = LocalDamping::by_axis;
+    double settling =
+        0.0;  ///< below this speed along the joint all of local damping acts, whatever friction has left, above twice of it only that [m/s]
+
+    /// Is the most mobilised joint of a block asked for?
+    [[nodiscard]] bool needs_joint() const { return form == LocalDamping::along_joint; }
 };
 
 /// Damping of one block in one cycle.
@@ -49,7 +47,8 @@ struct BasicBlockDamping
     R local = 0.0;           ///< alpha of Eqs. (13), (14) for translation [-]
     R local_rotation = 0.0;  ///< the same for rotation [-]
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
-    LocalDamping form = LocalDamping::last_velocity;
+    LocalDamping form = LocalDamping::by_axis;
+    double settling = 0.0;  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -59,35 +58,26 @@ using BlockDamping = BasicBlockDamping<double>;
 ///   only force contacts:           local damping, alpha, Eqs. (11)-(14)
 ///   no contact:                    none
 ///
-/// Presets: `paper` is just that. `dynamic` has no local damping. `automatic` lets local damping hold a block back no more than the
-/// friction it has left could: along the joint whose strength is in use most, the damping force is at most the sum of what all its force points
-/// have in reserve,
+/// By axis that is all. Along the joint, hdem's own form, local damping holds a block back no more than the friction it has left could. Along the joint whose
+/// strength is in use most the damping force is at most the sum of what all its force points have in reserve,
 ///
 ///   |F_d,t| <= sum (F_max - |F_S|)
 ///
 /// and rotation is damped by alpha (1 - |F_S| / F_max) of that joint. A sliding block has nothing in reserve and moves freely. A block about
 /// to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
-/// its shear springs carry already. (Exact while reserve < alpha |F|, for S up to alpha D. Without damping the springs' late answer gains 0.6 to
-/// 0.9 % of the way of the first second on a slope of 30 degrees at phi = 20; alpha fading with the mobilised share lost 0.5 % of Newmark's slide,
-/// and left a block that swings on its normal springs undamped.)
-///
-/// A stage that runs until it has converged (is_relaxing) has all of local damping under `automatic` too: what is asked for then is a state of rest
-/// close to where the rock began, and a block that swings past it has slipped there. Next to the tunnel blocks move 0.4 mm farther otherwise. It opposes the
-/// new velocity, which is stable at larger steps.
+/// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D). Across the joint all of the net force counts, so that a block does not
+/// go on swinging on its normal springs. The axes are those of the joint: the answer does not depend on how the model is turned.
+/// @see verification/unit/core/motion/damping_test.cpp
 template <typename R>
-[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, const DampingRule& rule,
-                                                              const DampingDef& damping)
+[[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, const DampingRule& rule)
 {
-    const bool by_joint = needs_joint(rule);
-    const double alpha = rule.preset == DampingPreset::dynamic ? 0.0 : damping.local;
     const R none = 0.0;
-    const R local = select(acting.impulses, none, select(acting.springs, R(alpha), none));
+    const R local = select(acting.impulses, none, select(acting.springs, R(rule.local), none));
     return {.local = local,
-            .local_rotation = by_joint ? local * (R(1.0) - acting.mobilised) : local,
-            .global = select(acting.impulses, R(2.0 * damping.global_damping_ratio * damping.average_frequency), none),
-            .form = rule.relaxing ? LocalDamping::new_velocity
-                    : by_joint    ? LocalDamping::along_joint
-                                  : LocalDamping::last_velocity};
+            .local_rotation = rule.needs_joint() ? local * (R(1.0) - acting.mobilised) : local,
+            .global = select(acting.impulses, R(rule.global), none),
+            .form = rule.form,
+            .settling = rule.settling};
 }
 
 /// Force left of `force` once local damping has opposed the motion:
@@ -117,13 +107,15 @@ template <typename R>
 ///
 /// Never turns a motion round, and is stable wherever the springs are without damping. For slow motions it differs from the form above in one cycle of each
 /// turning point.
+/// @param limit  greatest damping force [N]
 template <typename R>
-[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha)
+[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha,
+                                          R limit = std::numeric_limits<double>::infinity())
 {
     const R zero = 0.0;
     const auto is_free = inverse_mass > zero;
     const R stop = velocity / (select(is_free, inverse_mass, R(1.0)) * dt) + force;
-    const R most = alpha * abs(force);
+    const R most = min(alpha * abs(force), limit);
     return select(is_free, force - max(min(stop, most), -most), force);
 }
 
@@ -139,21 +131,22 @@ template <typename R>
 [[nodiscard]] inline DampedForce<R> damp_translation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R vx, R vy, R dt,
                                                      const BasicBlockDamping<R>& damping)
 {
-    if (damping.form == LocalDamping::new_velocity)
-        return {stopped_by_damping(acting.x, vx, inertia.inverse_mass_x, dt, damping.local),
-                stopped_by_damping(acting.y, vy, inertia.inverse_mass_y, dt, damping.local)};
-    if (damping.form == LocalDamping::last_velocity)
+    if (damping.form == LocalDamping::by_axis)
         return {locally_damped(acting.x, vx, damping.local), locally_damped(acting.y, vy, damping.local)};
     const R zero = 0.0;
-    const R along = acting.t_x * acting.x + acting.t_y * acting.y;
-    const R across = acting.t_x * acting.y - acting.t_y * acting.x;
-    const R drag_t = locally_damped(along, acting.t_x * vx + acting.t_y * vy, damping.local, acting.reserve) - along;
-    const R drag_m = locally_damped(across, acting.t_x * vy - acting.t_y * vx, damping.local) - across;
+    const R t = acting.t_x * acting.x + acting.t_y * acting.y;
+    const R m = acting.t_x * acting.y - acting.t_y * acting.x;
+    const auto along = [&](R force, R velocity, R inverse_mass)
+    {
+        const R settles = damping.settling > 0.0 ? max(min(R(2.0) - abs(velocity) / R(damping.settling), R(1.0)), zero) : zero;
+        const R limit = acting.reserve + settles * damping.local * abs(force);
+        return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, limit);
+    };
+    const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
+    const R damped_m = stopped_by_damping(m, acting.t_x * vy - acting.t_y * vx, inertia.inverse_mass_x, dt, damping.local);
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
-    return {select(on_axis, locally_damped(acting.x, vx, damping.local, acting.reserve),
-                   acting.x + acting.t_x * drag_t - acting.t_y * drag_m),
-            select(on_axis, locally_damped(acting.y, vy, damping.local, acting.reserve),
-                   acting.y + acting.t_y * drag_t + acting.t_x * drag_m)};
+    return {select(on_axis, along(acting.x, vx, inertia.inverse_mass_x), acting.t_x * damped_t - acting.t_y * damped_m),
+            select(on_axis, along(acting.y, vy, inertia.inverse_mass_y), acting.t_y * damped_t + acting.t_x * damped_m)};
 }
 
 /// Moment on a block after local damping.
@@ -161,8 +154,8 @@ template <typename R>
 [[nodiscard]] inline R damp_rotation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R w, R dt,
                                      const BasicBlockDamping<R>& damping)
 {
-    return damping.form == LocalDamping::new_velocity
-               ? stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, damping.local_rotation)
-               : locally_damped(acting.moment, w, damping.local_rotation);
+    return damping.form == LocalDamping::by_axis
+               ? locally_damped(acting.moment, w, damping.local_rotation)
+               : stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, damping.local_rotation);
 }
 }  // namespace hdem

@@ -8,23 +8,50 @@ namespace hdem
 double kinetic_energy(const Model& model, const Blocks& blocks, Index block)
 {
     const BlockMotion& motion = blocks.motion[block];
-    const double pace = blocks.pace[block];
-    return (0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) +
-            0.5 * model.inertia[block] * motion.w * motion.w) /
-           (pace * pace);
+    return 0.5 * model.mass[block] * (motion.vx * motion.vx + motion.vy * motion.vy) +
+           0.5 * model.inertia[block] * motion.w * motion.w;
 }
+
+double reference_acceleration(Index block, const Model& model, const Vec2& load)
+{
+    constexpr double earth = 9.81;
+    const double greatest = std::max(model.gravity.norm(), load.norm() / model.mass[block]);
+    return greatest > 0.0 ? greatest : earth;
+}
+
+double unbalance(Index block, const Model& model, const Blocks& blocks)
+{
+    const BlockInertia& inertia = blocks.inertia[block];
+    const BlockForce& force = blocks.force[block];
+    const Vec2 net(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
+    const double moment = inertia.inverse_inertia > 0.0 ? std::abs(force.moment) : 0.0;
+    return (net.norm() + moment / model.radius[block]) / model.mass[block];
+}
+
+double rim_speed(Index block, const Model& model, const Blocks& blocks)
+{
+    return blocks.velocity(block).norm() + std::abs(blocks.motion[block].w) * model.radius[block];
+}
+
+namespace
+{
+/// Loads on each block of `range` that acted in the last cycle [N].
+std::vector<Vec2> loads_on(IndexRange range, const Model& model, std::int64_t cycle)
+{
+    std::vector<Vec2> loads(static_cast<std::size_t>(range.size()), Vec2::Zero());
+    for (const Load& load : model.loads)
+        if (load.from < cycle && cycle <= load.until)
+            for (const Index i : load.blocks)
+                if (i >= range.begin && i < range.end)
+                    loads[i - range.begin] += model.mass[i] * load.acceleration + load.force;
+    return loads;
+}
+}  // namespace
 
 void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums)
 {
     const Blocks& blocks = state.blocks;
-    std::vector<Vec2> applied(static_cast<std::size_t>(range.size()));
-    for (Index i = range.begin; i < range.end; ++i)
-        applied[i - range.begin] = model.mass[i] * model.gravity;
-    for (const Load& load : model.loads)
-        if (load.from < state.cycle && state.cycle <= load.until)  // acted in the cycle before
-            for (const Index i : load.blocks)
-                if (i >= range.begin && i < range.end)
-                    applied[i - range.begin] += model.mass[i] * load.acceleration + load.force;
+    const std::vector<Vec2> loads = loads_on(range, model, state.cycle);
     const bool only_standing = which == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {
@@ -32,13 +59,38 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
             continue;
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];
+        const Vec2& load = loads[i - range.begin];
         sums.kinetic_energy += kinetic_energy(model, blocks, i);
-        sums.unbalanced_force +=
-            Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0).norm();
-        sums.applied_force += applied[i - range.begin].norm();
+        sums.unbalanced_force += Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0)
+                                     .norm();
+        sums.applied_force += (model.mass[i] * model.gravity + load).norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
+        sums.unbalanced.add(unbalance(i, model, blocks) / reference_acceleration(i, model, load), i);
+        sums.fastest.add(rim_speed(i, model, blocks), i);
     }
+}
+
+bool holds(const ConvergenceDef& criteria, const Equilibrium& now)
+{
+    const auto meets = [&](const std::string& criterion)
+    {
+        if (criterion == "kinetic_energy")
+            return now.kinetic_energy < now.kinetic_energy_at(criteria.mean_speed);
+        if (criterion == "unbalanced_force_ratio")
+            return now.unbalanced_force_ratio() < criteria.unbalanced_force_ratio;
+        return now.unbalanced.value < criteria.block_unbalanced_ratio && now.fastest.value < criteria.mean_speed;
+    };
+    return !criteria.criteria.empty() && std::ranges::all_of(criteria.criteria, meets);
+}
+
+bool is_supported(Index block, const Model& model, const State& state)
+{
+    Equilibrium alone;
+    add_equilibrium({block, block + 1}, model, state, ConvergenceBlocks::all, alone);
+    ConvergenceDef criterion = model.convergence;
+    criterion.criteria = {"every_block"};
+    return holds(criterion, alone);
 }
 
 DisplacementReport report_displacements(const Model& model, const State& state)
@@ -55,15 +107,13 @@ DisplacementReport report_displacements(const Model& model, const State& state)
         if (!blocks.is_free(i))
             continue;
         const double distance = blocks.displacement(i).norm();
-        if (distance > model.convergence.detached_distance)
-        {
+        const bool detached = distance > model.convergence.detached_distance;
+        if (detached)
             report.detached.push_back(i);
-            continue;
-        }
         report.mean_all += distance;
         report.greatest_all = std::max(report.greatest_all, distance);
         ++counted_all;
-        if (near[i] == 0)
+        if (near[i] == 0 || (excavated && detached))
             continue;
         report.mean += distance;
         report.greatest = std::max(report.greatest, distance);
@@ -72,5 +122,11 @@ DisplacementReport report_displacements(const Model& model, const State& state)
     report.mean = report.counted > 0 ? report.mean / report.counted : 0.0;
     report.mean_all = counted_all > 0 ? report.mean_all / counted_all : 0.0;
     return report;
+}
+
+bool has_left(Index block, const Model& model, const Blocks& blocks)
+{
+    const BlockMotion& motion = blocks.motion[block];
+    return blocks.present[block] != 0 && (Vec2(motion.x, motion.y) - model.centre).norm() > model.lost_beyond;
 }
 }  // namespace hdem

@@ -6,14 +6,38 @@
 
 namespace hdem
 {
-/// Sums over free blocks; ranges add up.
+/// What acts on a block from outside as an acceleration, for scale [m/s2]: the greater of gravity and `load` over mass, of a block in space that of the earth.
+[[nodiscard]] double reference_acceleration(Index block, const Model& model, const Vec2& load);
+
+/// Net force and moment on a block as an acceleration of its rim, by the components that can move [m/s2]. Impulses count as J / dt.
+[[nodiscard]] double unbalance(Index block, const Model& model, const Blocks& blocks);
+
+/// Speed of its rim [m/s].
+[[nodiscard]] double rim_speed(Index block, const Model& model, const Blocks& blocks);
+
+/// A block and a value of it.
+struct Worst
+{
+    double value = 0.0;
+    Index block = no_index;
+
+    void add(double other, Index of)
+    {
+        if (other > value || (block == no_index && other >= value))
+            *this = {other, of};
+    }
+};
+
+/// Sums over free blocks, and the worst of them; ranges add up.
 struct Equilibrium
 {
     double kinetic_energy = 0.0;    ///< [J]
     double unbalanced_force = 0.0;  ///< sum of the absolute net forces, impulses as J / dt included [N]
     double applied_force = 0.0;     ///< sum over blocks of the absolute sum of weight and loads of the last cycle [N]
     double free_mass = 0.0;         ///< [kg]
-    double greatest_speed = 0.0;    ///< [m/s]
+    double greatest_speed = 0.0;    ///< of a centroid [m/s]
+    Worst unbalanced;               ///< `unbalance` over reference_acceleration [-]
+    Worst fastest;                  ///< rim_speed [m/s]
 
     /// Mean unbalanced force over mean applied force; without any applied force the sum itself is judged against 1 N.
     [[nodiscard]] double unbalanced_force_ratio() const { return unbalanced_force / (applied_force > 0.0 ? applied_force : 1.0); }
@@ -24,17 +48,32 @@ struct Equilibrium
 /// Reads motion and the cycle's forces of all free blocks, or of those that stand; adds in block order.
 void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums);
 
+/// Do all criteria hold that are listed?
+///
+///   kinetic_energy           of all blocks, below that at mean_speed                      [Lee2025] sect. 4.4
+///   unbalanced_force_ratio   mean over all blocks, below unbalanced_force_ratio
+///   every_block              each block by itself: its rim slower than mean_speed, and net force and moment below block_unbalanced_ratio of its weight and loads
+///
+/// A block that flies or slides fails the last one, however many others are at rest.
+[[nodiscard]] bool holds(const ConvergenceDef& criteria, const Equilibrium& now);
+
+/// Does this free block by itself meet the criterion every_block?
+[[nodiscard]] bool is_supported(Index block, const Model& model, const State& state);
+
 [[nodiscard]] double kinetic_energy(const Model& model, const Blocks& blocks, Index block);
 
 /// Displacements since the reference poses, of present free blocks.
 struct DisplacementReport
 {
-    Index counted = 0;            ///< blocks next to the excavation that did not detach (all free blocks without an excavation)
+    Index counted = 0;            ///< blocks next to the excavation that did not detach (without an excavation: all free blocks)
     double mean = 0.0;            ///< of those [m]
     double greatest = 0.0;        ///< of those [m]
-    double mean_all = 0.0;        ///< of all free blocks that did not detach [m]
+    double mean_all = 0.0;        ///< of all free blocks, detached ones too [m]
     double greatest_all = 0.0;    ///< [m]
     std::vector<Index> detached;  ///< blocks that moved farther than the set distance, in the user's order
 };
 [[nodiscard]] DisplacementReport report_displacements(const Model& model, const State& state);
+
+/// Is its centroid farther outside the model than convergence.lost_distance?
+[[nodiscard]] bool has_left(Index block, const Model& model, const Blocks& blocks);
 }  // namespace hdem

@@ -27,7 +27,7 @@ struct Component
 /// Works of a range of blocks.
 struct Works
 {
-    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0;
+    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0;
 
     void add_to(EnergyLedger& ledger) const
     {
@@ -35,22 +35,27 @@ struct Works
         ledger.load_work -= sum(holding);
         ledger.local_damping += sum(local);
         ledger.global_damping += sum(global);
+        ledger.contact_changes += sum(changes);
     }
 };
 
-/// New velocity; books the works of this component.
-inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, Pack dt, Works& works)
+/// New velocity; books the works of this component. The kinetic energy changes by each force times the mean of both velocities and the mean of both steps;
+/// springs, weight and loads are booked by the mean of both ways, (v last + v' next) / 2. Where the step changes the first is F (v' - v) (next - last) / 4 less.
+inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, const Steps& step, Works& works)
 {
     const Pack zero = 0.0;
+    const Pack dt = step.kick();
     const Mask is_free = c.inverse > zero;
     const Pack kept = has_global ? select(is_free, velocity * (Pack(1.0) - global * dt), velocity) : velocity;
     const Pack next = kept + c.damped * c.inverse * dt;
     const Pack way = Pack(0.5) * (velocity + next) * dt;
-    works.gravity += c.weight * way;
+    works.gravity += c.weight * (Pack(0.5) * (velocity * Pack(step.last) + next * Pack(step.next)));
     works.holding += select(is_free, zero, c.force * way);  // what holds a prescribed motion
     works.local += select(is_free, (c.force - c.damped) * way, zero);
     if (has_global)
         works.global += select(is_free, global * velocity / c.inverse * way, zero);
+    if (step.next != step.last)
+        works.changes += c.force * (next - velocity) * Pack(0.25 * (step.next - step.last));
     return next;
 }
 
@@ -81,9 +86,10 @@ double greatest(Pack p)
 
 void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
 {
-    const Pack dt = model.time_step;
+    const Steps& step = blocks.step;
+    const Pack dt = step.kick();
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
-    const bool has_global = model.damping.global_damping_ratio * model.damping.average_frequency != 0.0;
+    const bool has_global = rule.global != 0.0;
     Works works;
     for_groups(
         range,
@@ -94,12 +100,13 @@ void update_velocities(IndexRange range, const Model& model, const DampingRule& 
             hold_stopped(&blocks.rest[i], count, inertia);
             Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
             const Pack mass = load_some(&model.mass[i], count);
-            const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule, model.damping);
+            const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule);
             const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
             const Pack damped_moment = damp_rotation(acting, inertia, v.c, dt, damping);
-            v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, dt, works);
-            v.b = advance(v.b, {acting.y, damped.y, inertia.inverse_mass_y, mass * g_y}, damping.global, has_global, dt, works);
-            v.c = advance(v.c, {acting.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, has_global, dt, works);
+            v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, step, works);
+            v.b = advance(v.b, {acting.y, damped.y, inertia.inverse_mass_y, mass * g_y}, damping.global, has_global, step, works);
+            v.c = advance(v.c, {acting.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, has_global, step,
+                          works);
             v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
         });
     works.add_to(ledger);
@@ -107,7 +114,7 @@ void update_velocities(IndexRange range, const Model& model, const DampingRule& 
 
 double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo)
 {
-    const Pack dt = model.time_step;
+    const Pack dt = blocks.step.next;
     Pack fastest = 0.0, rim = 0.0;
     for_groups(range,
                [&](Index i, Index count)
@@ -130,6 +137,6 @@ double update_positions(IndexRange range, const Model& model, Blocks& blocks, st
                    pose.store(&blocks.motion[i].x, row_stride<BlockMotion>, count);
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                });
-    return (std::sqrt(greatest(fastest)) + greatest(rim)) * model.time_step;
+    return (std::sqrt(greatest(fastest)) + greatest(rim)) * blocks.step.next;
 }
 }  // namespace hdem

@@ -89,7 +89,7 @@ void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& c
         return;
     // The last force has worked for half a step along the old velocity. The contacts will book that half along the new one.
     const SpringPower power = spring_power({0, contacts.size()}, contacts, blocks, change);
-    ledger.load_work -= 0.5 * model.time_step * (power.normal + power.shear);
+    ledger.load_work -= 0.5 * blocks.step.last * (power.normal + power.shear);
 }
 
 void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
@@ -105,9 +105,9 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
                 const BlockMotion& motion = blocks.motion[i];
                 const Triple& was = before[at++];
                 const Vec2 force = model.mass[i] * load.acceleration + load.force;
-                ledger.load_work += 0.5 * model.time_step *
-                                    (force.x() * (was.x + motion.vx) + force.y() * (was.y + motion.vy) +
-                                     load.moment * (was.w + motion.w));
+                const auto way = [&](double then, double now) { return 0.5 * (then * blocks.step.last + now * blocks.step.next); };
+                ledger.load_work += force.x() * way(was.x, motion.vx) + force.y() * way(was.y, motion.vy) +
+                                    load.moment * way(was.w, motion.w);
             }
 }
 }  // namespace hdem

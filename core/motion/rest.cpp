@@ -9,23 +9,10 @@ namespace hdem
 {
 namespace
 {
-constexpr double quiet_speeds = 0.2;    // of mean_speed
-constexpr double quiet_cycles = 256.0;  // in which it will not become faster
-constexpr double quiet_ratios = 0.05;   // of unbalanced_force_ratio
-constexpr double waking_limits = 10.0;  // of what is quiet
-
-/// Net force and moment as an acceleration of the rim [m/s2].
-double unbalance(Index block, const Model& model, const Blocks& blocks)
+bool is_quiet(Index block, const Model& model, const RestRule& rule, const Blocks& blocks)
 {
-    const BlockForce& f = blocks.force[block];
-    return (std::sqrt(f.x * f.x + f.y * f.y) + std::abs(f.moment) / model.radius[block]) / model.mass[block];
-}
-
-bool is_quiet(Index block, const Model& model, const RestLimits& limits, const Blocks& blocks)
-{
-    const double speed = blocks.velocity(block).norm() +
-                         std::abs(blocks.motion[block].w) / blocks.pace[block] * model.radius[block];
-    return speed < limits.speed && unbalance(block, model, blocks) < limits.acceleration;
+    return (blocks.force[block].contacts & contact_impulse) == 0 && rim_speed(block, model, blocks) < rule.quiet_speed &&
+           unbalance(block, model, blocks) < rule.quiet;
 }
 
 void stop(Index block, const Model& model, Blocks& blocks, EnergyLedger& ledger)
@@ -53,18 +40,11 @@ void collect(IndexRange range, std::vector<IndexRange>& active, const IsActive& 
 }
 }  // namespace
 
-RestLimits rest_limits(const Model& model)
+bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std::int64_t cycle, Blocks& blocks,
+                 EnergyLedger& ledger)
 {
-    const std::vector<std::string>& criteria = model.convergence.criteria;
-    const bool by_force = std::find(criteria.begin(), criteria.end(), "unbalanced_force_ratio") != criteria.end();
-    const double speed = quiet_speeds * model.convergence.mean_speed;
-    const double acceleration = speed / (quiet_cycles * model.time_step);
-    const double most = quiet_ratios * model.convergence.unbalanced_force_ratio * model.gravity.norm();
-    return {.speed = speed, .acceleration = by_force ? std::min(acceleration, most) : acceleration};
-}
-
-bool update_rest(IndexRange range, const Model& model, const RestLimits& limits, bool check, Blocks& blocks, EnergyLedger& ledger)
-{
+    const bool check = cycle % rest_every == 0;
+    const double waking = cycle % support_every == 0 ? rule.unsupported : rule.waking;
     bool changed = false;
     for (Index b = range.begin; b < range.end; ++b)
     {
@@ -73,14 +53,12 @@ bool update_rest(IndexRange range, const Model& model, const RestLimits& limits,
         {
             if (!check || !blocks.is_free(b))
                 continue;
-            const bool quiet = (blocks.force[b].contacts & contact_impulse) == 0 && is_quiet(b, model, limits, blocks);
-            rest = quiet ? rest + 1 : 0;
+            rest = is_quiet(b, model, rule, blocks) ? rest + 1 : 0;
             if (rest == stopped)
                 stop(b, model, blocks, ledger);
             continue;
         }
-        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 ||
-                           !(unbalance(b, model, blocks) < waking_limits * limits.acceleration);
+        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(unbalance(b, model, blocks) < waking);
         changed = changed || woken || rest == stopped;
         rest = woken ? 0 : left_out;
     }
@@ -98,6 +76,21 @@ bool is_beside_moving(Index block, const BlockContacts& list, const Contacts& co
 void wake_all(Blocks& blocks)
 {
     std::fill(blocks.rest.begin(), blocks.rest.end(), std::uint8_t{0});
+}
+
+bool wake_if_all_rest(const Model& model, double limit, Blocks& blocks)
+{
+    for (Index b = 0; b < blocks.size(); ++b)
+        if (blocks.is_free(b) && blocks.takes_part(b))
+            return false;
+    bool woken = false;
+    for (Index b = 0; b < blocks.size(); ++b)
+        if (blocks.is_free(b) && unbalance(b, model, blocks) >= limit)
+        {
+            blocks.rest[b] = 0;
+            woken = true;
+        }
+    return woken;
 }
 
 void find_active_contacts(IndexRange range, const Blocks& blocks, const Contacts& contacts, std::vector<IndexRange>& active)

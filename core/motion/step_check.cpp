@@ -45,7 +45,7 @@ bool is_stable(double step, double frequency_squared)
 }
 
 /// Can it be seen, block by block and without their poses, that the springs that act are stable?
-bool is_clearly_stable(const Model& model, const Blocks& blocks, const Contacts& contacts)
+bool is_clearly_stable(double step, const Model& model, const Blocks& blocks, const Contacts& contacts)
 {
     std::vector<double> sum(static_cast<std::size_t>(blocks.size()), 0.0);
     for (Index i = 0; i < contacts.size(); ++i)
@@ -60,7 +60,7 @@ bool is_clearly_stable(const Model& model, const Blocks& blocks, const Contacts&
     double greatest = 0.0;
     for (Index b = 0; b < blocks.size(); ++b)
         greatest = std::max(greatest, blocks.is_free(b) ? sum[b] : 0.0);
-    return is_stable(model.time_step, greatest);
+    return is_stable(step, greatest);
 }
 }  // namespace
 
@@ -76,7 +76,7 @@ void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blo
     }
 }
 
-Closing closing_of(IndexRange range, const Model& model, const Contacts& contacts)
+double greatest_answer(IndexRange range, const Model& model, const Contacts& contacts)
 {
     double stiffness = 0.0, greatest = 0.0;
     for (const CoulombSlip& joint : model.joints.laws)
@@ -91,8 +91,7 @@ Closing closing_of(IndexRange range, const Model& model, const Contacts& contact
         }
         greatest = std::max(greatest, 0.5 * length_bound(model, contacts, i) * mobility);
     }
-    const double answer = stiffness * greatest * model.time_step * model.time_step;
-    return answer > 0.3 ? Closing::all_points : Closing::fast_points;
+    return stiffness * greatest;
 }
 
 Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& contacts, std::vector<StiffContact>& stiff)
@@ -102,7 +101,7 @@ Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& co
     {
         const bool acted = s.acts;
         s.acts = acts(contacts, s.contact);
-        if (first == no_index && s.acts && !acted && model.time_step > contact_limit(model, blocks, contacts, s.contact))
+        if (first == no_index && s.acts && !acted && blocks.step.next > contact_limit(model, blocks, contacts, s.contact))
             first = s.contact;
     }
     return first;
@@ -132,15 +131,15 @@ double contact_limit(const Model& model, const Blocks& blocks, const Contacts& c
     return greatest > 0.0 ? 2.0 / std::sqrt(greatest) : std::numeric_limits<double>::infinity();
 }
 
-StableLimit exceeded_limit(const Model& model, const Blocks& blocks, const Contacts& contacts)
+StableLimit exceeded_limit(double step, const Model& model, const Blocks& blocks, const Contacts& contacts)
 {
-    if (is_clearly_stable(model, blocks, contacts))
+    if (is_clearly_stable(step, model, blocks, contacts))
         return {};
     BlockContacts list;
     list_block_contacts(contacts, blocks.size(), list);
-    if (model.time_step <= stable_step({0, blocks.size()}, StepOf::all, model, list, contacts, blocks))
+    if (step <= stable_step({0, blocks.size()}, model, list, contacts, blocks))
         return {};
     const StableLimit limit = stable_limit(model, blocks, contacts, Springs::acting);
-    return model.time_step > limit.step ? limit : StableLimit{};
+    return step > limit.step ? limit : StableLimit{};
 }
 }  // namespace hdem

@@ -22,10 +22,16 @@ struct StiffContact
 void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
                          std::vector<StiffContact>& stiff);
 
-/// Which springs of `range` must be looked at for closing and opening: all, if one may by itself take more than 0.3 of an overlap in a cycle; slower ones take six
-/// cycles or more to turn a motion round. (With Eq. (32)'s step 0.1 to 0.3; needles of 1:100 2.) Counted with all blocks free and the stiffest joint everywhere, so that
-/// it is the same for as long as the pairs are.
-[[nodiscard]] Closing closing_of(IndexRange range, const Model& model, const Contacts& contacts);
+/// What one of the springs of `range` may by itself take of an overlap in a cycle, at most, over the square of the step [1/s2]. Counted with all blocks free and the
+/// stiffest joint everywhere, so that it is the same for as long as the pairs are.
+[[nodiscard]] double greatest_answer(IndexRange range, const Model& model, const Contacts& contacts);
+
+/// Which springs must be looked at for closing and opening: all, if one may by itself take more than 0.3 of an overlap in a cycle; slower ones take six
+/// cycles or more to turn a motion round. (With Eq. (32)'s step 0.1 to 0.3; needles of 1:100 2.)
+[[nodiscard]] inline Closing closing_of(double greatest_answer, double step)
+{
+    return greatest_answer * step * step > 0.3 ? Closing::all_points : Closing::fast_points;
+}
 
 /// The first whose springs have begun to act in this cycle though, without all others, 2 / omega_max is below the step; no_index without one. Other contacts
 /// of its blocks can only make omega_max greater. An impact at such a step lasts one cycle, or two, and throws the blocks apart: it has to be seen in that cycle.
@@ -36,6 +42,6 @@ void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blo
 /// Stable limit of the springs of one contact that gave forces in the last cycle, without all others [s].
 [[nodiscard]] double contact_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Index contact);
 
-/// Stable limit of all springs that gave forces in the last cycle, where the step exceeds it for certain; else infinite.
-[[nodiscard]] StableLimit exceeded_limit(const Model& model, const Blocks& blocks, const Contacts& contacts);
+/// Stable limit of all springs that gave forces in the last cycle, where `step` exceeds it for certain; else infinite.
+[[nodiscard]] StableLimit exceeded_limit(double step, const Model& model, const Blocks& blocks, const Contacts& contacts);
 }  // namespace hdem

@@ -3,7 +3,6 @@
 #include "core/detection/contact_tracking.h"
 #include "core/geometry/convex_part.h"
 #include "core/motion/contact_springs.h"
-#include "core/motion/pace.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -70,27 +69,14 @@ void add_contact(const Model& model, const Contacts& contacts, Index i, Index bl
                     add_spring(shear);
                 });
 }
-/// Is it, or what touches it or nearly does, faster than this?
-bool is_beside_faster(double way, Index block, const Model& model, const BlockContacts& list, const Contacts& contacts,
-                      const Blocks& blocks)
-{
-    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
-        for (const Index b : {contacts.ref[list.entry[e] / 2], contacts.inc[list.entry[e] / 2]})
-            if (way_a_cycle(b, model, blocks) > way)
-                return true;
-    return false;
-}
 }  // namespace
 
-double stable_step(IndexRange range, StepOf which, const Model& model, const BlockContacts& list, const Contacts& contacts,
-                   const Blocks& blocks)
+double stable_step(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks)
 {
-    const double way = 0.5 * skin_width(model) / static_cast<double>(rock_pace_every);
     double greatest = 0.0;
     for (Index b = range.begin; b < range.end; ++b)
     {
-        if (!blocks.is_free(b) || list.begin[b] == list.begin[b + 1] ||
-            (which == StepOf::fast && !is_beside_faster(way, b, model, list, contacts, blocks)))
+        if (!blocks.is_free(b) || list.begin[b] == list.begin[b + 1])
             continue;
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)

@@ -25,12 +25,6 @@ namespace hdem
 /// of their energy. Not under the preset `paper`.
 [[nodiscard]] double default_time_step(const Model& model, const Blocks& blocks, double greatest_stiffness, double fraction);
 
-enum class StepOf
-{
-    all,
-    fast  ///< only blocks that may have a new neighbour soon: beside one that moves by half the skin until all are looked at again (rock_pace_every)
-};
-
 /// Lower bound on the stable step of a range of blocks, 2 / omega with omega >= omega_max [s]; the least over all blocks is stable for all of them.
 /// For springs s of stiffness k_s that join blocks a and b, with rows r_a, r_b of their stretch and q = r M^-1 r^T, the inequality of Cauchy and Schwarz
 ///
@@ -41,9 +35,9 @@ enum class StepOf
 ///   omega_max^2 <= max over blocks of lambda_max( M^-1 sum_s k_s (q_a + q_b) / q_a r_a^T r_a )
 ///
 /// exact for a single spring, below the limit by some per cent in a packing (unlike critical_time_step, which comes near it from above). Tracked contacts
-/// whose edges face each other count as closed and sticking. Masses are those of pace 1.
-[[nodiscard]] double stable_step(IndexRange range, StepOf which, const Model& model, const BlockContacts& list,
-                                 const Contacts& contacts, const Blocks& blocks);
+/// whose edges face each other count as closed and sticking.
+[[nodiscard]] double stable_step(IndexRange range, const Model& model, const BlockContacts& list, const Contacts& contacts,
+                                 const Blocks& blocks);
 
 /// Which springs count.
 enum class Springs
@@ -59,7 +53,7 @@ struct StableLimit
 };
 
 /// Stable limit of the assembled contacts by power iteration on M^-1 K. Infinite without springs. `iterations` bounds the work; the estimate of omega_max
-/// comes from below, so the limit from above, by a few per cent. Masses are those of pace 1.
+/// comes from below, so the limit from above, by a few per cent.
 [[nodiscard]] StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Springs which,
                                        int iterations = 60);
 

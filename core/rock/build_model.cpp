@@ -5,6 +5,7 @@
 #include "core/geometry/space_curve.h"
 #include "core/motion/time_step.h"
 #include "core/rock/resolve_names.h"
+#include "core/stage/rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,8 @@ void add_joints(const CaseDef& def, Model& model)
             fallback = static_cast<Index>(j);
     }
     table.of_materials.assign(static_cast<std::size_t>(n * n), fallback);
-    const auto joint_named = [&](const std::string& name) {
+    const auto joint_named = [&](const std::string& name)
+    {
         const auto at = std::find(table.names.begin(), table.names.end(), name);
         return at == table.names.end() ? no_index : static_cast<Index>(at - table.names.begin());
     };
@@ -129,7 +131,8 @@ void add_joints(const CaseDef& def, Model& model)
     }
     for (const JointSetDef& set : def.joint_sets)
         table.of_joint_set.push_back(set.joint.empty() ? no_index : joint_named(set.joint));
-    table.of_joint_set.push_back(def.domain.traces_joint.empty() ? no_index : joint_named(def.domain.traces_joint));    // of all traces
+    table.of_joint_set.push_back(def.domain.traces_joint.empty() ? no_index
+                                                                 : joint_named(def.domain.traces_joint));  // of all traces
 }
 
 double smallest_free_mass(const Model& model, const Blocks& blocks)
@@ -149,15 +152,15 @@ double greatest_stiffness(const JointTable& joints)
     return stiffness;
 }
 
-void add_initial_state(const RockMass& rock, const std::vector<Index>& order, const std::vector<BlockMoments>& moments, const Model& model,
-                       State& state)
+void add_initial_state(const RockMass& rock, const std::vector<Index>& order, const std::vector<BlockMoments>& moments,
+                       const Model& model, State& state)
 {
     Blocks& blocks = state.blocks;
     const auto n = static_cast<std::size_t>(model.blocks());
     blocks.motion.resize(n);
     blocks.force.resize(n);
     blocks.inertia.resize(n);
-    blocks.pace.assign(n, 1.0);
+    blocks.stable_step.assign(n, 0.0);
     blocks.rest.assign(n, 0);
     blocks.margin.assign(n, model.contact.skin * model.mean_size);
     blocks.present.assign(n, 1);
@@ -178,19 +181,6 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
     }
 }
 
-bool is_driven(const CaseDef& def, const Blocks& blocks)
-{
-    const auto prescribes = [](const LoadDef& load) { return load.velocity_x || load.velocity_y || load.angular_velocity; };
-    bool driven = std::any_of(def.loads.begin(), def.loads.end(), prescribes);
-    for (Index b = 0; b < blocks.size(); ++b)
-    {
-        const BlockMotion& v = blocks.motion[b];
-        const BlockInertia& inertia = blocks.inertia[b];
-        driven = driven || (v.vx != 0.0 && inertia.inverse_mass_x == 0.0) || (v.vy != 0.0 && inertia.inverse_mass_y == 0.0) ||
-                 (v.w != 0.0 && inertia.inverse_inertia == 0.0);
-    }
-    return driven;
-}
 }  // namespace
 
 void set_mobility(const Model& model, Index block, bool is_free, Blocks& blocks)
@@ -208,12 +198,16 @@ Setup build_model(const CaseDef& def)
     Setup setup;
     RockMass rock = generate_rock_mass(def);
     if (rock.blocks.empty())
-        throw InputError(Problem{.key = "domain", .text = "rock mass: blocks = 0 (nothing to compute). Give a [domain] or at least one [[block]]."});
+        throw InputError(Problem{.key = "domain",
+                                 .text = "rock mass: blocks = 0 (nothing to compute). Give a [domain] or at least one [[block]]."});
     Model& model = setup.model;
     const Box box = bounding_box_of(rock.blocks);
     model.title = def.title;
     // A whole number of metres, so that subtracting it is exact for coordinates of up to 1e9 m given to a micrometre.
     model.origin = (0.5 * (box.low + box.high)).array().round();
+    model.centre = 0.5 * (box.low + box.high) - model.origin;
+    const Vec2 extent = box.high - box.low;
+    model.lost_beyond = 0.5 * extent.norm() + def.convergence.lost_distance.value_or(10.0 * extent.maxCoeff());
 
     std::vector<BlockMoments> moments;
     moments.reserve(rock.blocks.size());
@@ -257,25 +251,29 @@ Setup build_model(const CaseDef& def)
     const double smallest = smallest_free_mass(model, setup.state.blocks);
     const double stiffest = greatest_stiffness(model.joints);
     model.paper_time_step = paper_time_step(smallest, stiffest, def.time.fraction);
-    model.default_time_step = def.damping.preset == DampingPreset::paper
-                                  ? model.paper_time_step
-                                  : default_time_step(model, setup.state.blocks, stiffest, def.time.fraction);
+    model.default_time_step = takes_paper_step(def) ? model.paper_time_step
+                                                    : default_time_step(model, setup.state.blocks, stiffest, def.time.fraction);
     model.time_step = def.time.step.value_or(model.default_time_step);
-    model.is_driven = is_driven(def, setup.state.blocks);
-    model.has_own_step = !def.time.step && def.loads.empty() && !model.is_driven;
+    setup.state.blocks.step = {model.time_step, model.time_step};
+    model.is_driven = is_driven(def);
+    model.has_step = def.time.step.has_value();
     model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock.blocks, model);
 
     std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);
     if (!std::isfinite(smallest))
-        problems.push_back({.key = "domain.fixed", .text = "rock mass: free blocks = 0 (every block is fixed: nothing can move). Free at least one block."});
+        problems.push_back(
+            {.key = "domain.fixed",
+             .text = "rock mass: free blocks = 0 (every block is fixed: nothing can move). Free at least one block."});
     for (Problem& problem : rock.warnings)
         problems.push_back(std::move(problem));
-    std::erase_if(problems, [&](const Problem& problem) {
-        if (problem.severity == Problem::Severity::warning)
-            setup.warnings.push_back(problem);
-        return problem.severity == Problem::Severity::warning;
-    });
+    std::erase_if(problems,
+                  [&](const Problem& problem)
+                  {
+                      if (problem.severity == Problem::Severity::warning)
+                          setup.warnings.push_back(problem);
+                      return problem.severity == Problem::Severity::warning;
+                  });
     if (!problems.empty())
         throw InputError(std::move(problems));
     rock.blocks.clear();

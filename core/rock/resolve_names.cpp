@@ -31,8 +31,10 @@ class Resolver
             check_history(def_.histories[i], "history[" + std::to_string(i) + "]");
         for (std::size_t i = 0; i < def_.excavations.size(); ++i)
             if (excavated_.count(def_.excavations[i].name) == 0)
-                warn("excavation[" + std::to_string(i) + "]", "excavation \"" + def_.excavations[i].name +
-                         "\": no stage removes it (its blocks stay as rock). Add excavate = [\"" + def_.excavations[i].name + "\"] to a stage.");
+                warn("excavation[" + std::to_string(i) + "]",
+                     "excavation \"" + def_.excavations[i].name +
+                         "\": no stage removes it (its blocks stay as rock). Add excavate = [\"" + def_.excavations[i].name +
+                         "\"] to a stage.");
         return std::move(problems_);
     }
 
@@ -76,16 +78,19 @@ class Resolver
         for (const Index i : load.blocks)
         {
             const BlockInertia& inertia = blocks_.inertia[i];
-            const auto need_fixed = [&](bool given, double inverse, const char* component, const char* fix) {
+            const auto need_fixed = [&](bool given, double inverse, const char* component, const char* fix)
+            {
                 if (given && inverse > 0.0)
-                    fail(key, "load on block \"" + model_.name[i] + "\": " + component + " is prescribed (but the block is free to move in it). Add fixed = [\"" +
-                                  fix + "\"] to the block.");
+                    fail(key, "load on block \"" + model_.name[i] + "\": " + component +
+                                  " is prescribed (but the block is free to move in it). Add fixed = [\"" + fix +
+                                  "\"] to the block.");
             };
             need_fixed(load.velocity_x.has_value(), inertia.inverse_mass_x, "velocity_x", "x");
             need_fixed(load.velocity_y.has_value(), inertia.inverse_mass_y, "velocity_y", "y");
             need_fixed(load.angular_velocity.has_value(), inertia.inverse_inertia, "angular_velocity", "rotation");
         }
-        const auto cycle_of = [&](double time) {
+        const auto cycle_of = [&](double time)
+        {
             const double cycle = std::ceil(time / model_.time_step * (1.0 - 1e-12));
             return cycle < 9.0e18 ? static_cast<std::int64_t>(cycle) : for_ever;
         };
@@ -93,7 +98,8 @@ class Resolver
         load.from = when.from_cycle ? *when.from_cycle : (when.from_time ? cycle_of(*when.from_time) : 0);
         load.until = when.until_cycle ? *when.until_cycle : (when.until_time ? cycle_of(*when.until_time) : for_ever);
         if (load.until <= load.from)
-            warn(key, "load: acts from cycle " + std::to_string(load.from) + " until cycle " + std::to_string(load.until) + " (never). Check its times.");
+            warn(key, "load: acts from cycle " + std::to_string(load.from) + " until cycle " + std::to_string(load.until) +
+                          " (never). Check its times.");
         model_.loads.push_back(std::move(load));
     }
 
@@ -101,7 +107,8 @@ class Resolver
     {
         for (const std::string& name : stage.excavate)
         {
-            const bool is_excavation = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name) != model_.excavation_names.end();
+            const bool is_excavation = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name) !=
+                                       model_.excavation_names.end();
             if (is_excavation)
             {
                 if (!excavated_.insert(name).second)
@@ -138,7 +145,8 @@ Index material_number(const CaseDef& def, const std::string& name)
     for (std::size_t i = 0; i < def.materials.size(); ++i)
         if (def.materials[i].name == name)
             return static_cast<Index>(i);
-    throw InputError(Problem{.key = "material", .text = "material \"" + name + "\": not defined. Add [material." + name + "] with its density."});
+    throw InputError(Problem{.key = "material",
+                             .text = "material \"" + name + "\": not defined. Add [material." + name + "] with its density."});
 }
 
 std::vector<Problem> resolve_names(const CaseDef& def, Model& model, const Blocks& blocks)

@@ -92,7 +92,8 @@ CutMass start_mass(const CaseDef& def, const Polygon& domain, RockMass& rock)
     if (small > 0)
     {
         rock.warnings.push_back({Problem::Severity::warning, "domain.traces_file",
-                                 "[domain]: traces_file (" + std::to_string(small) + " cells are smaller than generator.smallest_block_area, " +
+                                 "[domain]: traces_file (" + std::to_string(small) +
+                                     " cells are smaller than generator.smallest_block_area, " +
                                      text(def.generator.smallest_block_area) + " m2). Move these traces, or leave some out."});
     }
     rock.joints += traces.traces;

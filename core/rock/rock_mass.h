@@ -18,24 +18,24 @@ struct RockBlock
     std::string name;
     std::string material;
     std::vector<ConvexPart> parts;
-    Index excavation = no_index;         ///< number of the excavation it lies in, or no_index
+    Index excavation = no_index;  ///< number of the excavation it lies in, or no_index
     bool fix_x = false;
     bool fix_y = false;
     bool fix_rotation = false;
-    Vec2 velocity = {0.0, 0.0};          ///< [m/s]
-    double angular_velocity = 0.0;       ///< [rad/s]
+    Vec2 velocity = {0.0, 0.0};     ///< [m/s]
+    double angular_velocity = 0.0;  ///< [rad/s]
 };
 
 struct RockMass
 {
     std::vector<RockBlock> blocks;
-    double domain_area = 0.0;            ///< of the generated domain [m2], 0 without one
-    std::int64_t joints = 0;             ///< traces drawn
-    std::int64_t cuts = 0;               ///< block cuts made
-    std::int64_t refused_cuts = 0;       ///< because a piece or an edge would have been too small
-    std::int64_t skipped_cuts = 0;       ///< by persistence
-    std::int64_t dead_ends = 0;          ///< stretches of traces that part nothing, dropped
-    std::int64_t merged_slivers = 0;     ///< outline pieces joined to a neighbour
+    double domain_area = 0.0;         ///< of the generated domain [m2], 0 without one
+    std::int64_t joints = 0;          ///< traces drawn
+    std::int64_t cuts = 0;            ///< block cuts made
+    std::int64_t refused_cuts = 0;    ///< because a piece or an edge would have been too small
+    std::int64_t skipped_cuts = 0;    ///< by persistence
+    std::int64_t dead_ends = 0;       ///< stretches of traces that part nothing, dropped
+    std::int64_t merged_slivers = 0;  ///< outline pieces joined to a neighbour
     std::vector<Problem> warnings;
 };
 

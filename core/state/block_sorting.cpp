@@ -101,7 +101,7 @@ void sort_blocks(Model& model, State& state)
     permute(from, blocks.motion);
     permute(from, blocks.force);
     permute(from, blocks.inertia);
-    permute(from, blocks.pace);
+    permute(from, blocks.stable_step);
     permute(from, blocks.rest);
     permute(from, blocks.margin);
     permute(from, blocks.present);

@@ -61,6 +61,15 @@ using BlockInertia = BasicInertia<double>;
     return i.inverse_mass_x > 0.0 || i.inverse_mass_y > 0.0 || i.inverse_inertia > 0.0;
 }
 
+/// The two steps that meet at the poses of now [s]. A force at these poses acts for half of each.
+struct Steps
+{
+    double last = 0.0;  ///< over which the blocks have moved here
+    double next = 0.0;  ///< over which they move on
+
+    [[nodiscard]] double kick() const { return 0.5 * (last + next); }
+};
+
 /// Blocks::rest counts up to `stopped`; the cycle after, in which the contacts have been evaluated at rest, the block is left out.
 inline constexpr std::uint8_t stopped = 8;
 inline constexpr std::uint8_t left_out = 9;
@@ -70,17 +79,17 @@ struct Blocks
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
-    std::vector<double> pace;              ///< of each block's own clock, see core/motion/pace.h; 1 as a rule [-]
+    std::vector<double> stable_step;       ///< as it was looked at last, see core/motion/step_control.h [s]
     std::vector<double> margin;            ///< a block may move so far until contacts must be found anew [m]
     std::vector<std::uint8_t> rest;        ///< checks in a row that found the block quiet, see core/motion/rest.h
     std::vector<std::uint8_t> present;     ///< 0 once excavated
     std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
     std::vector<double> reference_angle;   ///< [rad]
+    Steps step;
 
     [[nodiscard]] Index size() const { return static_cast<Index>(motion.size()); }
     [[nodiscard]] bool is_free(Index block) const { return present[block] != 0 && can_move(inertia[block]); }
-    /// By the clock of the rock [m/s].
-    [[nodiscard]] Vec2 velocity(Index block) const { return Vec2(motion[block].vx, motion[block].vy) / pace[block]; }
+    [[nodiscard]] Vec2 velocity(Index block) const { return {motion[block].vx, motion[block].vy}; }
     [[nodiscard]] Vec2 displacement(Index block) const
     {
         return Vec2(motion[block].x, motion[block].y) - reference_position[block];

@@ -6,7 +6,7 @@ namespace hdem
 /// What went in (first group) and what was spent (second), all [J], spent energy positive.
 struct EnergyLedger
 {
-    double initial = 0.0;              ///< stored at the start
+    double initial = 0.0;  ///< stored at the start
     double gravity_work = 0.0;
     double load_work = 0.0;            ///< by loads and prescribed motions
     double position_correction = 0.0;  ///< put into springs by the position correction
@@ -14,9 +14,9 @@ struct EnergyLedger
     double friction = 0.0;
     double local_damping = 0.0;
     double global_damping = 0.0;
-    double impulse_loss = 0.0;         ///< by restitution and by friction of impulses
-    double contact_changes = 0.0;      ///< see change_energy in core/energy_ledger.h
-    double removed = 0.0;              ///< taken away with excavated or fixed blocks
+    double impulse_loss = 0.0;     ///< by restitution and by friction of impulses
+    double contact_changes = 0.0;  ///< see change_energy in core/energy_ledger.h
+    double removed = 0.0;          ///< taken away with excavated or fixed blocks
 
     void add(const EnergyLedger& other)
     {

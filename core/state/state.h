@@ -15,36 +15,29 @@ namespace hdem
 struct StageOutcome
 {
     std::int64_t cycles = 0;
-    bool converged = false;
-};
-
-/// How many steps one cycle is for the blocks, see core/motion/pace.h.
-struct Paces
-{
-    double rock = 1.0;
-    double loose = 1.0;  ///< of loose blocks that move; as that of the rock when there is none
+    bool at_rest = false;
 };
 
 struct State
 {
     Blocks blocks;
     Contacts contacts;
-    std::vector<BlockMotion> rebuilt_at;        ///< poses at the last broad-phase rebuild
-    std::vector<Index> next_to_excavation;      ///< blocks that touched what was excavated, ascending
+    std::vector<BlockMotion> rebuilt_at;    ///< poses at the last broad-phase rebuild
+    std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     EnergyLedger ledger;
     std::int64_t cycle = 0;
-    double time = 0.0;                          ///< cycle x step + ahead [s]
-    double ahead = 0.0;                         ///< what paces have added to it [s]
-    Paces pace;
+    double time = 0.0;  ///< sum of all steps [s]
     std::int64_t stage_begin_cycle = 0;
-    Index stage = 0;                            ///< running, or next to begin
-    bool stage_begun = false;                   ///< `stage` runs, or has just come to its end
-    std::vector<StageOutcome> stages_done;      ///< one for each stage before `stage`
-    Method method = Method::hybrid;             ///< in force now
+    double quiet_since = -1.0;              ///< all checks of rest in the stage have held since then; < 0: the last one did not [s]
+    Index stage = 0;                        ///< running, or next to begin
+    bool stage_begun = false;               ///< `stage` runs, or has just come to its end
+    std::vector<StageOutcome> stages_done;  ///< one for each stage before `stage`
+    Method method = Method::hybrid;         ///< in force now
     DampingPreset damping = DampingPreset::automatic;
-    std::int64_t excavation_cycle = -1;         ///< of the last excavation, -1: none yet
+    std::int64_t excavation_cycle = -1;  ///< of the last excavation, -1: none yet
     std::int64_t broad_phase_runs = 0;
     std::int64_t feature_searches = 0;
-    bool contacts_outdated = true;              ///< broad phase must run before the next cycle
+    bool contacts_outdated = true;  ///< broad phase must run before the next cycle
+    bool rest_changed = false;      ///< blocks have been stopped or woken in the last cycle
 };
 }  // namespace hdem

@@ -46,6 +46,7 @@ struct ContactTally
     Index closed = 0;       ///< closed points
     Index impulses = 0;     ///< of these, in the impulse regime
     Index stale = 0;        ///< contacts whose features are to be searched anew
+    Index deep = 0;         ///< contacts with an overlap above contact.overlap_limit
 
     ContactTally& operator+=(const ContactTally& other)
     {
@@ -54,6 +55,7 @@ struct ContactTally
         closed += other.closed;
         impulses += other.impulses;
         stale += other.stale;
+        deep += other.deep;
         return *this;
     }
 };
@@ -104,8 +106,6 @@ struct Workspace
 {
     ContactLoads loads;
     BlockContacts block_contacts;
-    std::vector<double> pace_bounds;   ///< see core/motion/pace.h, per block: by itself,
-    std::vector<double> joint_bounds;  ///< and with what it touches
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
     std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step

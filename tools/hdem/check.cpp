@@ -6,6 +6,7 @@
 #include "tools/hdem/options.h"
 
 #include <fmt/format.h>
+
 #include <fstream>
 #include <limits>
 
@@ -15,12 +16,14 @@ namespace
 {
 void list_blocks(const Model& model, const State& state)
 {
-    fmt::print("{:<12} {:<12} {:>12} {:>12} {:>12} {:>12}  mobility\n", "name", "material", "area [m2]", "mass [kg]", "x [m]", "y [m]");
+    fmt::print("{:<12} {:<12} {:>12} {:>12} {:>12} {:>12}  mobility\n", "name", "material", "area [m2]", "mass [kg]", "x [m]",
+               "y [m]");
     for (const Index i : model.slot_of_user)
     {
         const BlockMotion& at = state.blocks.motion[i];
-        fmt::print("{:<12} {:<12} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}  {}{}\n", model.name[i], model.material_names[model.material[i]], model.area[i],
-                   model.mass[i], at.x + model.origin.x(), at.y + model.origin.y(), state.blocks.is_free(i) ? "free" : "fixed",
+        fmt::print("{:<12} {:<12} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}  {}{}\n", model.name[i],
+                   model.material_names[model.material[i]], model.area[i], model.mass[i], at.x + model.origin.x(),
+                   at.y + model.origin.y(), state.blocks.is_free(i) ? "free" : "fixed",
                    model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
     }
 }
@@ -51,7 +54,8 @@ int check_command(const CheckOptions& options)
     fmt::print("blocks            {} ({} free)\n", model.blocks(), free);
     fmt::print("smallest free     {:.6g} kg\n", smallest);
     if (rock.joints > 0)
-        fmt::print("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers merged\n",
+        fmt::print("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers "
+                   "merged\n",
                    rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
     fmt::print("time step         {:.6g} s\n", model.time_step);
     fmt::print("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);

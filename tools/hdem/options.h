@@ -11,22 +11,22 @@ namespace hdem
 enum ExitCode : int
 {
     exit_done = 0,
-    exit_run_failed = 1,   ///< non-finite value, overlap too great, disk full
-    exit_bad_input = 2,    ///< bad input or usage
+    exit_run_failed = 1,  ///< non-finite value, overlap too great, disk full
+    exit_bad_input = 2,   ///< bad input or usage
     exit_no_convergence = 4,
-    exit_wall_time = 5         ///< --max-wall was over; 130 and 143: interrupted by SIGINT and SIGTERM
+    exit_wall_time = 5  ///< --max-wall was over; 130 and 143: interrupted by SIGINT and SIGTERM
 };
 
 struct RunOptions
 {
-    std::string case_file;                    ///< "" = that of the checkpoint
-    std::string folder;                       ///< of the results; "" = named after the case, or that of the checkpoint
-    std::string restart;                      ///< checkpoint, or folder with one; "" = a new run
-    bool overwrite = false;                   ///< begin anew where a run was cut short
-    std::optional<double> max_wall;           ///< [s]
+    std::string case_file;           ///< "" = that of the checkpoint
+    std::string folder;              ///< of the results; "" = named after the case, or that of the checkpoint
+    std::string restart;             ///< checkpoint, or folder with one; "" = a new run
+    bool overwrite = false;          ///< begin anew where a run was cut short
+    std::optional<double> max_wall;  ///< [s]
     std::optional<std::string> method;
     std::optional<int> threads;
-    std::vector<std::string> overrides;       ///< key.path=value
+    std::vector<std::string> overrides;  ///< key.path=value
     bool quiet = false;
     std::vector<std::string> command_line;
 };

@@ -96,7 +96,10 @@ int run_command(const RunOptions& options)
         session.seconds = std::chrono::duration<double>(RunKeeper::Clock::now() - first).count();
         session.cpu_seconds = cpu_seconds() - session.cpu_seconds;
         if (keeper.exit_code())
+        {
+            recorder->show_interruption(simulation.model(), simulation.state());
             return *keeper.exit_code();
+        }
         recorder->finish(simulation.model(), simulation.state());
         keeper.finish(simulation);
     }
@@ -108,6 +111,11 @@ int run_command(const RunOptions& options)
     const RunSummary summary = summarise(start, simulation, stages, session, keeper.wall_seconds());
     write_summary(folder / "summary.json", summary);
     print_closing(log, summary, session, simulation, folder);
+    if (const LedgerWatch& watch = simulation.ledger_watch(); watch.share > wrong_residual)
+        throw RunError(
+            fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} (more than ten times what it should be: "
+                        "the answer may be wrong by as much). Give a smaller time.step or time.stable_fraction. Results are in {}.",
+                        watch.residual, watch.cycle, folder.string()));
     return summary.converged ? exit_done : exit_no_convergence;
 }
 }  // namespace hdem

@@ -1,5 +1,6 @@
 #include "tools/hdem/run_keeper.h"
 
+#include "parallel/state_check.h"
 #include "tools/hdem/options.h"
 #include "tools/hdem/signals.h"
 
@@ -68,8 +69,8 @@ void RunKeeper::finish(const Simulation& simulation)
 void RunKeeper::save(const Simulation& simulation)
 {
     const Clock::time_point begin = Clock::now();
-    simulation.check_state();  // a state that blew up must not take the place of a sound one
-    recorder_.save();          // before the checkpoint: rows younger than it are dropped at a restart, missing ones would stay so
+    check_finite(simulation.model(), simulation.state());  // a state that blew up must not take the place of a sound one
+    recorder_.save();  // before the checkpoint: rows younger than it are dropped at a restart, missing ones would stay so
     record_.history_axes = recorder_.history_axes();
     record_.wall_seconds = wall_seconds();
     write_checkpoint(settings_.folder, record_, simulation.model(), simulation.state());

@@ -1,6 +1,7 @@
 #include "tools/hdem/run_report.h"
 
 #include "core/energy_ledger.h"
+#include "core/stage/rules.h"
 #include "core/state/state_hash.h"
 #include "core/version.h"
 #include "io/digest.h"
@@ -21,11 +22,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-std::string method_name(Method method)
-{
-    return method == Method::force ? "force" : (method == Method::impulse ? "impulse" : "hybrid");
-}
-
 Index free_blocks(const State& state)
 {
     Index count = 0;
@@ -37,6 +33,14 @@ Index free_blocks(const State& state)
 Index present_blocks(const State& state)
 {
     return std::accumulate(state.blocks.present.begin(), state.blocks.present.end(), Index{0});
+}
+
+std::vector<std::string> names_of(const Model& model, const std::vector<Index>& blocks)
+{
+    std::vector<std::string> names;
+    for (const Index block : blocks)
+        names.push_back(model.name[block]);
+    return names;
 }
 
 double smallest_free_mass(const Model& model, const State& state)
@@ -63,6 +67,32 @@ std::string origin_of_threads(const RunOptions& options)
     if (options.threads)
         return "--threads";
     return std::getenv("OMP_NUM_THREADS") != nullptr ? "OMP_NUM_THREADS" : "the processors at hand";
+}
+
+/// The first ones, and how many more.
+std::string first_of(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 10;
+    const auto shown = static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + shown, ", "),
+                       names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
+}
+
+/// What a user must know of a run that came to its end.
+std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
+{
+    std::vector<std::string> warnings;
+    if (!s.lost_blocks.empty())
+        warnings.push_back(
+            fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
+                        "greater convergence.lost_distance.",
+                        first_of(s.lost_blocks)));
+    if (const LedgerWatch& watch = simulation.ledger_watch(); watch.share > 1.0)
+        warnings.push_back(
+            fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
+                        "Give a smaller time.step or time.stable_fraction.",
+                        watch.residual, watch.cycle, watch.share));
+    return warnings;
 }
 
 double peak_megabytes()
@@ -101,7 +131,7 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
             rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers));
     log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
                          simulation.count_contacts().closed()));
-    log.line(fmt::format("method    {}; threshold scale {:.4g}", method_name(state.method), model.threshold_scale));
+    log.line(fmt::format("method    {}; threshold scale {:.4g}", name_of(state.method), model.threshold_scale));
     log.line(fmt::format("threads   {} ({})", simulation.threads(), origin_of_threads(options)));
     const bool is_shortened = model.time_step == model.default_time_step && model.time_step < model.paper_time_step;
     log.line(fmt::format("time step {:.4g} s{}; Eq. (32) {:.4g} s, stable limit of the present contacts {:.4g} s", model.time_step,
@@ -126,7 +156,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     RunSummary s;
     s.case_name = fs::path(start.record.case_file).filename().string();
     s.title = model.title;
-    s.method = method_name(state.method);
+    s.method = name_of(state.method);
     s.threads = simulation.threads();
     s.version = version().number;
     s.git_commit = version().commit;
@@ -138,12 +168,16 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.smallest_block_mass = smallest_free_mass(model, state);
     s.cycles = state.cycle;
     s.time = state.time;
-    s.converged = std::ranges::all_of(stages, [](const StageResult& stage) { return stage.converged || !stage.until_converged; });
+    s.converged = std::ranges::all_of(stages, [](const StageResult& stage) { return stage.at_rest || !stage.sought_rest; });
     if (state.excavation_cycle >= 0)
         s.cycles_after_excavation = state.cycle - state.excavation_cycle;
     for (const StageResult& stage : stages)
-        s.stages.push_back(
-            {.name = stage.name, .cycles = stage.cycles, .until_converged = stage.until_converged, .converged = stage.converged, .wall_seconds = stage.wall_seconds});
+        s.stages.push_back({.name = stage.name,
+                            .cycles = stage.cycles,
+                            .sought_rest = stage.sought_rest,
+                            .at_rest = stage.at_rest,
+                            .not_at_rest = names_of(model, stage.not_at_rest),
+                            .wall_seconds = stage.wall_seconds});
     s.kinetic_energy = now.kinetic_energy;
     s.kinetic_energy_limit = now.kinetic_energy_at(model.convergence.mean_speed);
     s.unbalanced_force_ratio = now.unbalanced_force_ratio();
@@ -159,18 +193,27 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.contact_point_updates_per_second = static_cast<double>(simulation.contact_point_updates()) / std::max(session.seconds, 1e-9);
     s.timing = summarise_times(simulation.stage_times(), session.output_seconds, session.seconds);
     s.state_hash = state_hash(model, state);
+    for (const Index block : model.slot_of_user)
+        if (has_left(block, model, state.blocks) && !state.blocks.is_free(block))
+            s.lost_blocks.push_back(model.name[block]);
     for (const Problem& warning : start.loaded.warnings)
         s.warnings.push_back(warning.text);
+    for (std::string& warning : run_warnings(simulation, s))
+        s.warnings.push_back(std::move(warning));
     return s;
 }
 
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
-    const bool aimed = std::ranges::any_of(s.stages, &StageSummary::until_converged);
+    const bool aimed = std::ranges::any_of(s.stages, &StageSummary::sought_rest);
     log.line(fmt::format(
         "{} after {} cycles ({:.4g} s){}", !aimed ? "done" : (s.converged ? "converged" : "NOT converged"), s.cycles, s.time,
         s.cycles_after_excavation ? fmt::format(", {} of them after the excavation", *s.cycles_after_excavation) : ""));
+    for (const StageSummary& stage : s.stages)
+        if (!stage.not_at_rest.empty())
+            log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks: {}", stage.name, stage.not_at_rest.size(),
+                                 first_of(stage.not_at_rest)));
     log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
                          s.kinetic_energy_limit, s.unbalanced_force_ratio));
     log.line(fmt::format("displacement {}: mean {:.4g} mm, greatest {:.4g} mm; all blocks: mean {:.4g} mm, greatest {:.4g} mm",
@@ -200,6 +243,8 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                          "at most {:.0f} MB",
                          duration_text(s.wall_seconds), static_cast<double>(s.cycles - session.first_cycle) / seconds,
                          1e-6 * s.contact_point_updates_per_second, session.cpu_seconds / seconds, s.threads, peak_megabytes()));
+    for (const std::string& warning : run_warnings(simulation, s))
+        log.line("warning: " + warning);
     log.line(fmt::format("state hash {:016x}", s.state_hash));
     log.line(fmt::format("results in {}", folder.string()));
 }

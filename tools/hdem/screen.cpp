@@ -1,7 +1,7 @@
 #include "tools/hdem/screen.h"
 
 #include "core/check.h"
-#include "core/motion/pace.h"
+#include "core/stage/rules.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -70,22 +70,52 @@ RowObserver::RowObserver(const Simulation& simulation, Log& log) : simulation_(s
 
 namespace
 {
-/// How a stage that looks for a state of rest deals with time.
-std::vector<std::string> pace_notes(const Model& model)
+/// How long the steps of a stage are, where they vary.
+std::vector<std::string> step_notes(const Model& model, const StepRule& rule)
 {
-    std::vector<std::string> notes;
-    if (model.has_own_step)
-        notes.push_back(
-            fmt::format("note: no time.step is given: in this stage a cycle takes {:.4g} (time.stable_fraction) of the largest "
-                        "step that is stable with the present contacts, from 1 to 64 times {:.4g} s.",
-                        model.stable_fraction, model.time_step));
-    if (!model.is_driven)
-        notes.push_back(
-            fmt::format("note: blocks that have moved more than {:.4g} m in this stage run ahead of the rock while it is at "
-                        "rest, and the time with them. A greater convergence.loose_distance, or damping.preset = "
-                        "\"paper\" or \"dynamic\", keeps them with it.",
-                        model.convergence.loose_distance));
-    return notes;
+    if (!rule.varies)
+        return {};
+    if (rule.keeps_given)
+        return {fmt::format(
+            "note: while all rock that stands is at rest, blocks that have moved more than {:.4g} m in this stage take longer "
+            "steps than the {:.4g} s given, as long as they can bear. A greater convergence.loose_distance keeps the "
+            "given step.",
+            rule.loose_distance, model.time_step)};
+    return {fmt::format(
+        "note: no time.step is given: in this stage a cycle takes {:.4g} (time.stable_fraction) of the largest step that is "
+        "stable for the blocks that are not at rest.",
+        rule.stable_share)};
+}
+
+/// What a static solution at the beginning of the stage has found.
+std::string statics_note(const Model& model, const StaticOutcome& statics)
+{
+    std::string names;
+    constexpr std::size_t most_names = 10;
+    for (std::size_t i = 0; i < std::min(statics.loose.size(), most_names); ++i)
+        names += (i == 0 ? " " : ", ") + model.name[statics.loose[i]];
+    if (statics.loose.size() > most_names)
+        names += ", ...";
+    const std::string effort = fmt::format("after {} iterations", statics.iterations);
+    if (statics.kind == StaticOutcome::Kind::not_converged)
+        return fmt::format("note: static solution: not found {}; the stage goes through cycles from its beginning.", effort);
+    if (statics.kind == StaticOutcome::Kind::no_equilibrium)
+        return fmt::format(
+            "note: static solution: no equilibrium found {}; {} blocks kept moving:{}. The stage goes through cycles from "
+            "its beginning.",
+            effort, statics.loose.size(), names);
+    const std::string found = fmt::format("note: static solution: in balance {}, unbalanced force ratio {:.2g}", effort,
+                                          statics.residual);
+    return statics.loose.empty() ? found + "." : found + fmt::format("; {} blocks come away:{}.", statics.loose.size(), names);
+}
+
+/// Free blocks that are not left out as being at rest.
+Index moving_blocks(const Blocks& blocks)
+{
+    Index moving = 0;
+    for (Index i = 0; i < blocks.size(); ++i)
+        moving += blocks.is_free(i) && blocks.takes_part(i) ? 1 : 0;
+    return moving;
 }
 }  // namespace
 
@@ -105,15 +135,17 @@ void RowObserver::begin_stage(const Model& model, const State& state)
     log_.line("");
     if (state.cycle > state.stage_begin_cycle)
         log_.line(fmt::format("goes on after cycle {}", state.cycle));
-    log_.line(stage.until_converged
+    log_.line(ends_at_rest(stage)
                   ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
                                 simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
                   : fmt::format("stage \"{}\": {} cycles", stage.name, most));
-    if (is_relaxing(model, state))
-        for (const std::string& note : pace_notes(model))
-            log_.line(note);
-    log_.line(fmt::format("{:>9} {:>11} {:>12} {:>11} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]", "kinetic [J]",
-                          "unbalanced", "stick", "slip", "impulse", "cycles/s", "time left"));
+    for (const std::string& note : step_notes(model, resolve_rules(model, state).step))
+        log_.line(note);
+    if (simulation_.statics() && state.cycle == state.stage_begin_cycle)
+        log_.line(statics_note(model, *simulation_.statics()));
+    log_.line(fmt::format("{:>9} {:>11} {:>9} {:>12} {:>11} {:>11} {:>7} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]",
+                          "step [s]", "kinetic [J]", "unbalanced", "worst block", "moving", "stick", "slip", "impulse", "cycles/s",
+                          "time left"));
 }
 
 void RowObserver::observe(const Model& model, const State& state)
@@ -124,7 +156,7 @@ void RowObserver::observe(const Model& model, const State& state)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_time_).count();
     const double rate = static_cast<double>(state.cycle - first_cycle_) / std::max(seconds, 1e-9);
     const double left = static_cast<double>(last_cycle(stage, state.stage_begin_cycle, model.time_step) - state.cycle) / rate;
-    const std::string left_text = (stage.until_converged ? "< " : "") + duration_text(left);
+    const std::string left_text = (ends_at_rest(stage) ? "< " : "") + duration_text(left);
     const Equilibrium now = simulation_.equilibrium();
     if (log_.is_interactive() && next_multiple(state.cycle - 1, model.output.row_every) != state.cycle &&
         next_cycle(state.cycle - 1) == state.cycle)
@@ -134,8 +166,9 @@ void RowObserver::observe(const Model& model, const State& state)
         return;
     }
     const ContactCounts counts = simulation_.count_contacts();
-    log_.line(fmt::format("{:>9} {:>11.5g} {:>12.4e} {:>11.3e} {:>7} {:>7} {:>7} {:>10.0f} {:>12}", state.cycle, state.time,
-                          now.kinetic_energy, now.unbalanced_force_ratio(), counts.points[1], counts.points[2], counts.points[3],
+    log_.line(fmt::format("{:>9} {:>11.5g} {:>9.3g} {:>12.4e} {:>11.3e} {:>11.3e} {:>7} {:>7} {:>7} {:>7} {:>10.0f} {:>12}",
+                          state.cycle, state.time, state.blocks.step.last, now.kinetic_energy, now.unbalanced_force_ratio(),
+                          now.unbalanced.value, moving_blocks(state.blocks), counts.points[1], counts.points[2], counts.points[3],
                           rate, left_text));
     row_cycle_ = state.cycle;
 }

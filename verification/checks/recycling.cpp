@@ -1,9 +1,8 @@
 /// Recycled features: facing edges stored while a pair has hardly moved, against a full search in every cycle.
 
-#include "verification/checks/checks.h"
-#include "verification/checks/case_run.h"
-
 #include "core/motion/equilibrium.h"
+#include "verification/checks/case_run.h"
+#include "verification/checks/checks.h"
 
 #include <fmt/format.h>
 
@@ -70,9 +69,9 @@ void check_tunnel(Report& report)
         const DisplacementReport ours = report_displacements(recycled.model(), recycled.state());
         const DisplacementReport full = report_displacements(searched.model(), searched.state());
         const std::string name = std::string(method) + ": ";
-        report.require({name + "mean displacement next to the tunnel [mm]", "full search in every cycle", 1e3 * full.mean,
-                        1e3 * ours.mean},
-                       relative(0.01));
+        report.require(
+            {name + "mean displacement next to the tunnel [mm]", "full search in every cycle", 1e3 * full.mean, 1e3 * ours.mean},
+            relative(0.01));
         report.require({name + "cycles after the excavation", "full search in every cycle",
                         static_cast<double>(searched.stages().back().cycles), static_cast<double>(recycled.stages().back().cycles)},
                        relative(0.01));

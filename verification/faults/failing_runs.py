@@ -107,7 +107,7 @@ class Faults(unittest.TestCase):
 
     def test_overlap_above_its_limit_stops_with_a_frame_of_the_moment(self):
         self.expect_a_stop_with_a_frame_of_the_moment(
-            r'error: cycle \d+, time \S+ s: blocks "\w+" and "\w+", contact \d+ at \(\S+, \S+\) m: overlap = .*contact\.overlap_limit.*time\.step',
+            r'error: cycle \d+, time \S+ s: blocks "[\w.]+" and "[\w.]+", contact \d+ at \(\S+, \S+\) m: overlap = .*contact\.overlap_limit.*time\.step',
             "--set", "contact.overlap_limit=1e-7")
 
     def test_state_that_is_not_finite_stops_with_a_frame_of_the_moment(self):

@@ -33,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     try
     {
-        const hdem::CaseFile read = hdem::read_case_text(std::string(reinterpret_cast<const char*>(data), size), "/nowhere/fuzz.toml");
+        const hdem::CaseFile read = hdem::read_case_text(std::string(reinterpret_cast<const char*>(data), size),
+                                                         "/nowhere/fuzz.toml");
         if (hdem::is_small(read.def))
             (void)hdem::build_model(read.def);
     }

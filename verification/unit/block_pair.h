@@ -108,7 +108,7 @@ struct BlockPair
                     if (state.contacts.part_a[k] == i && state.contacts.part_b[k] == j)
                         contact = state.contacts.get(k);
                 if (shapes.part_block[i] != shapes.part_block[j] &&
-                    find_features(model, state.blocks.motion, contact) <= skin_width(model))
+                    find_features(model, state.blocks, contact) <= skin_width(model))
                     found.push_back(contact);
             }
         state.contacts.resize(static_cast<Index>(found.size()));
@@ -117,7 +117,7 @@ struct BlockPair
     }
 
     /// Contact forces at the present poses, without weights; forces on each block are in state.blocks.force.
-    void evaluate(Method method = Method::force) { evaluate(RegimeRule{.method = method}); }
+    void evaluate(ContactLaw law = ContactLaw::springs) { evaluate(RegimeRule{.law = law}); }
     void evaluate(const RegimeRule& rule)
     {
         const IndexRange all{0, state.contacts.size()};

@@ -82,6 +82,10 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
     for (const ConvexPart& part : parts)
         moments.push_back(area_moments(part.vertices));
     const AreaMoments whole = combined(moments);
+    double radius = 0.0;
+    for (const ConvexPart& part : parts)
+        for (const Vec2& v : part.vertices)
+            radius = std::max(radius, (v - whole.centroid).norm());
     if (number == 0)
         model.shapes.part_begin = model.shapes.vertex_begin = {0};
     for (const ConvexPart& part : parts)
@@ -104,10 +108,11 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
     model.area.push_back(whole.area);
     model.mass.push_back(2700.0 * whole.area);
     model.inertia.push_back(2700.0 * whole.polar);
+    model.radius.push_back(radius);
     const Vec2 at = whole.centroid - model.origin;
     blocks.motion.push_back({.x = at.x(), .y = at.y()});
     blocks.force.emplace_back();
-    blocks.pace.push_back(1.0);
+    blocks.stable_step.push_back(0.0);
     blocks.rest.push_back(0);
     blocks.margin.push_back(1.0);
     blocks.inertia.push_back(
@@ -195,6 +200,7 @@ inline SmallRun small_run()
     model.stages.resize(1);
     model.stages[0].name = "rest";
     model.time_step = 1e-4;
+    run.state.blocks.step = {1e-4, 1e-4};
     add_block(run, "ground", {rectangle(99.0, 199.0, 102.0, 200.0)}, true);
     const ConvexPart lower = {.vertices = {{103.0, 200.0}, {105.0, 200.0}, {105.0, 201.0}, {104.0, 201.0}, {103.0, 201.0}},
                               .source = {edge_plain, edge_plain, edge_plain, edge_internal, edge_plain}};

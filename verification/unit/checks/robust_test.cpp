@@ -32,7 +32,8 @@ class Robust : public testing::TestWithParam<std::string>
         EXPECT_EQ(outcome.failure, "") << scene.name;
         EXPECT_TRUE(outcome.watch.is_finite()) << scene.name;
         EXPECT_GT(outcome.watch.lowest_centroid(), 0.0) << scene.name;
-        EXPECT_LE(outcome.residual, 1e-3) << scene.name;  // robust.* asks for less, see verification/README.md for where it is missed
+        EXPECT_LE(outcome.residual, 1e-3)
+            << scene.name;  // robust.* asks for less, see verification/README.md for where it is missed
         if (scene.greatest_speed > 0.0)
         {
             EXPECT_LE(outcome.watch.greatest_speed() / scene.greatest_speed, robust_bars.speed) << scene.name;

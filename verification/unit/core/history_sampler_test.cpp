@@ -126,7 +126,7 @@ TEST(HistorySampler, FollowsContactsThroughABroadPhase)
     test::load_contact(run, 0, 7.0, 0.0, Regime::stick);
     HistorySampler sampler(run.model, test::history("h", {"ground", "block"}, {"normal_force"}));
     EXPECT_EQ(sample(sampler, run).at("normal_force"), 7.0);
-    test::add_contact(run, 1, 0, 0, 2);    // another pair comes first now
+    test::add_contact(run, 1, 0, 0, 2);  // another pair comes first now
     run.state.contacts.put(1, run.state.contacts.get(0));
     Contact other = run.state.contacts.get(0);
     other.part_a = run.model.shapes.part_begin[0];

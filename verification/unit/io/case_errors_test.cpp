@@ -249,7 +249,8 @@ TEST(CaseErrors, FilesThatCannotBeRead)
     };
     EXPECT_THAT(problem_of(folder), HasSubstr("is a folder"));
     EXPECT_THAT(problem_of(folder / "absent.toml"), HasSubstr("does not exist"));
-    EXPECT_THAT(problem_of("/dev/zero"), HasSubstr("/dev/zero: case: (is a pipe, a socket or a device). Write the text to a file first"));
+    EXPECT_THAT(problem_of("/dev/zero"),
+                HasSubstr("/dev/zero: case: (is a pipe, a socket or a device). Write the text to a file first"));
     std::ofstream(folder / "big.toml") << std::string(largest_case_file + 1, ' ');
     EXPECT_THAT(problem_of(folder / "big.toml"), HasSubstr("larger than 16000000 bytes"));
     std::ofstream(folder / "empty.toml").flush();

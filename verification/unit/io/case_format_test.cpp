@@ -83,6 +83,13 @@ TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
     while (std::getline(header, line))
     {
         line = line.substr(0, line.find("//"));
+        while (line.ends_with("=") || line.ends_with("= "))  // the value stands on the next line
+        {
+            std::string value;
+            if (!std::getline(header, value))
+                break;
+            line += value.substr(0, value.find("//"));
+        }
         const std::string declaration = line.substr(0,
                                                     line.find_first_of("=;"));  // "    double width " of "    double width = 0.0;"
         const auto end = declaration.find_last_not_of(' ') + 1;

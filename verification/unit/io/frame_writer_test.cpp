@@ -205,6 +205,8 @@ TEST(FrameWriter, NewRunsRemoveOldFramesAndRestartsKeepThem)
     }
     std::ofstream(folder / "frames/notes_000000.hdf") << "the user's own";
     run.state.cycle = 10;
+    EXPECT_EQ(FrameWriter(folder.path(), run.model, run.state).frames().size(), 1U) << "of an interruption";
+    run.model.output.frame_every = 10;
     FrameWriter restarted(folder.path(), run.model, run.state);
     ASSERT_EQ(restarted.frames().size(), 2U);
     EXPECT_THAT(test::text_in(folder / "blocks.hdf.series"), Not(HasSubstr("blocks_000002.hdf")));

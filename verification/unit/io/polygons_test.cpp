@@ -136,7 +136,8 @@ TEST(PolygonFile, RefusesAnEndlessLineBeforeItFillsTheMemory)
 
 TEST(PolygonFile, ReadsRowsOfATable)
 {
-    std::istringstream in("name,x,y,material,fixed\nbench,0,0,chalk,fixed\nbench,1,0\nbench,1,1\nlid, 0,1\nlid,1,1\nlid,0,2\nlid,0,1\n");
+    std::istringstream in(
+        "name,x,y,material,fixed\nbench,0,0,chalk,fixed\nbench,1,0\nbench,1,1\nlid, 0,1\nlid,1,1\nlid,0,2\nlid,0,1\n");
     const PolygonFile file = read_polygons(in, "blocks.csv");
     EXPECT_THAT(file.problems, testing::IsEmpty());
     ASSERT_EQ(file.blocks.size(), 2U);
@@ -144,7 +145,8 @@ TEST(PolygonFile, ReadsRowsOfATable)
     EXPECT_EQ(file.blocks[0].block.material, "chalk");
     EXPECT_TRUE(file.blocks[0].block.fix_rotation);
     EXPECT_EQ(file.blocks[0].line, 2);
-    EXPECT_THAT(file.blocks[1].block.polygon, testing::ElementsAre(Vec2(0, 1), Vec2(1, 1), Vec2(0, 2))) << "a repeated first vertex is dropped";
+    EXPECT_THAT(file.blocks[1].block.polygon, testing::ElementsAre(Vec2(0, 1), Vec2(1, 1), Vec2(0, 2)))
+        << "a repeated first vertex is dropped";
 }
 
 TEST(PolygonFile, SaysWhichRowOfATableIsWrong)

@@ -1,6 +1,6 @@
 #include "core/check.h"
-#include "io/hdf5_reader.h"
 #include "io/checkpoint.h"
+#include "io/hdf5_reader.h"
 #include "io/run_recorder.h"
 #include "verification/unit/small_run.h"
 
@@ -34,8 +34,17 @@ SmallRun run_with_histories()
 
 Provenance some_provenance()
 {
-    return {.case_file = "a.toml", .case_text = "title = \"a\"\n", .overrides = {}, .command_line = {"hdem", "run", "a.toml"}, .seed = 3, .threads = 2,
-            .cpu = "c", .hostname = "h", .environment = {}, .begin = "b", .end = ""};
+    return {.case_file = "a.toml",
+            .case_text = "title = \"a\"\n",
+            .overrides = {},
+            .command_line = {"hdem", "run", "a.toml"},
+            .seed = 3,
+            .threads = 2,
+            .cpu = "c",
+            .hostname = "h",
+            .environment = {},
+            .begin = "b",
+            .end = ""};
 }
 
 /// What a run does: show the cycles that are asked for.
@@ -71,7 +80,8 @@ TEST(RunRecorder, TakesRowsAndFramesAtTheirIntervalsAndAtTheEndOfAStage)
 
     const Hdf5Reader in(folder / "results.h5");
     EXPECT_THAT(in.read<std::int64_t>("/history/contact/cycle", {any_extent}), ElementsAre(0, 5, 10, 15, 20, 23));
-    EXPECT_THAT(in.read<std::int64_t>("/history/block/cycle", {any_extent}), ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 23));
+    EXPECT_THAT(in.read<std::int64_t>("/history/block/cycle", {any_extent}),
+                ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 23));
     EXPECT_THAT(in.read<std::int64_t>("/energy/cycle", {any_extent}), ElementsAre(0, 10, 20, 23));
     EXPECT_THAT(in.read<double>("/energy/work", {any_extent}), ElementsAre(0.0, 20.0, 40.0, 46.0));
     EXPECT_EQ(in.text("/energy/work", "unit"), "J");
@@ -97,18 +107,18 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);
     run.state.blocks.present[1] = 0;
-    test::load_contact(run, 0, 0.0, 0.0, Regime::open);    // a frame without contacts
+    test::load_contact(run, 0, 0.0, 0.0, Regime::open);  // a frame without contacts
     show(run, recorder, 40);
     recorder.finish(run.model, run.state);
     RunRecord record;
     record.files = {{"a.wkt", "# none"}};
     record.history_axes = recorder.history_axes();
     run.state.rebuilt_at = run.state.blocks.motion;
-    run.state.stages_done = {{.cycles = 7, .converged = true}};
+    run.state.stages_done = {{.cycles = 7, .at_rest = true}};
     write_checkpoint(folder.path(), record, run.model, run.state);
     const std::string source = HDEM_SOURCE_DIR;
-    const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source + "/io/hdf5_format.md " +
-                                folder.path().string() + " > " + (folder / "log").string() + " 2>&1";
+    const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source +
+                                "/io/hdf5_format.md " + folder.path().string() + " > " + (folder / "log").string() + " 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << test::text_in(folder / "log");
 }
 
@@ -220,7 +230,8 @@ TEST(ResultsWriter, FileIsWholeWheneverTheRunIsKilled)
         const auto cycle = in.read<std::int64_t>("/energy/cycle", {any_extent});
         const auto again = in.read<double>("/energy/cycle_again", {cycle.size()});
         EXPECT_EQ(cycle.size() % 500, 0U);
-        EXPECT_TRUE(std::equal(cycle.begin(), cycle.end(), again.begin(), [](std::int64_t a, double b) { return static_cast<double>(a) == b; }));
+        EXPECT_TRUE(std::equal(cycle.begin(), cycle.end(), again.begin(),
+                               [](std::int64_t a, double b) { return static_cast<double>(a) == b; }));
     }
     EXPECT_GT(seen, 10);
 }

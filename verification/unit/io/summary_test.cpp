@@ -16,14 +16,37 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     RunSummary summary{.case_name = "tunnel", .method = "hybrid", .threads = 2, .blocks = 700};
     summary.cycles_after_excavation = 32709;
     summary.detached_blocks = {"b12", "b13"};
-    summary.stages = {{.name = "initial", .cycles = 5000}, {.name = "excavated", .cycles = 32709, .until_converged = true, .converged = true}};
+    summary.stages = {{.name = "initial", .cycles = 5000},
+                      {.name = "excavated", .cycles = 32709, .sought_rest = true, .at_rest = true}};
     summary.state_hash = 0xabc;
     write_summary(folder / "summary.json", summary);
     const auto json = nlohmann::json::parse(test::text_in(folder / "summary.json"));
-    for (const char* key : {"case", "method", "threads", "version", "blocks", "free_blocks", "contact_points", "time_step", "cycles", "converged",
-                            "cycles_after_excavation", "kinetic_energy", "mean_displacement", "max_displacement", "detached_blocks", "wall_seconds",
-                            "contact_point_updates_per_second", "state_hash", "kinetic_energy_limit", "unbalanced_force_ratio", "stages",
-                            "mean_displacement_all", "max_displacement_all", "smallest_block_mass", "paper_time_step", "warnings"})
+    for (const char* key : {"case",
+                            "method",
+                            "threads",
+                            "version",
+                            "blocks",
+                            "free_blocks",
+                            "contact_points",
+                            "time_step",
+                            "cycles",
+                            "converged",
+                            "cycles_after_excavation",
+                            "kinetic_energy",
+                            "mean_displacement",
+                            "max_displacement",
+                            "detached_blocks",
+                            "wall_seconds",
+                            "contact_point_updates_per_second",
+                            "state_hash",
+                            "kinetic_energy_limit",
+                            "unbalanced_force_ratio",
+                            "stages",
+                            "mean_displacement_all",
+                            "max_displacement_all",
+                            "smallest_block_mass",
+                            "paper_time_step",
+                            "warnings"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json["case"], "tunnel");
     EXPECT_EQ(json["cycles_after_excavation"], 32709);

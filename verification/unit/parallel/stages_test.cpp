@@ -49,7 +49,7 @@ TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)
     EXPECT_EQ(results[1].first_cycle, 123);
     EXPECT_EQ(results[2].cycles, 11) << "begun is finished";
     EXPECT_EQ(results[3].cycles, 0);
-    EXPECT_FALSE(results[0].converged);
+    EXPECT_FALSE(results[0].at_rest);
 }
 
 TEST(Stages, ShowObserversTheCyclesTheyAskedForAndTheEnds)
@@ -95,8 +95,8 @@ TEST(Stages, EndOnceConvergedByEitherCriterion)
     for (const std::string criterion : {"kinetic_energy", "unbalanced_force_ratio"})
     {
         const std::vector<StageResult> results = run_all(until_converged(criterion));
-        EXPECT_TRUE(results[0].converged) << criterion;
-        EXPECT_TRUE(results[0].until_converged);
+        EXPECT_TRUE(results[0].at_rest) << criterion;
+        EXPECT_TRUE(results[0].sought_rest);
         EXPECT_LT(results[0].cycles, 5000) << criterion;
         EXPECT_EQ(results[0].cycles % 10, 0);
         EXPECT_GE(results[0].cycles, 100);
@@ -113,7 +113,7 @@ TEST(Stages, AreNotConvergedBeforeTheLeastCyclesNorAfterTheLimit)
     scene.stages[0].max_cycles = 555;
     const StageResult result = run_all(scene)[0];
     EXPECT_EQ(result.cycles, 555);
-    EXPECT_FALSE(result.converged);
+    EXPECT_FALSE(result.at_rest);
 }
 
 std::string error_of(const CaseDef& scene)

@@ -24,7 +24,7 @@ double overlap_before(const OverlapCourse& course)
 
 double next_overlap(const OverlapCourse& course)
 {
-    return course.now + course.past + course.others - closing_share(course) * course.answer;
+    return course.now + course.coast + course.others - closing_share(course) * course.answer;
 }
 
 /// What a cycle adds to the energy of blocks and spring, over K_N L: the spring's energy less its work, when the overlap goes on as `course` says.
@@ -38,6 +38,7 @@ OverlapCourse any_course(double least_others, double most_others)
 {
     return {.now = *between(0.0, 1.0),
             .past = *between(-2.0, 2.0),
+            .coast = *between(-2.0, 2.0),
             .others = *between(least_others, most_others),
             .answer = *between(0.0, 2.0)};
 }
@@ -63,15 +64,16 @@ RC_GTEST_PROP(ClosingShare, IsOneForWhatStaysClosed, ())
 {
     const double now = *between(0.01, 1.0);
     const double answer = *between(0.0, 4.0) * now;  // up to the stable limit
-    RC_ASSERT(closing_share<double>({.now = now, .past = 0.0, .others = answer, .answer = answer}) == 1.0);
+    RC_ASSERT(closing_share<double>({.now = now, .past = 0.0, .coast = 0.0, .others = answer, .answer = answer}) == 1.0);
 }
 
 TEST(ClosingShare, ComesFromTheTwoSidesOfTheFirstOverlap)
 {
     // From a gap of 1 to an overlap of 1, slowly answered: half of the way to the next overlap, 3, would be closed: 3 / (3 + 1).
-    EXPECT_DOUBLE_EQ(closing_share<double>({.now = 1.0, .past = 2.0, .others = 0.0, .answer = 0.0}), 0.75);
-    EXPECT_DOUBLE_EQ(closing_share<double>({.now = 1.0, .past = -2.0, .others = 0.0, .answer = 0.0}), 0.75) << "and back";
-    EXPECT_EQ(closing_share<double>({.now = 1.0, .past = 0.9, .others = 0.0, .answer = 0.1}), 1.0);
+    EXPECT_DOUBLE_EQ(closing_share<double>({.now = 1.0, .past = 2.0, .coast = 2.0, .others = 0.0, .answer = 0.0}), 0.75);
+    EXPECT_DOUBLE_EQ(closing_share<double>({.now = 1.0, .past = -2.0, .coast = -2.0, .others = 0.0, .answer = 0.0}), 0.75)
+        << "and back";
+    EXPECT_EQ(closing_share<double>({.now = 1.0, .past = 0.9, .coast = 0.9, .others = 0.0, .answer = 0.1}), 1.0);
 }
 
 /// Speed at which a slab leaves the ground that it hit flat with 1 m/s.

@@ -101,7 +101,7 @@ class RockKeepsSprings : public testing::Test
 
     static Regime relaxing(Is a, Is b, double speed)
     {
-        return regime(a, b, speed, {.method = Method::hybrid, .rock_keeps_springs = true});
+        return regime(a, b, speed, {.law = ContactLaw::by_speed, .rock_keeps_springs = true});
     }
 
     static constexpr double fast = 3.0;
@@ -140,9 +140,9 @@ TEST_F(RockKeepsSprings, InStagesThatLookForRestAndUnderTheHybridMethodOnly)
 {
     for (const Is b : {Is::standing, Is::loose, Is::fixed})
     {
-        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::hybrid}), Regime::impulse);
-        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::impulse, .rock_keeps_springs = true}), Regime::impulse);
-        EXPECT_EQ(regime(Is::loose, b, fast, {.method = Method::force, .rock_keeps_springs = true}), Regime::stick);
+        EXPECT_EQ(regime(Is::loose, b, fast, {.law = ContactLaw::by_speed}), Regime::impulse);
+        EXPECT_EQ(regime(Is::loose, b, fast, {.law = ContactLaw::impulses, .rock_keeps_springs = true}), Regime::impulse);
+        EXPECT_EQ(regime(Is::loose, b, fast, {.law = ContactLaw::springs, .rock_keeps_springs = true}), Regime::stick);
     }
 }
 }  // namespace

@@ -68,7 +68,8 @@ TEST(MeanStress, IsTheStressOfAUniformlyLoadedBlock)
     test::add_contact(run, 2, 1, middle, 3);
     test::add_contact(run, 3, 3, middle, 1);
     // Equal shear of opposite sense on neighbouring faces keeps the moment zero.
-    for (const auto& [contact, normal, shear] : {std::tuple(0, 3e5, 1e5), std::tuple(1, 3e5, 1e5), std::tuple(2, 2e5, -1e5), std::tuple(3, 2e5, -1e5)})
+    for (const auto& [contact, normal, shear] :
+         {std::tuple(0, 3e5, 1e5), std::tuple(1, 3e5, 1e5), std::tuple(2, 2e5, -1e5), std::tuple(3, 2e5, -1e5)})
         test::load_contact(run, contact, normal, shear, Regime::stick);
     const MeanStress stress = mean_stresses(run.model, run.state)[middle];
     EXPECT_NEAR(stress.xx, 2e5, 1e-6);

@@ -64,8 +64,8 @@ TEST(SpringForce, DissipatesTheClosedLoopOfCyclicShear)
 
 TEST(RestOverlap, IsZeroForAPointThatClosedInTheForceRegime)
 {
-    EXPECT_EQ(rest_overlap(1e-5, 0.0), 0.0);
-    EXPECT_EQ(rest_overlap(-1e-5, 0.0), 0.0);
+    EXPECT_EQ(rest_overlap(1e-5, 0.0, 0.0), 0.0);
+    EXPECT_EQ(rest_overlap(-1e-5, 0.0, 0.0), 0.0);
 }
 
 /// A spring handed over from the impulse regime starts with the last force at most, and its rest length only ever shortens.
@@ -82,7 +82,7 @@ RC_GTEST_PROP(RestOverlap, GivesNoMoreForceThanTheLastOneAndOnlyShrinks, ())
     for (int i = 0; i < 20; ++i)
     {
         now += 1e-9 * *rc::gen::inRange(-200000, 200000);
-        const double next = rest_overlap(now, rest);
+        const double next = rest_overlap(now, rest, 0.0);
         RC_ASSERT(next <= rest);
         RC_ASSERT(next == 0.0 || next <= now);
         rest = next;

@@ -20,9 +20,9 @@ class HandedOver : public testing::Test
         pair.place(pair.a, {0.0, 0.0}, 0.0);
         pair.place(pair.b, {0.0, 1.0 - deflection}, 0.0);
         pair.search();
-        pair.evaluate(Method::force);
+        pair.evaluate(ContactLaw::springs);
         pair.place(pair.b, {0.0, 1.0 - 2.0 * deflection}, 0.0);
-        pair.evaluate(Method::impulse);
+        pair.evaluate(ContactLaw::impulses);
         collect_impulse_points({0, 1}, pair.model, pair.state.blocks, pair.state.contacts, points);
     }
 
@@ -45,20 +45,20 @@ TEST_F(HandedOver, PointsKeepWhatTheirSpringsHeld)
 
 TEST_F(HandedOver, SpringsBeginWithTheForceOfTheLastImpulse)
 {
-    aim_impulses(pair.model, pair.state.blocks, points);
+    aim_impulses(pair.state.blocks, points);
     points[0].impulse_normal = 0.3 * half_stiffness * deflection * pair.model.time_step;
-    store_impulses(pair.model, points, pair.state.contacts);
+    store_impulses(pair.state.blocks, points, pair.state.contacts);
     EXPECT_NEAR(spring_force(), 0.3 * half_stiffness * deflection, 1e-6 * half_stiffness * deflection);
 }
 
 /// An impulse of 1000 times the load, at a point where nothing approaches: others have hit one of its blocks.
 TEST_F(HandedOver, SpringsDoNotBeginWithTheImpactsOfOthers)
 {
-    aim_impulses(pair.model, pair.state.blocks, points);
+    aim_impulses(pair.state.blocks, points);
     ImpulsePoint& p = points[0];
     p.spring_force = 500.0;
     p.impulse_normal = 1000.0 * half_stiffness * deflection * pair.model.time_step;
-    store_impulses(pair.model, points, pair.state.contacts);
+    store_impulses(pair.state.blocks, points, pair.state.contacts);
     const double most = 500.0 + p.mass_normal * pair.model.gravity.norm();
     const double rest = pair.state.contacts.rest_overlap(p.end, 0);
     EXPECT_NEAR(p.stiffness * (p.overlap - rest), most, 1e-6 * most);

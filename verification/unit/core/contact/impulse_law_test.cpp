@@ -132,7 +132,7 @@ RC_GTEST_PROP(RandomImpact, KeepsMomentumAndAddsNoKineticEnergy, ())
                         state.blocks.motion[b].x = x + middle * std::cos(angle);
                         state.blocks.motion[b].y = state.blocks.motion[a].y + middle * std::sin(angle);
                         contact.ref_edge = no_index;
-                        (find_features(model, state.blocks.motion, contact) < -1e-5 ? near : far) = middle;
+                        (find_features(model, state.blocks, contact) < -1e-5 ? near : far) = middle;
                     }
                     BlockMotion& m = state.blocks.motion[b];
                     m.vx = -std::cos(angle) + number(-0.3, 0.3);
@@ -246,7 +246,8 @@ TEST_F(Impact, LetsABlockFlyOnFromWhereItHit)
             const double after = std::max(0.0, e * speed - 9.81 * dt);
             run.advance(1);
             EXPECT_NEAR(run.velocity("block").y(), after, 1e-12) << e;
-            EXPECT_NEAR(run.displacement("block").y() - share * speed * dt, after * (1.0 + share) * dt, 1e-15) << e << ", " << share;
+            EXPECT_NEAR(run.displacement("block").y() - share * speed * dt, after * (1.0 + share) * dt, 1e-15)
+                << e << ", " << share;
         }
 }
 }  // namespace

@@ -64,7 +64,7 @@ TEST(PositionCorrection, TakesOldOverlapBackSlowly)
         const double speed = 2.0;
         pair.motion(pair.b).vy = -speed;
         pair.search();
-        pair.evaluate(Method::impulse);
+        pair.evaluate(ContactLaw::impulses);
         std::vector<ImpulsePoint> points;
         collect_impulse_points({0, 1}, pair.model, pair.state.blocks, pair.state.contacts, points);
         ASSERT_EQ(points.size(), 2U);

@@ -64,7 +64,7 @@ TEST(ContactHistory, FollowsASwapOfTheReferenceEdge)
     {
         Contact turned = contact;
         pair.place(pair.b, {0.5, 1.0 - 1e-3}, tilt);
-        find_features(pair.model, pair.state.blocks.motion, turned);
+        find_features(pair.model, pair.state.blocks, turned);
         const Carried after = carried_by_b(pair, turned);
         swapped = swapped || turned.ref != first_ref;
         EXPECT_NEAR(after.normal, before.normal, 1e-9);
@@ -94,7 +94,7 @@ TEST(ContactHistory, StaysWithItsEndOfTheContact)
     {
         Contact turned = contact;
         pair.place(pair.b, {0.5, 1.0 - 1e-3}, tilt);
-        find_features(pair.model, pair.state.blocks.motion, turned);
+        find_features(pair.model, pair.state.blocks, turned);
         EXPECT_NEAR(moment_about_a(turned), before, 5e-3 * 3000.0) << "points at most 3 mm from where they were";
     }
 }
@@ -108,7 +108,7 @@ TEST(ContactHistory, KeepsTheReferenceEdgeWithinAMargin)
     for (const double tilt : {1e-7, -1e-7, 3e-6, -3e-6})
     {
         pair.place(pair.b, {0.5, 1.0 - 1e-3}, tilt);
-        find_features(pair.model, pair.state.blocks.motion, contact);
+        find_features(pair.model, pair.state.blocks, contact);
         EXPECT_EQ(contact.ref_edge, edge) << "tilt " << tilt;
     }
 }
@@ -125,7 +125,7 @@ TEST(ContactHistory, DropsTheShearForceAcrossACorner)
     const Index on_top = contact.ref_edge;
     contact.point = {loaded(1000.0, 300.0, Regime::stick), loaded(1000.0, 300.0, Regime::stick)};
     pair.place(pair.b, Vec2(1.75 + 0.5 - 1e-3, -0.25 + 0.5 - 1e-3) - origin, 0.0);  // its lower left corner in the cut
-    find_features(pair.model, pair.state.blocks.motion, contact);
+    find_features(pair.model, pair.state.blocks, contact);
     ASSERT_NE(contact.ref_edge, on_top);
     EXPECT_EQ(contact.point[0].shear_force, 0.0);
     EXPECT_EQ(contact.point[1].shear_force, 0.0);

@@ -25,7 +25,7 @@ std::vector<std::uint64_t> overlapping_pairs(const Model& model, const State& st
             if (block_a == block_b || !(state.blocks.is_free(block_a) || state.blocks.is_free(block_b)))
                 continue;
             Contact contact{.part_a = a, .part_b = b};
-            if (find_features(model, state.blocks.motion, contact) < -least)
+            if (find_features(model, state.blocks, contact) < -least)
                 pairs.push_back(pair_key(a, b));
         }
     return pairs;

@@ -52,7 +52,7 @@ Contact press(BlockPair& pair, double overlap)
         const double middle = 0.5 * (near + far);
         pair.place(pair.b, middle * away, angle);
         contact = {.part_a = pair.model.shapes.part_begin[pair.a], .part_b = pair.model.shapes.part_begin[pair.b]};
-        (find_features(pair.model, pair.state.blocks.motion, contact) < -overlap ? near : far) = middle;
+        (find_features(pair.model, pair.state.blocks, contact) < -overlap ? near : far) = middle;
     }
     return contact;
 }
@@ -63,7 +63,7 @@ RC_GTEST_PROP(RandomManifold, PartsTouchIfAndOnlyIfTheirPolygonsIntersect, ())
     pair.place(pair.a, {0.0, 0.0}, number(-3.0, 3.0));
     pair.place(pair.b, {number(-1.5, 1.5), number(-1.5, 1.5)}, number(-3.0, 3.0));
     Contact contact{.part_a = pair.model.shapes.part_begin[pair.a], .part_b = pair.model.shapes.part_begin[pair.b]};
-    const double distance = find_features(pair.model, pair.state.blocks.motion, contact);
+    const double distance = find_features(pair.model, pair.state.blocks, contact);
     const Polygon a = pair.outline(pair.a), b = pair.outline(pair.b);
     const bool intersect = bg::intersects(to_boost(a), to_boost(b));
     RC_PRE(std::abs(distance) > 1e-3);  // nearer than that, the choice among nearly equal edges decides
@@ -99,14 +99,14 @@ struct Forces
     double moment_a, moment_b;
 };
 
-Forces forces_of(BlockPair& pair, Contact contact, Method method)
+Forces forces_of(BlockPair& pair, Contact contact, ContactLaw law)
 {
     contact.ref_edge = contact.inc_edge = no_index;
     contact.point = {};
-    find_features(pair.model, pair.state.blocks.motion, contact);
+    find_features(pair.model, pair.state.blocks, contact);
     pair.state.contacts.resize(1);
     pair.state.contacts.put(0, contact);
-    pair.evaluate(method);
+    pair.evaluate(law);
     return {pair.force(pair.a), pair.force(pair.b), pair.moment(pair.a), pair.moment(pair.b)};
 }
 
@@ -140,7 +140,7 @@ RC_GTEST_PROP(ContactForces, OfTwoBlocksAreOppositeInForceAndMoment, ())
 {
     Contact contact;
     BlockPair pair = moving_pair(contact);
-    const Forces f = forces_of(pair, contact, Method::force);
+    const Forces f = forces_of(pair, contact, ContactLaw::springs);
     const double size = f.on_a.norm();
     RC_ASSERT(size > 0.0);
     RC_ASSERT((f.on_a + f.on_b).norm() <= 1e-14 * size);  // the same number, added with both signs
@@ -154,7 +154,7 @@ RC_GTEST_PROP(ContactForces, TurnWithTheBlocks, ())
 {
     Contact contact;
     BlockPair pair = moving_pair(contact);
-    const Forces here = forces_of(pair, contact, Method::force);
+    const Forces here = forces_of(pair, contact, ContactLaw::springs);
     const double angle = number(-3.0, 3.0);
     const Vec2 d(std::cos(angle), std::sin(angle));
     const auto turn = [&](const Vec2& v) { return Vec2(v.x() * d + v.y() * turned_left(d)); };
@@ -164,16 +164,16 @@ RC_GTEST_PROP(ContactForces, TurnWithTheBlocks, ())
         const Vec2 x = turn({m.x, m.y}), r = turn({m.c, m.s}), v = turn({m.vx, m.vy});
         m = {.x = x.x(), .y = x.y(), .c = r.x(), .s = r.y(), .vx = v.x(), .vy = v.y(), .w = m.w, .angle = m.angle + angle};
     }
-    assert_same(forces_of(pair, contact, Method::force), {turn(here.on_a), turn(here.on_b), here.moment_a, here.moment_b});
+    assert_same(forces_of(pair, contact, ContactLaw::springs), {turn(here.on_a), turn(here.on_b), here.moment_a, here.moment_b});
 }
 
 RC_GTEST_PROP(ContactForces, DoNotDependOnWhichPartIsNamedFirst, ())
 {
     Contact contact;
     BlockPair pair = moving_pair(contact);
-    const Forces here = forces_of(pair, contact, Method::force);
+    const Forces here = forces_of(pair, contact, ContactLaw::springs);
     std::swap(contact.part_a, contact.part_b);
-    assert_same(forces_of(pair, contact, Method::force), here);
+    assert_same(forces_of(pair, contact, ContactLaw::springs), here);
 }
 
 RC_GTEST_PROP(ContactForces, MirrorWithTheBlocks, ())
@@ -183,7 +183,7 @@ RC_GTEST_PROP(ContactForces, MirrorWithTheBlocks, ())
     Contact contact = press(pair, number(1e-5, 1e-3));
     for (const Index block : {pair.a, pair.b})
         pair.motion(block).vx = number(-1, 1);
-    const Forces here = forces_of(pair, contact, Method::force);
+    const Forces here = forces_of(pair, contact, ContactLaw::springs);
     const auto mirror = [](Polygon p)
     {
         for (Vec2& v : p)
@@ -199,7 +199,7 @@ RC_GTEST_PROP(ContactForces, MirrorWithTheBlocks, ())
     contact.part_a = image.model.shapes.part_begin[image.a];
     contact.part_b = image.model.shapes.part_begin[image.b];
     const auto flip = [](const Vec2& v) { return Vec2(-v.x(), v.y()); };
-    assert_same(forces_of(image, contact, Method::force), {flip(here.on_a), flip(here.on_b), -here.moment_a, -here.moment_b});
+    assert_same(forces_of(image, contact, ContactLaw::springs), {flip(here.on_a), flip(here.on_b), -here.moment_a, -here.moment_b});
 }
 }  // namespace
 }  // namespace hdem

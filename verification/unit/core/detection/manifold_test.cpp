@@ -28,7 +28,7 @@ TEST(Manifold, OfASquareOnASlabIsTheFaceBetweenThem)
     pair.search();
     ASSERT_EQ(pair.state.contacts.size(), 1);
     Contact contact = pair.state.contacts.get(0);
-    EXPECT_NEAR(find_features(pair.model, pair.state.blocks.motion, contact), -1e-5, 1e-12);  // round-off of some metres
+    EXPECT_NEAR(find_features(pair.model, pair.state.blocks, contact), -1e-5, 1e-12);  // round-off of some metres
     EXPECT_EQ(contact.ref, pair.a) << "near ties go to the longer edge";
     EXPECT_NEAR(pair.touch(contact).length, 1.0, 1e-12);
     pair.evaluate();

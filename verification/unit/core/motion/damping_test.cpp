@@ -1,4 +1,6 @@
 #include "core/motion/damping.h"
+#include "core/stage/rules.h"
+#include "core/types.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -14,6 +16,7 @@ namespace
 TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
 {
     const DampingDef def{.local = 0.8, .global_damping_ratio = 0.05, .average_frequency = 100.0};
+    const auto rule = [&](DampingPreset preset) { return resolve_rules({.preset = preset, .damping = def}).damping; };
     struct Row
     {
         std::uint32_t contacts;
@@ -43,7 +46,7 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
         const BlockDamping damping = conditional_damping(Acting{.mobilised = row.mobilised,
                                                                 .springs = (row.contacts & contact_force) != 0,
                                                                 .impulses = (row.contacts & contact_impulse) != 0},
-                                                         {.preset = row.preset}, def);
+                                                         rule(row.preset));
         EXPECT_DOUBLE_EQ(damping.local, row.local) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
         EXPECT_DOUBLE_EQ(damping.global, row.global) << "contacts " << row.contacts << ", preset " << static_cast<int>(row.preset);
     }
@@ -51,11 +54,10 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
 
 TEST(ConditionalDamping, LeavesTurningAloneAsAJointIsMobilised)
 {
-    const DampingDef def{.local = 0.8};
-    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, {.preset = DampingPreset::automatic}, def).local_rotation, 0.6,
-                1e-15);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, {.preset = DampingPreset::automatic}, def).local_rotation, 0.0);
-    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, {.preset = DampingPreset::paper}, def).local_rotation, 0.8);
+    const DampingRule along_joint{.local = 0.8, .form = LocalDamping::along_joint}, by_axis{.local = 0.8};
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 0.25, .springs = true}, along_joint).local_rotation, 0.6, 1e-15);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, along_joint).local_rotation, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, by_axis).local_rotation, 0.8);
 }
 
 /// A block that slides along (0.6, 0.8) at the limit moves freely along the joint, and is damped across it.
@@ -146,17 +148,31 @@ TEST(LocalDamping, IsStableToTheLimitOfTheSpringsByTheNewVelocity)
         EXPECT_LT(energy_left(share, by_new), 1e-3) << share;
 }
 
-TEST(ConditionalDamping, OpposesTheNewVelocityWhereRestIsLookedFor)
+TEST(LocalDamping, StopsABlockAndNoMore)
 {
-    const DampingDef def{.local = 0.8};
-    const Acting sliding{.x = -1.0, .mobilised = 1.0, .springs = true};
-    const BlockDamping damping = conditional_damping(sliding, {.relaxing = true}, def);
-    EXPECT_EQ(damping.local, 0.8);
-    EXPECT_EQ(damping.local_rotation, 0.8);
     const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
-    EXPECT_NEAR(damp_translation(sliding, inertia, 0.5, 0.0, 1.0, damping).x, -0.5, 1e-15) << "it stops";
-    EXPECT_NEAR(damp_translation(sliding, inertia, 3.0, 0.0, 1.0, damping).x, -1.8, 1e-15);
-    EXPECT_NEAR(damp_rotation(Acting{.moment = -1.0, .springs = true}, inertia, 0.5, 1.0, damping), -0.5, 1e-15);
+    const BlockDamping damping{.local = 0.8, .local_rotation = 0.8, .form = LocalDamping::along_joint};
+    const auto braked = [&](double velocity)
+    { return damp_translation(Acting{.x = -1.0, .reserve = 9.0}, inertia, velocity, 0.0, 1.0, damping).x; };
+    EXPECT_NEAR(braked(1.5), -1.5, 1e-15) << "it stops";
+    EXPECT_NEAR(braked(3.0), -1.8, 1e-15);
+    EXPECT_NEAR(damp_rotation(Acting{.moment = -1.0}, inertia, 1.5, 1.0, damping), -1.5, 1e-15);
+}
+
+/// The same law in every orientation.
+RC_GTEST_PROP(LocalDamping, DoesNotKnowTheAxes, (short f_t, short f_m, short v_t, short v_m, short turn))
+{
+    const BlockInertia inertia{.inverse_mass_x = 0.5, .inverse_mass_y = 0.5, .inverse_inertia = 1.0};
+    const auto damped = [&](double angle)
+    {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const Acting force{.x = c * f_t - s * f_m, .y = s * f_t + c * f_m, .reserve = 3.0, .t_x = c, .t_y = s};
+        const DampedForce<double> d = damp_translation(force, inertia, c * v_t - s * v_m, s * v_t + c * v_m, 0.1,
+                                                       {.local = 0.8, .form = LocalDamping::along_joint});
+        return Vec2(c * d.x + s * d.y, c * d.y - s * d.x);
+    };
+    const double size = std::abs(f_t) + std::abs(f_m) + 20.0 * (std::abs(v_t) + std::abs(v_m));
+    RC_ASSERT((damped(0.1 * turn) - damped(0.0)).norm() <= 1e-13 * size);
 }
 }  // namespace
 }  // namespace hdem

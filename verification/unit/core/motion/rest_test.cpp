@@ -1,4 +1,6 @@
+#include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
+#include "core/stage/rules.h"
 #include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
 
@@ -113,11 +115,10 @@ class UpdateRest : public testing::Test
   protected:
     UpdateRest() : pair_(test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {1, 1}))) {}
 
-    bool update(bool check)
+    bool update(bool check, std::int64_t cycle = rest_every)
     {
-        return update_rest({pair_.a, pair_.a + 1}, pair_.model, limits(), check, pair_.state.blocks, ledger_);
+        return update_rest({pair_.a, pair_.a + 1}, pair_.model, rule_, check ? cycle : cycle + 1, pair_.state.blocks, ledger_);
     }
-    [[nodiscard]] RestLimits limits() const { return rest_limits(pair_.model); }
     BlockMotion& motion() { return pair_.motion(pair_.a); }
     BlockForce& force() { return pair_.state.blocks.force[pair_.a]; }
     std::uint8_t& rest() { return pair_.state.blocks.rest[pair_.a]; }
@@ -126,12 +127,13 @@ class UpdateRest : public testing::Test
 
     test::BlockPair pair_;
     EnergyLedger ledger_;
+    const RestRule rule_{.leaves_out = true, .quiet_speed = 1e-4, .quiet = 5e-4, .waking = 0.1, .unsupported = 1e-3};
 };
 
 TEST_F(UpdateRest, StopsABlockThatWasQuietAtEightChecks)
 {
-    motion().vx = 0.5 * limits().speed;
-    force().y = 0.5 * limits().acceleration * mass();
+    motion().vx = 0.5 * rule_.quiet_speed;
+    force().y = 0.5 * rule_.quiet * mass();
     const double energy = kinetic_energy(pair_.model, pair_.state.blocks, pair_.a);
     for (int k = 1; k < stopped; ++k)
     {
@@ -162,25 +164,16 @@ TEST_F(UpdateRest, BeginsAnewAfterWhatIsNotQuiet)
         return rest() == stopped;
     };
     EXPECT_TRUE(quiet_after([] {}));
-    EXPECT_FALSE(quiet_after([&] { motion().vy = 1.01 * limits().speed; }));
-    EXPECT_FALSE(quiet_after([&] { motion().w = 1.01 * limits().speed / radius(); }));
-    EXPECT_FALSE(quiet_after([&] { force().x = 1.01 * limits().acceleration * mass(); }));
-    EXPECT_FALSE(quiet_after([&] { force().moment = 1.01 * limits().acceleration * mass() * radius(); }));
+    EXPECT_FALSE(quiet_after([&] { motion().vy = 1.01 * rule_.quiet_speed; }));
+    EXPECT_FALSE(quiet_after([&] { motion().w = 1.01 * rule_.quiet_speed / radius(); }));
+    EXPECT_FALSE(quiet_after([&] { force().x = 1.01 * rule_.quiet * mass(); }));
+    EXPECT_FALSE(quiet_after([&] { force().moment = 1.01 * rule_.quiet * mass() * radius(); }));
     EXPECT_FALSE(quiet_after([&] { force().contacts = contact_force | contact_impulse; }));
     EXPECT_FALSE(quiet_after([&] { motion().vx = std::nan(""); }));
     EXPECT_FALSE(quiet_after([&] { force().x = std::nan(""); }));
 }
 
-TEST_F(UpdateRest, LooksAtTheVelocityOfTheUserNotOfThePace)
-{
-    pair_.state.blocks.pace[pair_.a] = 8.0;
-    rest() = stopped - 1;
-    motion().vx = 7.0 * limits().speed;
-    update(true);
-    EXPECT_EQ(rest(), stopped);
-}
-
-TEST_F(UpdateRest, WakesInAnyCycleByTenTimesTheForceOrByAnImpulse)
+TEST_F(UpdateRest, WakesInAnyCycleByAForceOrAnImpulse)
 {
     const auto woken_by = [&](const auto& disturb)
     {
@@ -192,7 +185,7 @@ TEST_F(UpdateRest, WakesInAnyCycleByTenTimesTheForceOrByAnImpulse)
         EXPECT_EQ(changed, rest() == 0);
         return rest() == 0;
     };
-    const double limit = 10.0 * limits().acceleration * mass();
+    const double limit = rule_.waking * mass();
     EXPECT_FALSE(woken_by([] {}));
     EXPECT_FALSE(woken_by([&] { force().x = 0.99 * limit; }));
     EXPECT_TRUE(woken_by([&] { force().x = 1.01 * limit; }));
@@ -201,16 +194,32 @@ TEST_F(UpdateRest, WakesInAnyCycleByTenTimesTheForceOrByAnImpulse)
     EXPECT_TRUE(woken_by([&] { force().y = std::nan(""); }));
 }
 
-TEST(RestLimits, FollowTheCriteria)
+/// Nothing is left out for long that a stage may not end with.
+TEST_F(UpdateRest, WakesEvery256CyclesWhatIsNotSupported)
+{
+    for (const double share : {0.99, 1.01})
+        for (const std::int64_t cycle : {support_every, support_every + rest_every})
+        {
+            motion() = {};
+            force() = {.x = share * rule_.unsupported * mass()};
+            rest() = left_out;
+            update(true, cycle);
+            EXPECT_EQ(rest() == 0, share > 1.0 && cycle == support_every) << share << ' ' << cycle;
+        }
+}
+
+TEST(RestRule, FollowsTheCriterionOfEachBlock)
 {
     CaseDef scene = resting_stack();
-    const RestLimits by_speed = rest_limits(CaseRun(scene).model());
-    EXPECT_DOUBLE_EQ(by_speed.speed, 1e-4);
-    EXPECT_DOUBLE_EQ(by_speed.acceleration, 1e-4 / (256.0 * step));
-    scene.convergence.criteria = {"kinetic_energy", "unbalanced_force_ratio"};
-    EXPECT_DOUBLE_EQ(rest_limits(CaseRun(scene).model()).acceleration, 0.05 * 1e-5 * 9.81);
-    scene.convergence.unbalanced_force_ratio = 0.5;
-    EXPECT_DOUBLE_EQ(rest_limits(CaseRun(scene).model()).acceleration, by_speed.acceleration);
+    scene.convergence.block_unbalanced_ratio = 2e-4;
+    const RestRule rule = resolve_rules(scene)[0].rest;
+    EXPECT_TRUE(rule.leaves_out);
+    EXPECT_LT(rule.quiet_speed, scene.convergence.mean_speed);
+    EXPECT_DOUBLE_EQ(rule.unsupported, 2e-4 * 9.81);
+    EXPECT_LT(rule.quiet, rule.unsupported);
+    EXPECT_GT(rule.waking, rule.unsupported);
+    scene.gravity = {0.0, 0.0};
+    EXPECT_GT(resolve_rules(scene)[0].rest.quiet, 0.0) << "in space too";
 }
 
 TEST(Rest, IsTheSameOnAnyNumberOfThreadsAndAfterARestart)

@@ -1,7 +1,6 @@
-#include "core/motion/time_step.h"
-
 #include "core/contact/block_forces.h"
 #include "core/detection/contact_tracking.h"
+#include "core/motion/time_step.h"
 #include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
 
@@ -40,7 +39,8 @@ TEST(DefaultTimeStep, CountsLongSidesAsStiffer)
     EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(2700.0, 7e9, 0.1)) << "to the letter";
     scene.damping.preset = DampingPreset::automatic;
     scenes::add_block(scene, "light", scenes::rectangle({20.0, 0.0}, {20.5, 0.5}));
-    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(0.25 * 2700.0, 7e9, 0.1)) << "lighter than a quarter of 10 m deserves";
+    EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, paper_time_step(0.25 * 2700.0, 7e9, 0.1))
+        << "lighter than a quarter of 10 m deserves";
     scene.blocks[2].polygon = scenes::rectangle({20.0, 0.0}, {24.0, 4.0});
     scene.blocks[1].polygon = scenes::rectangle({-2.0, 0.0}, {2.0, 4.0});
     EXPECT_DOUBLE_EQ(CaseRun(scene).model().time_step, CaseRun(scene).model().paper_time_step) << "sides of 4 m";
@@ -110,11 +110,11 @@ TEST(CriticalTimeStep, IsInfiniteWithoutContacts)
     EXPECT_EQ(critical(CaseRun(scene), 60), std::numeric_limits<double>::infinity());
 }
 
-double stable(const Model& model, const State& state, StepOf which = StepOf::all)
+double stable(const Model& model, const State& state)
 {
     BlockContacts list;
     list_block_contacts(state.contacts, state.blocks.size(), list);
-    return stable_step({0, state.blocks.size()}, which, model, list, state.contacts, state.blocks);
+    return stable_step({0, state.blocks.size()}, model, list, state.contacts, state.blocks);
 }
 
 double stable(const CaseRun& run)
@@ -172,38 +172,6 @@ TEST(StableStepBound, IsInfiniteWithoutContacts)
     CaseDef scene = scenes::empty_scene();
     scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
     EXPECT_EQ(stable(CaseRun(scene)), std::numeric_limits<double>::infinity());
-}
-
-TEST(StableStepBound, KnowsTheMassesOfPaceOne)
-{
-    const CaseRun run(scenes::stack(3));
-    State state = run.state();
-    for (BlockInertia& inertia : state.blocks.inertia)
-        inertia.inverse_mass_x *= 16.0;
-    EXPECT_EQ(stable(run.model(), state), stable(run));
-}
-
-/// A heap of unit squares and, apart from it, a light block on the ground that gives the smaller step.
-TEST(StableStepBound, MayLookOnlyAtWhatIsBesideFastBlocks)
-{
-    CaseDef scene = scenes::stack(4);
-    scenes::add_block(scene, "light", scenes::rectangle({1.0, 0.0}, {1.2, 0.2}));
-    const CaseRun run(scene);
-    State state = run.state();
-    const auto fast = [&] { return stable(run.model(), state, StepOf::fast); };
-    const double all = stable(run);
-    EXPECT_EQ(fast(), std::numeric_limits<double>::infinity()) << "all are at rest";
-    const double speed = 0.5 * skin_width(run.model()) / 256.0 / run.model().time_step;
-    double& block4 = state.blocks.motion[run.slot("block4")].vy;
-    block4 = 0.99 * speed;
-    EXPECT_EQ(fast(), std::numeric_limits<double>::infinity());
-    block4 = 1.01 * speed;
-    const double beside_block4 = fast();
-    EXPECT_GT(beside_block4, 1.01 * all);
-    EXPECT_LT(beside_block4, std::numeric_limits<double>::infinity());
-    state.blocks.motion[run.slot("light")].w = 1.01 * speed / run.model().radius[run.slot("light")];
-    EXPECT_EQ(fast(), all);
-    EXPECT_EQ(stable(run.model(), state), all);
 }
 
 TEST(CriticalTimeStep, IsNamedWhenTheStepIsAboveIt)

@@ -1,0 +1,312 @@
+#include "core/contact/impulse_islands.h"
+
+#include "core/contact/impulse_clusters.h"
+#include "core/contact/impulse_kick.h"
+#include "core/contact/impulse_law.h"
+#include "core/contact/interior_point.h"
+#include "core/contact/position_correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+/// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves.
+constexpr double noticeable = 1e-3;
+constexpr double solved = 1e-5;
+/// Of the overlap to be taken back, and of the one that is allowed.
+constexpr double noticeable_overlap = 1e-2;
+/// Of the greatest velocity: what rounding leaves to a block of a millionth of the mass of those that press it.
+constexpr double rounding = 1e-9;
+/// Points of an island that is solved as a whole.
+constexpr std::size_t small_island = 100;
+/// Points of a cluster that is solved at all: the time grows faster than their number.
+constexpr std::size_t small_cluster = 200;
+/// A cluster is solved where sweeps have left this many times what they have left around it.
+constexpr double worth = 3.0;
+/// What a larger cluster gets, times the sweeps of a cycle.
+constexpr int more_sweeps = 10;
+
+double velocity_scale(const ImpulsePoint& p, const Blocks& blocks)
+{
+    const auto speed = [](const BlockMotion& m) { return std::abs(m.vx) + std::abs(m.vy); };
+    return p.load_velocity + std::max(0.0, p.approach) +
+           rounding / noticeable * (speed(blocks.motion[p.ref]) + speed(blocks.motion[p.inc]));
+}
+
+double correction_scale(const Model& model, const Steps& step, const ImpulsePoint& p)
+{
+    return (model.contact.allowed_overlap + std::abs(p.excess_overlap)) / step.next;
+}
+
+/// The point as the position correction sees it: it has no friction.
+ImpulsePoint as_correction(const Model& model, const Steps& step, ImpulsePoint p)
+{
+    p.target = -correction_velocity(model, step, p);
+    p.friction = p.cohesive_impulse = 0.0;
+    p.impulse_normal = p.correction;
+    p.impulse_shear = 0.0;
+    return p;
+}
+
+double impulse_error(const ImpulsePoint& p, const Blocks& blocks)
+{
+    return law_error(p, relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]));
+}
+
+double correction_error(const Model& model, const ImpulsePoint& p, const Blocks& blocks, const std::vector<Triple>& pseudo)
+{
+    const Triple& ref = pseudo[p.ref];
+    const Triple& inc = pseudo[p.inc];
+    return law_error(as_correction(model, blocks.step, p), relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc));
+}
+}  // namespace
+
+MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& blocks)
+{
+    MassRange range;
+    Index last = no_index;
+    for (const ImpulsePoint& p : points)
+    {
+        if (std::exchange(last, p.contact) == p.contact)
+            continue;
+        range.add(blocks.inertia[p.ref]);
+        range.add(blocks.inertia[p.inc]);
+    }
+    return range;
+}
+
+bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                  const std::vector<Triple>& pseudo)
+{
+    double scale = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
+    for (const ImpulsePoint& p : points)
+    {
+        scale = std::max(scale, velocity_scale(p, blocks));
+        error = std::max(error, impulse_error(p, blocks));
+        pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
+        pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
+    }
+    return error > noticeable * scale || pseudo_error > noticeable_overlap * pseudo_scale;
+}
+
+Index IslandFinder::root(Index block)
+{
+    while (parent_[block] != block)
+        block = parent_[block] = parent_[parent_[block]];
+    return block;
+}
+
+void IslandFinder::find(const std::vector<std::vector<ImpulsePoint>*>& lists, const Blocks& blocks, std::vector<Island>& islands)
+{
+    parent_.resize(static_cast<std::size_t>(blocks.size()));
+    island_of_.resize(static_cast<std::size_t>(blocks.size()));
+    place_.resize(static_cast<std::size_t>(blocks.size()));
+    islands.clear();
+    const auto movable = [&](Index block) { return can_move(blocks.inertia[block]); };
+    for (const auto* list : lists)
+        for (const ImpulsePoint& p : *list)
+            for (const Index block : {p.ref, p.inc})
+            {
+                parent_[block] = block;
+                island_of_[block] = place_[block] = no_index;
+            }
+    for (const auto* list : lists)
+        for (const ImpulsePoint& p : *list)
+            if (movable(p.ref) && movable(p.inc))
+                parent_[root(p.ref)] = root(p.inc);
+    for (auto* list : lists)
+        for (ImpulsePoint& p : *list)
+        {
+            if (!movable(p.ref) && !movable(p.inc))
+                continue;
+            Index& number = island_of_[root(movable(p.ref) ? p.ref : p.inc)];
+            if (number == no_index)
+            {
+                number = static_cast<Index>(islands.size());
+                islands.emplace_back();
+            }
+            Island& island = islands[number];
+            const auto place = [&](Index block)
+            {
+                if (movable(block) && place_[block] == no_index)
+                {
+                    place_[block] = static_cast<Index>(island.blocks.size());
+                    island.blocks.push_back(block);
+                }
+                return place_[block];
+            };
+            island.points.push_back(&p);
+            const Index ref = place(p.ref);
+            island.ends.push_back({ref, place(p.inc)});
+        }
+}
+
+namespace
+{
+class IslandCopy
+{
+  public:
+    template <typename Velocity, typename PointOf>
+    IslandCopy(const std::vector<ImpulsePoint*>& points, const Blocks& blocks, const Velocity& velocity, const PointOf& point_of)
+    {
+        std::unordered_map<Index, Index> place;
+        const auto copy = [&](Index block)
+        {
+            const auto [at, is_new] = place.try_emplace(block, static_cast<Index>(problem.blocks.size()));
+            if (is_new)
+            {
+                problem.blocks.push_back({blocks.inertia[block], velocity(block)});
+                block_of.push_back(block);
+            }
+            return at->second;
+        };
+        for (const ImpulsePoint* p : points)
+        {
+            problem.points.push_back(point_of(*p));
+            problem.points.back().ref = copy(p->ref);
+            problem.points.back().inc = copy(p->inc);
+        }
+    }
+    IslandProblem problem;
+    std::vector<Index> block_of;
+};
+
+/// Points that are solved all at once.
+struct Cluster
+{
+    std::vector<ImpulsePoint*> points;
+    double outside = 0.0, outside_correction = 0.0;  ///< greatest errors of the points around them [m/s]
+};
+
+std::vector<Cluster> cut(const Model& model, const Island& island, const Blocks& blocks, const std::vector<Triple>& pseudo)
+{
+    std::vector<Cluster> clusters;
+    const std::vector<Index> cluster_of = clusters_of(island, blocks, MassRange::greatest_ratio(model.contact.impulse_sweeps));
+    const auto for_ends = [&](bool inside, const auto& visit)
+    {
+        for (std::size_t i = 0; i < cluster_of.size(); ++i)
+            for (const Index block : island.ends[i])
+                if (block != no_index && (cluster_of[i] != no_index) == inside)
+                    visit(i, block);
+    };
+    std::vector<char> takes_part(island.blocks.size(), 0);
+    for_ends(true, [&](std::size_t, Index block) { takes_part[block] = 1; });
+    std::vector<std::array<double, 2>> around(island.blocks.size());
+    for_ends(false,
+             [&](std::size_t i, Index block)
+             {
+                 if (takes_part[block] == 0)
+                     return;
+                 around[block][0] = std::max(around[block][0], impulse_error(*island.points[i], blocks));
+                 around[block][1] = std::max(around[block][1], correction_error(model, *island.points[i], blocks, pseudo));
+             });
+    for (std::size_t i = 0; i < cluster_of.size(); ++i)
+    {
+        if (cluster_of[i] == no_index)
+            continue;
+        clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(cluster_of[i]) + 1));
+        Cluster& cluster = clusters[cluster_of[i]];
+        cluster.points.push_back(island.points[i]);
+        for (const Index block : island.ends[i])
+            if (block != no_index)
+            {
+                cluster.outside = std::max(cluster.outside, around[block][0]);
+                cluster.outside_correction = std::max(cluster.outside_correction, around[block][1]);
+            }
+    }
+    return clusters;
+}
+
+/// More sweeps over a cluster, until they have left as little as needs no solution.
+/// @return as of sweep_impulses [J]
+double sweep_more(const Model& model, Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
+{
+    double loss = 0.0;
+    std::vector<ImpulsePoint> points;
+    for (const ImpulsePoint* p : cluster.points)
+        points.push_back(*p);
+    for (int round = 0; round < more_sweeps && are_unsolved(model, points, blocks, pseudo); ++round)
+        for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
+        {
+            loss += sweep_impulses(points, blocks);
+            sweep_correction(model, blocks, points, pseudo);
+        }
+    for (std::size_t i = 0; i < points.size(); ++i)
+        *cluster.points[i] = points[i];
+    return loss;
+}
+
+/// @return as of sweep_impulses [J]
+double solve_velocities(Blocks& blocks, const Cluster& cluster)
+{
+    double scale = 0.0, error = 0.0;
+    for (const ImpulsePoint* p : cluster.points)
+    {
+        scale = std::max(scale, velocity_scale(*p, blocks));
+        error = std::max(error, impulse_error(*p, blocks));
+    }
+    if (error <= std::max(noticeable * scale, worth * cluster.outside))
+        return 0.0;
+    const auto velocity = [&](Index b) { return Triple{blocks.motion[b].vx, blocks.motion[b].vy, blocks.motion[b].w}; };
+    const IslandCopy copy(cluster.points, blocks, velocity, [](const ImpulsePoint& p) { return p; });
+    const IslandProblem found = solve_all_at_once(copy.problem, std::max(solved * scale, 0.01 * cluster.outside));
+    double loss = 0.0;
+    for (std::size_t i = 0; i < cluster.points.size(); ++i)
+    {
+        ImpulsePoint& p = *cluster.points[i];
+        const ImpulsePoint& q = found.points[i];
+        loss += push(p, q.impulse_shear - p.impulse_shear, p.impulse_normal - q.impulse_normal, blocks);
+        p.impulse_normal = q.impulse_normal;
+        p.impulse_shear = q.impulse_shear;
+    }
+    return loss;
+}
+
+void solve_correction(const Model& model, const Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
+{
+    double scale = 0.0, error = 0.0;
+    for (const ImpulsePoint* p : cluster.points)
+    {
+        scale = std::max(scale, correction_scale(model, blocks.step, *p));
+        error = std::max(error, correction_error(model, *p, blocks, pseudo));
+    }
+    if (error <= std::max(noticeable_overlap * scale, worth * cluster.outside_correction))
+        return;
+    const IslandCopy copy(
+        cluster.points, blocks, [&](Index b) { return pseudo[b]; },
+        [&](const ImpulsePoint& p) { return as_correction(model, blocks.step, p); });
+    const double goal = 0.01 * std::max(noticeable_overlap * scale, cluster.outside_correction);
+    const IslandProblem found = solve_all_at_once(copy.problem, goal);
+    for (std::size_t i = 0; i < copy.block_of.size(); ++i)
+        if (can_move(blocks.inertia[copy.block_of[i]]))
+            pseudo[copy.block_of[i]] = found.blocks[i].velocity;
+    for (std::size_t i = 0; i < cluster.points.size(); ++i)
+        cluster.points[i]->correction = found.points[i].impulse_normal;
+}
+}  // namespace
+
+void solve_island(const Model& model, Blocks& blocks, std::vector<Triple>& pseudo, Island& island)
+{
+    MassRange masses;
+    for (const Index block : island.blocks)
+        masses.add(blocks.inertia[block]);
+    if (masses.suits_sweeps(model.contact.impulse_sweeps))
+        return;
+    const bool whole = island.points.size() <= small_island;
+    for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
+    {
+        if (cluster.points.size() > small_cluster)
+        {
+            island.loss += sweep_more(model, blocks, pseudo, cluster);
+            continue;
+        }
+        island.loss += solve_velocities(blocks, cluster);
+        solve_correction(model, blocks, pseudo, cluster);
+    }
+}
+}  // namespace hdem

@@ -1,0 +1,171 @@
+#include "core/motion/step_control.h"
+
+#include "core/detection/contact_tracking.h"
+#include "core/geometry/convex_part.h"
+#include "core/motion/contact_springs.h"
+#include "core/motion/rest.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double steps_an_octave = 8.0;  // between twice as long ones
+constexpr double longest = 4096.0;       // times the case's step
+constexpr double slide_share = 1.5e-3;   // of the block's size a cycle
+constexpr double approach_share = 0.02;  // the same where it touches nothing
+constexpr double fall_share = 1e-7;      // of its size, see StepRule::falls_by
+constexpr double settled_share = 0.01;   // of its size: a block that moved less in its stage keeps its contact lengths
+
+bool is_settled(Index block, const Model& model, const Blocks& blocks)
+{
+    return !blocks.is_free(block) || blocks.displacement(block).norm() < settled_share * model.size(block);
+}
+
+double longest_side(const Shapes& shapes, Index part)
+{
+    double side = 0.0;
+    for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
+        if (shapes.edge_source[e] != edge_internal)
+            side = std::max(side, shapes.edge_length[e]);
+    return side;
+}
+
+Vec3 mobility(Index block, const Blocks& blocks)
+{
+    const BlockInertia& inertia = blocks.inertia[block];
+    return {inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia};
+}
+
+/// What a unit force moves a block, at its rim, at most [1/kg].
+double rim_mobility(Index block, const Model& model, const Blocks& blocks)
+{
+    const Vec3 m = mobility(block, blocks);
+    return std::max(m[0], m[1]) + model.radius[block] * model.radius[block] * m[2];
+}
+
+/// Adds up the springs that a block may feel, in coordinates in which its mass matrix is the unit matrix.
+class SpringSum
+{
+  public:
+    SpringSum(Index block, const Model& model, const Contacts& contacts, const Blocks& blocks)
+        : block_(block),
+          model_(model),
+          contacts_(contacts),
+          blocks_(blocks)
+    {
+    }
+
+    void add(Index contact)
+    {
+        const Index ref = contacts_.ref[contact], inc = contacts_.inc[contact];
+        if (is_settled(ref, model_, blocks_) && is_settled(inc, model_, blocks_))
+            add_present(contact, ref, inc);
+        else
+            add_possible(contact, ref == block_ ? inc : ref);
+    }
+
+    [[nodiscard]] double greatest_eigenvalue() const
+    {
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+        solver.computeDirect(sum_, Eigen::EigenvaluesOnly);
+        return solver.eigenvalues()[2] + everywhere_;
+    }
+
+  private:
+    void add_present(Index contact, Index ref, Index inc)
+    {
+        const Vec3 by_ref = mobility(ref, blocks_).cwiseSqrt(), by_inc = mobility(inc, blocks_).cwiseSqrt();
+        const auto add_spring = [&](const ContactSpring& spring)
+        {
+            const Vec3 on_ref = by_ref.cwiseProduct(spring.ref), on_inc = by_inc.cwiseProduct(spring.inc);
+            const Vec3& row = block_ == ref ? on_ref : on_inc;
+            const double own = row.squaredNorm(), other = (block_ == ref ? on_inc : on_ref).squaredNorm();
+            if (own > 0.0)
+                sum_ += spring.stiffness * (1.0 + other / own) * row * row.transpose();
+        };
+        for_springs(model_, blocks_, contacts_, contact,
+                    [&](const EdgeTouch& touch, int, const ContactSpring& normal, const ContactSpring& shear)
+                    {
+                        if (touch.length <= 0.0)
+                            return;
+                        add_spring(normal);
+                        add_spring(shear);
+                    });
+    }
+
+    /// Closed along the longest side that both parts have, at the rim of both blocks.
+    void add_possible(Index contact, Index other)
+    {
+        const CoulombSlip& joint = model_.joints.laws[contacts_.law[contact]];
+        const double side = std::min(longest_side(model_.shapes, contacts_.part_a[contact]),
+                                     longest_side(model_.shapes, contacts_.part_b[contact]));
+        const double stiffness = std::max(joint.normal_stiffness, joint.shear_stiffness);
+        everywhere_ += stiffness * std::max(side, contacts_.length_floor(contact)) *
+                       (rim_mobility(block_, model_, blocks_) + rim_mobility(other, model_, blocks_));
+    }
+
+    Index block_;
+    const Model& model_;
+    const Contacts& contacts_;
+    const Blocks& blocks_;
+    Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();
+    double everywhere_ = 0.0;  ///< in each direction [1/s2]
+};
+
+/// How long a block may move as it does [s].
+double motion_bound(Index block, const Model& model, const BlockContacts& list, const Blocks& blocks)
+{
+    const BlockMotion& m = blocks.motion[block];
+    const double speed = std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block];
+    const bool alone = list.begin[block] == list.begin[block + 1];
+    const double share = blocks.force[block].contacts == 0 ? approach_share : slide_share;
+    const double way = alone ? flight_share * blocks.margin[block] : share * model.size(block);
+    return speed > 0.0 ? way / speed : infinity;
+}
+}  // namespace
+
+double stable_step_of(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks)
+{
+    SpringSum sum(block, model, contacts, blocks);
+    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
+        sum.add(list.entry[e] / 2);
+    const double greatest = sum.greatest_eigenvalue();
+    return greatest > 0.0 ? 2.0 / std::sqrt(greatest) : infinity;
+}
+
+StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, const Model& model, const BlockContacts& list,
+                      const Contacts& contacts, Blocks& blocks)
+{
+    StepBound bound;
+    for (Index b = range.begin; b < range.end; ++b)
+    {
+        if (!blocks.is_free(b))
+            continue;
+        const bool takes_part = blocks.takes_part(b);
+        if (!takes_part && !is_beside_moving(b, list, contacts, blocks))
+            continue;
+        if (look_at_all)
+            blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
+        if (rule.falls_by > 0.0)
+            bound.least = std::min(bound.least, std::sqrt(fall_share * model.size(b) / rule.falls_by));
+        bound.add({.least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks)),
+                   .standing_moves = takes_part && !blocks.is_loose(b, rule.loose_distance)});
+    }
+    return bound;
+}
+
+double next_step(double last, const StepBound& bound, const StepRule& rule, double base, bool may_grow)
+{
+    const bool keeps_base = rule.keeps_given && (bound.standing_moves || bound.least < base);
+    if (keeps_base || bound.least == infinity)
+        return base;
+    const double most = std::min({bound.least, (may_grow ? 2.0 : 1.0) * std::max(last, base), longest * base});
+    return base * std::exp2(std::floor(steps_an_octave * std::log2(most / base) + 1e-9) / steps_an_octave);
+}
+}  // namespace hdem

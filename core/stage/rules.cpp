@@ -1,0 +1,122 @@
+#include "core/stage/rules.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+namespace
+{
+ContactLaw law_of(Method method)
+{
+    return method == Method::force ? ContactLaw::springs
+                                   : (method == Method::impulse ? ContactLaw::impulses : ContactLaw::by_speed);
+}
+
+/// A stopped block has half of what a stage may end with. It is woken by a hundredth of its weight, which presses less than 1e-7 m into its joints.
+RestRule rest_of(const StageSetting& s, double g)
+{
+    const double unsupported = s.convergence.block_unbalanced_ratio * g;
+    const double model_unsupported = std::min(unsupported, s.convergence.unbalanced_force_ratio * g);
+    return {.leaves_out = true,
+            .quiet_speed = 0.2 * s.convergence.mean_speed,
+            .quiet = 0.5 * model_unsupported,
+            .waking = std::max(0.01 * g, unsupported),
+            .unsupported = unsupported,
+            .model_unsupported = model_unsupported};
+}
+
+/// Of the mean speed at which rock counts as at rest: slower blocks are damped as if they did not slide.
+constexpr double settling_speeds = 40.0;
+}  // namespace
+
+StageRules resolve_rules(const StageSetting& s)
+{
+    const bool looks_for_rest = s.until_converged && s.preset == DampingPreset::automatic;
+    const double g = s.gravity > 0.0 ? s.gravity : 9.81;
+    const double settling = looks_for_rest ? settling_speeds * s.convergence.mean_speed : 0.0;
+    const bool whole_cycles = s.preset == DampingPreset::paper;
+    return {.contact = {.law = law_of(s.method),
+                        .rock_keeps_springs = looks_for_rest,
+                        .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
+                        .closing_speed = settling},
+            .damping = {.local = s.preset == DampingPreset::dynamic ? 0.0 : s.damping.local,
+                        .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
+                        .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,
+                        .settling = settling},
+            .step = {.varies = looks_for_rest && !s.is_driven && !s.has_loads,
+                     .keeps_given = s.has_step,
+                     .stable_share = s.stable_fraction,
+                     .falls_by = s.method == Method::impulse ? g : 0.0,
+                     .loose_distance = s.convergence.loose_distance},
+            .rest = looks_for_rest && !s.is_driven && !s.has_loads ? rest_of(s, g) : RestRule{},
+            .ends_at_rest = s.until_converged,
+            .has_loads = s.has_loads,
+            .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && s.method != Method::impulse && s.gravity > 0.0 &&
+                             s.solver == RestSolver::statics};
+}
+
+StageRules resolve_rules(const Model& model, const State& state)
+{
+    const bool begun = state.stage_begun;
+    return resolve_rules({.method = state.method,
+                          .preset = state.damping,
+                          .damping = model.damping,
+                          .stable_fraction = model.stable_fraction,
+                          .convergence = model.convergence,
+                          .gravity = model.gravity.norm(),
+                          .until_converged = begun && model.stages[state.stage].until_converged,
+                          .has_loads = !model.loads.empty(),
+                          .is_driven = model.is_driven,
+                          .has_step = model.has_step,
+                          .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics});
+}
+
+std::vector<StageRules> resolve_rules(const CaseDef& def)
+{
+    std::vector<StageRules> rules;
+    StageSetting setting{.method = def.contact.method,
+                         .preset = def.damping.preset,
+                         .damping = def.damping,
+                         .stable_fraction = def.time.stable_fraction,
+                         .convergence = def.convergence,
+                         .gravity = def.gravity.norm(),
+                         .has_loads = !def.loads.empty(),
+                         .is_driven = is_driven(def),
+                         .has_step = def.time.step.has_value()};
+    for (const StageDef& stage : def.stages)
+    {
+        setting.method = stage.method.value_or(setting.method);
+        setting.preset = stage.damping.value_or(setting.preset);
+        setting.until_converged = stage.until_converged;
+        setting.solver = stage.solver;
+        rules.push_back(resolve_rules(setting));
+    }
+    return rules;
+}
+
+bool ends_at_rest(const StageDef& stage)
+{
+    return stage.until_converged;
+}
+
+bool takes_paper_step(const CaseDef& def)
+{
+    return def.damping.preset == DampingPreset::paper;
+}
+
+bool is_driven(const CaseDef& def)
+{
+    const auto prescribes = [](const LoadDef& load) { return load.velocity_x || load.velocity_y || load.angular_velocity; };
+    const auto moves = [](const BlockDef& block)
+    {
+        return (block.fix_x && block.velocity.x() != 0.0) || (block.fix_y && block.velocity.y() != 0.0) ||
+               (block.fix_rotation && block.angular_velocity != 0.0);
+    };
+    return std::any_of(def.loads.begin(), def.loads.end(), prescribes) || std::any_of(def.blocks.begin(), def.blocks.end(), moves);
+}
+
+const char* name_of(Method method)
+{
+    return method == Method::force ? "force" : (method == Method::impulse ? "impulse" : "hybrid");
+}
+}  // namespace hdem

@@ -1,0 +1,65 @@
+#pragma once
+/// The rules of a stage: all that follows from method, damping preset, kind of stage and loads is decided here, once.
+///
+/// Each part of the cycle receives its own rule and asks for no mode. The screen, `hdem check` and the checks of a case ask the same function, so
+/// that what a user is told is what runs.
+
+#include "core/contact/regime.h"
+#include "core/model/case_def.h"
+#include "core/model/model.h"
+#include "core/motion/damping.h"
+#include "core/motion/rest.h"
+#include "core/motion/step_control.h"
+#include "core/state/state.h"
+
+#include <vector>
+
+namespace hdem
+{
+/// What the rules follow from.
+struct StageSetting
+{
+    Method method = Method::hybrid;
+    DampingPreset preset = DampingPreset::automatic;
+    DampingDef damping;
+    double stable_fraction = 0.9;  ///< time.stable_fraction
+    ConvergenceDef convergence;
+    double gravity = 9.81;         ///< size of [m/s2]
+    bool until_converged = false;  ///< the stage ends when the rock is at rest
+    bool has_loads = false;        ///< the case has loads of any kind
+    bool is_driven = false;        ///< some motion is prescribed
+    bool has_step = false;         ///< the case gives the time step
+    RestSolver solver = RestSolver::dynamics;
+};
+
+struct StageRules
+{
+    RegimeRule contact;
+    DampingRule damping;
+    StepRule step;
+    RestRule rest;
+    bool ends_at_rest = false;   ///< the stage ends when the rock is at rest
+    bool has_loads = false;      ///< there are loads to be looked at in each cycle
+    bool tries_statics = false;  ///< the state of rest is sought by a static solution first, from where the stage begins
+};
+
+[[nodiscard]] StageRules resolve_rules(const StageSetting& setting);
+
+/// Of the running stage; before the first one, of the case as a whole.
+[[nodiscard]] StageRules resolve_rules(const Model& model, const State& state);
+
+/// Of each stage of a case, in their order.
+[[nodiscard]] std::vector<StageRules> resolve_rules(const CaseDef& def);
+
+/// Does a stage end when the rock is at rest?
+[[nodiscard]] bool ends_at_rest(const StageDef& stage);
+
+/// Is the step of Eq. (32) taken to the letter where a case gives none?
+[[nodiscard]] bool takes_paper_step(const CaseDef& def);
+
+/// Does something move in a way that forces do not change?
+[[nodiscard]] bool is_driven(const CaseDef& def);
+
+/// As the case file spells it.
+[[nodiscard]] const char* name_of(Method method);
+}  // namespace hdem

@@ -1,0 +1,117 @@
+#include "parallel/static_solver.h"
+
+#include "core/contact/block_forces.h"
+#include "core/contact/contact_forces.h"
+#include "core/energy_ledger.h"
+#include "core/motion/equilibrium.h"
+#include "core/motion/rest.h"
+#include "core/stage/rules.h"
+#include "parallel/static_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+constexpr int most_searches = 12;    // for contacts
+constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
+
+/// Forces by the law of the cycles; the state must be as they would leave it.
+Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, std::vector<std::uint8_t> is_held)
+{
+    ContactLoads loads;
+    loads.resize(state.contacts.stale.size());
+    const RegimeRule rule = resolve_rules(model, state).contact;
+    const ContactTally tally = evaluate_contacts({0, state.contacts.size()}, model, rule, state.blocks, state.contacts, loads);
+    state.ledger.friction += tally.friction;
+    state.ledger.contact_changes += tally.changes;
+    BlockContacts list;
+    list_block_contacts(state.contacts, state.blocks.size(), list);
+    sum_forces({0, state.blocks.size()}, model, list, loads, {}, false, state.blocks);
+    std::ranges::replace(is_held, std::uint8_t{frozen}, std::uint8_t{not_held});
+    const Unknowns standing = number_unknowns(state, is_held);
+    std::vector<double> net(3 * standing.block.size());
+    return net_forces({0, static_cast<Index>(standing.block.size())}, model, state, standing, list, loads.load, {}, net);
+}
+
+double weight_work(const Model& model, const State& before, const State& after)
+{
+    double work = 0.0;
+    for (Index b = 0; b < model.blocks(); ++b)
+        if (before.blocks.present[b] != 0)
+            work += model.mass[b] * (model.gravity.x() * (after.blocks.motion[b].x - before.blocks.motion[b].x) +
+                                     model.gravity.y() * (after.blocks.motion[b].y - before.blocks.motion[b].y));
+    return work;
+}
+
+void stop_all(Blocks& blocks)
+{
+    for (Index b = 0; b < blocks.size(); ++b)
+        if (blocks.is_free(b))
+            blocks.motion[b].vx = blocks.motion[b].vy = blocks.motion[b].w = 0.0;
+    wake_all(blocks);
+}
+}  // namespace
+
+StaticRule static_rule(const Model& model)
+{
+    const ConvergenceDef& convergence = model.convergence;
+    return {.ratio = 0.1 * convergence.unbalanced_force_ratio,
+            .accepted = convergence.unbalanced_force_ratio,
+            .acceleration = 0.1 * convergence.block_unbalanced_ratio * model.gravity.norm()};
+}
+
+bool can_solve_statics(const Model& model, const State& state)
+{
+    for (const std::vector<std::uint8_t>& regimes : state.contacts.regime)
+        if (std::ranges::find(regimes, static_cast<std::uint8_t>(Regime::impulse)) != regimes.end())
+            return false;
+    Index free = 0;
+    for (Index b = 0; b < state.blocks.size(); ++b)
+        free += state.blocks.is_free(b) ? 1 : 0;
+    Equilibrium now;
+    add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, now);
+    return free >= least_blocks && now.kinetic_energy <= now.kinetic_energy_at(10.0 * model.convergence.mean_speed);
+}
+
+StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule)
+{
+    State trial = state;
+    stop_all(trial.blocks);
+    StaticSearch search(model, trial, threads, rule);
+    StaticOutcome outcome;
+    while (outcome.searches < most_searches)
+    {
+        search.find_contacts();
+        ++outcome.searches;
+        const StaticSearch::End end = search.run();
+        outcome.iterations = search.iterations();
+        outcome.solves = search.solves();
+        outcome.residual = search.ratio();
+        outcome.loose = search.loose();
+        if (end == StaticSearch::End::gave_up)
+        {
+            outcome.kind = outcome.loose.empty() ? StaticOutcome::Kind::not_converged : StaticOutcome::Kind::no_equilibrium;
+            return outcome;
+        }
+        search.commit();
+        if (end != StaticSearch::End::in_balance)
+            break;
+    }
+    stop_all(trial.blocks);
+    const Imbalance left = evaluate_as_in_a_cycle(model, trial, search.is_held());
+    outcome.residual = left.ratio();
+    if (!(left.ratio() <= 2.0 * rule.accepted))
+        return outcome;
+    outcome.kind = StaticOutcome::Kind::balanced;
+    const double work = weight_work(model, state, trial);
+    trial.ledger.gravity_work += work;
+    trial.ledger.friction += search.friction();
+    trial.ledger.local_damping += residual(trial.ledger, stored_energy(model, trial)) -
+                                  residual(state.ledger, stored_energy(model, state));
+    state = std::move(trial);
+    return outcome;
+}
+}  // namespace hdem

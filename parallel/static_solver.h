@@ -1,0 +1,55 @@
+#pragma once
+/// The state of rest found by Newton's iteration in place of cycles.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+namespace hdem
+{
+/// What a static solution has to reach.
+struct StaticRule
+{
+    double ratio = 1e-6;         ///< sum of unbalanced forces and moments over that of weights [-]
+    double accepted = 1e-5;      ///< where no more can be reached [-]
+    double acceleration = 1e-3;  ///< greatest of a block, moment over radius included [m/s2]
+    double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
+    int stagnation = 50;         ///< iterations without a tenth less out of balance after which a search is given up
+    int most_iterations = 300;
+};
+
+/// A tenth of what the convergence criteria of the model ask for; just that is accepted.
+[[nodiscard]] StaticRule static_rule(const Model& model);
+
+struct StaticOutcome
+{
+    enum class Kind
+    {
+        balanced,
+        no_equilibrium,  ///< blocks go on moving however far the search follows them
+        not_converged
+    };
+    Kind kind = Kind::not_converged;
+    int iterations = 0;
+    int solves = 0;              ///< of the linear system's preconditioner
+    int searches = 0;            ///< of contacts
+    double residual = 0.0;       ///< unbalanced ratio of what stands, by the dynamic law [-]
+    std::vector<Index> loose{};  ///< blocks that have come away, ascending; or that moved when the search was given up
+};
+
+/// Is it worth a try where the rules of the stage allow it (StageRules::tries_statics)? Many blocks, all but at rest, all contacts on springs.
+[[nodiscard]] bool can_solve_statics(const Model& model, const State& state);
+
+/// Bring the blocks to rest under their weight: small steps of Newton's iteration on the contact forces as a cycle finds them, every increment of shear from the last
+/// equilibrium on. Blocks that come away are held where that is seen; they keep what they bear there, and fall in the cycles that follow.
+///
+/// 1. residual, status of each point, tangent with friction (core/statics/static_contacts.h)
+/// 2. Cholesky factor of the tangent without the coupling of friction; GMRES on the whole tangent with it, to 1e-2
+/// 3. a share t in [1/2, 1] of the step, by the energy with frozen shear strengths, which is convex
+/// 4. in balance: features and contacts are found anew; the state is the answer if it is still in balance
+///
+/// `state` changes only when it is balanced: places, forces and regimes of contacts, velocities 0, ledger. The slip's work goes to friction, all else that
+/// weight and springs have given to local damping, as the cycles in its place would have done. The same bits on any number of threads.
+/// @pre  can_solve_statics, contacts are not outdated.  Afterwards contacts must be found anew.
+/// @see  verification/unit/parallel/static_solver_test.cpp
+StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule);
+}  // namespace hdem

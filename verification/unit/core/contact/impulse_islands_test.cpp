@@ -1,0 +1,99 @@
+#include "core/contact/impulse_clusters.h"
+#include "core/contact/impulse_islands.h"
+
+#include <gtest/gtest.h>
+
+namespace hdem
+{
+namespace
+{
+ImpulsePoint between(Index ref, Index inc)
+{
+    ImpulsePoint p;
+    p.ref = ref;
+    p.inc = inc;
+    return p;
+}
+
+/// Block 0 is the ground, all others move.
+Blocks movable_blocks(int count)
+{
+    Blocks blocks;
+    blocks.motion.resize(static_cast<std::size_t>(count));
+    blocks.inertia.assign(static_cast<std::size_t>(count), {1.0, 1.0, 1.0, 0.0});
+    blocks.inertia[0] = {};
+    return blocks;
+}
+
+TEST(ImpulseIslands, AreJoinedByMovableBlocksOnly)
+{
+    const Blocks blocks = movable_blocks(7);
+    // Two columns on the same ground, in two lists; block 6 joins nothing.
+    std::vector<ImpulsePoint> first{between(0, 1), between(0, 3), between(2, 1)}, second{between(4, 3), between(0, 5)};
+    IslandFinder finder;
+    std::vector<Island> islands;
+    finder.find({&first, &second}, blocks, islands);
+    ASSERT_EQ(islands.size(), 3U);
+    EXPECT_EQ(islands[0].points, (std::vector<ImpulsePoint*>{&first[0], &first[2]}));
+    EXPECT_EQ(islands[1].points, (std::vector<ImpulsePoint*>{&first[1], &second[0]}));
+    EXPECT_EQ(islands[2].points, (std::vector<ImpulsePoint*>{&second[1]}));
+    // Nothing is left from before.
+    std::vector<ImpulsePoint> third{between(4, 1), between(3, 2)};
+    finder.find({&third}, blocks, islands);
+    EXPECT_EQ(islands.size(), 2U);
+}
+
+TEST(ImpulseIslands, OfAnyLengthAreOne)
+{
+    constexpr int count = 2000;
+    const Blocks blocks = movable_blocks(count);
+    std::vector<ImpulsePoint> points;
+    for (Index i = count - 1; i > 0; --i)
+        points.push_back(between(i - 1, i));
+    IslandFinder finder;
+    std::vector<Island> islands;
+    finder.find({&points}, blocks, islands);
+    ASSERT_EQ(islands.size(), 1U);
+    EXPECT_EQ(islands[0].points.size(), points.size());
+}
+
+void set_mass(Blocks& blocks, Index block, double mass)
+{
+    blocks.inertia[block].inverse_mass_x = blocks.inertia[block].inverse_mass_y = 1.0 / mass;
+}
+
+/// Ground 0, column 1 to 5 with light blocks 2 and 3 between heavy ones; far from them 6, light blocks 7 and 8 between it and the ground, and 9 and 10 on it.
+TEST(ImpulseIslands, OfManyPointsAreCutIntoClusters)
+{
+    Blocks blocks = movable_blocks(11);
+    for (const Index heavy : {1, 4, 5, 6})
+        set_mass(blocks, heavy, 1000.0);
+    std::vector<ImpulsePoint> points{between(0, 1), between(1, 2), between(2, 3), between(3, 4), between(4, 5), between(5, 6),
+                                     between(6, 7), between(7, 8), between(0, 8), between(6, 9), between(9, 10)};
+    IslandFinder finder;
+    std::vector<Island> islands;
+    finder.find({&points}, blocks, islands);
+    ASSERT_EQ(islands.size(), 1U);
+    constexpr Index none = no_index;
+    EXPECT_EQ(clusters_of(islands[0], blocks, 100.0), (std::vector<Index>{none, 0, 0, 0, none, none, 1, 1, 1, none, none}));
+    EXPECT_TRUE(clusters_of(islands[0], blocks, 1001.0).empty());
+    // A beam on all that is light, and a block of middle mass under which the lightest lies.
+    set_mass(blocks, 5, 1e6);
+    set_mass(blocks, 3, 10.0);
+    EXPECT_EQ(clusters_of(islands[0], blocks, 100.0), (std::vector<Index>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, none}));
+}
+
+TEST(MassRange, LeavesBlocksThatCannotMoveOut)
+{
+    MassRange range;
+    range.add(BlockInertia{});
+    EXPECT_TRUE(range.suits_sweeps(1));
+    range.add(BlockInertia{1.0, 1.0, 1.0, 0.0});
+    range.add(BlockInertia{0.0, 1.0 / 99.0, 0.0, 0.0});  // moves along y only
+    EXPECT_TRUE(range.suits_sweeps(10));
+    range.add(BlockInertia{1.0 / 101.0, 1.0 / 101.0, 1.0, 0.0});
+    EXPECT_FALSE(range.suits_sweeps(10));
+    EXPECT_TRUE(range.suits_sweeps(11));
+}
+}  // namespace
+}  // namespace hdem
