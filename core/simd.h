@@ -144,6 +144,10 @@ inline void transpose(Pack& a, Pack& b, Pack& c, Pack& d)
 }
 
 // The same words for one double.
+inline bool any(bool m)
+{
+    return m;
+}
 inline double select(bool m, double yes, double no)
 {
     return m ? yes : no;

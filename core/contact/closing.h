@@ -63,11 +63,16 @@ template <typename R>
     return max(square(p[0]), square(p[1])) > Pack(speed * speed);
 }
 
-/// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
-[[nodiscard]] inline Mask may_close_or_open(const BasicTouchPoint<Pack>* p, const Steps& step)
+/// Square of two of the longer step: what may_close_or_open asks for [s2].
+[[nodiscard]] inline double closing_ways(const Steps& step)
 {
     const double dt = std::max(step.last, step.next);
-    const Pack ways = Pack(4.0) * dt * dt;
+    return 4.0 * dt * dt;
+}
+
+/// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
+[[nodiscard]] inline Mask may_close_or_open(const BasicTouchPoint<Pack>* p, Pack ways)
+{
     const auto slowness = [&](const BasicTouchPoint<Pack>& point)
     { return point.overlap * point.overlap - ways * point.v_m * point.v_m; };
     return min(slowness(p[0]), slowness(p[1])) < Pack(0.0);

@@ -141,6 +141,9 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
     const Pack dt = step.last;
     const Threshold threshold{model.threshold_scale, step.kick() * model.gravity.norm(),
                               model.contact.threshold_velocity.value_or(-1.0), rule.rock_keeps_springs};
+    const Closing closing = rule.closing;
+    const double closing_speed = rule.closing_speed;
+    const Pack ways = closing_ways(step);
     LawLanes laws(model.joints.laws);
     Pack friction = 0.0, changes = 0.0;
     Mask::V closed{}, impulses{}, stale{}, deep{};
@@ -163,11 +166,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         g.inc = at_inc;
         g.joint = &laws.load(&contacts.law[i]);
         const Pack floor = load_lane(l.length_floor);
-        g.recovery = recovery * floor;
         g.length = point_length(g.touch.length, floor);
-        const Mask is_deep = (max(touch.point[0].overlap, touch.point[1].overlap) > floors_deep * floor) &
-                             (touch.length > Pack(0.0));
-        deep -= is_deep.v;
         const Mask::V moved = have_moved(l, view);
         store_bytes(moved & 1, &contacts.stale[i]);
         stale -= moved;
@@ -179,6 +178,9 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
             g.last_shear[k] = load_lane(l.shear_force[k]);
             closed -= g.closed[k].v;
         }
+        const Mask touching = g.closed[0] | g.closed[1];
+        const Mask is_deep = touching & (max(touch.point[0].overlap, touch.point[1].overlap) > floors_deep * floor);
+        deep -= is_deep.v;
         const Mask impulsive = are_impulsive<law>(g, model, blocks, threshold);
         impulses -= (g.closed[0].v & impulsive.v) + (g.closed[1].v & impulsive.v);
 
@@ -190,20 +192,22 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         const Mask past = g.was_impulse[0] | g.was_impulse[1] |
                           load_lane(l.rest_overlap[0]) + load_lane(l.rest_overlap[1]) > Pack(0.0);
         Mask act = past | impulsive;
-        Mask shared = g.closed[0] | g.closed[1];
-        if (rule.closing == Closing::fast_points)
-            shared = may_close_or_open(touch.point, step);
-        if (rule.closing_speed > 0.0)
-            shared = shared & are_faster(touch.point, rule.closing_speed);
-        if (rule.closing != Closing::whole_cycles)
+        Mask shared{};
+        if (closing != Closing::whole_cycles)
+        {
+            shared = closing == Closing::fast_points ? may_close_or_open(touch.point, ways) : touching;
+            if (closing_speed > 0.0)
+                shared = shared & are_faster(touch.point, closing_speed);
             act = act | shared;
+        }
         if (!any(act))
             for (int k = 0; k < 2; ++k)
                 evaluate_point<Contact4::rests>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
         else
         {
+            g.recovery = recovery * floor;
             std::array<Pack, 2> share{1.0, 1.0};
-            if (rule.closing != Closing::whole_cycles)
+            if (closing != Closing::whole_cycles)
                 share = closing_shares(blocks, l, at_ref, at_inc, touch, g.joint->law.normal_stiffness * g.length, g.recovery);
             for (Pack& s : share)  // what is slow must not depend on which contacts it is handled with
                 s = select(shared, s, 1.0);
@@ -225,10 +229,9 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         }
         store_loads(-x, -y, sums.moment_ref, reserve, side_ref, &loads.load[2 * i]);
         store_loads(x, y, sums.moment_inc, reserve, side_inc, &loads.load[2 * i]);
-        const Mask springs = (g.closed[0] | g.closed[1]) & !impulsive;
+        const Mask springs = touching & !impulsive;
         const Pack mobilised = select(sums.strength > Pack(0.0), sums.used / sums.strength, 1.0);
-        const Mask::V bits = (springs.v & std::int64_t{contact_force}) +
-                             ((g.closed[0].v | g.closed[1].v) & impulsive.v & std::int64_t{contact_impulse});
+        const Mask::V bits = (springs.v & std::int64_t{contact_force}) + (touching.v & impulsive.v & std::int64_t{contact_impulse});
         store_use(select(springs, mobilised, -1.0), g.touch.ex, g.touch.ey, bits, &loads.use[i]);
     }
     const auto count = [](Mask::V v) { return static_cast<Index>(v[0] + v[1] + v[2] + v[3]); };

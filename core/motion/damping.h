@@ -144,9 +144,12 @@ template <typename R>
     };
     const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
     const R damped_m = stopped_by_damping(m, acting.t_x * vy - acting.t_y * vx, inertia.inverse_mass_x, dt, damping.local);
+    const DampedForce<R> damped = {acting.t_x * damped_t - acting.t_y * damped_m, acting.t_y * damped_t + acting.t_x * damped_m};
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
-    return {select(on_axis, along(acting.x, vx, inertia.inverse_mass_x), acting.t_x * damped_t - acting.t_y * damped_m),
-            select(on_axis, along(acting.y, vy, inertia.inverse_mass_y), acting.t_y * damped_t + acting.t_x * damped_m)};
+    if (!any(on_axis))
+        return damped;
+    return {select(on_axis, along(acting.x, vx, inertia.inverse_mass_x), damped.x),
+            select(on_axis, along(acting.y, vy, inertia.inverse_mass_y), damped.y)};
 }
 
 /// Moment on a block after local damping.

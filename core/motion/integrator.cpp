@@ -21,7 +21,6 @@ struct Component
     Pack force;    ///< net, before damping
     Pack damped;   ///< after local damping
     Pack inverse;  ///< inverse mass or inertia, 0 where the motion is prescribed
-    Pack weight;   ///< gravity's share of the force
 };
 
 /// Works of a range of blocks.
@@ -41,6 +40,7 @@ struct Works
 
 /// New velocity; books the works of this component. The kinetic energy changes by each force times the mean of both velocities and the mean of both steps;
 /// springs, weight and loads are booked by the mean of both ways, (v last + v' next) / 2. Where the step changes the first is F (v' - v) (next - last) / 4 less.
+template <bool step_changes>
 inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, const Steps& step, Works& works)
 {
     const Pack zero = 0.0;
@@ -49,14 +49,19 @@ inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_glo
     const Pack kept = has_global ? select(is_free, velocity * (Pack(1.0) - global * dt), velocity) : velocity;
     const Pack next = kept + c.damped * c.inverse * dt;
     const Pack way = Pack(0.5) * (velocity + next) * dt;
-    works.gravity += c.weight * (Pack(0.5) * (velocity * Pack(step.last) + next * Pack(step.next)));
     works.holding += select(is_free, zero, c.force * way);  // what holds a prescribed motion
     works.local += select(is_free, (c.force - c.damped) * way, zero);
     if (has_global)
         works.global += select(is_free, global * velocity / c.inverse * way, zero);
-    if (step.next != step.last)
+    if constexpr (step_changes)
         works.changes += c.force * (next - velocity) * Pack(0.25 * (step.next - step.last));
     return next;
+}
+
+/// Half of the way before and half of the way after a force.
+inline Pack mean_way(Pack velocity, Pack next, const Steps& step)
+{
+    return velocity * Pack(0.5 * step.last) + next * Pack(0.5 * step.next);
 }
 
 /// Pose of four blocks after one step with the given velocities; columns a to d: x, y, cosine, sine.
@@ -82,33 +87,45 @@ double greatest(Pack p)
 {
     return max(max(p.v[0], p.v[1]), max(p.v[2], p.v[3]));
 }
-}  // namespace
 
-void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
+template <bool step_changes>
+Works change_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks)
 {
-    const Steps& step = blocks.step;
+    const Steps step = blocks.step;
     const Pack dt = step.kick();
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
     const bool has_global = rule.global != 0.0;
     Works works;
-    for_groups(
-        range,
-        [&](Index i, Index count)
-        {
-            const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
-            BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
-            hold_stopped(&blocks.rest[i], count, inertia);
-            Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
-            const Pack mass = load_some(&model.mass[i], count);
-            const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule);
-            const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
-            const Pack damped_moment = damp_rotation(acting, inertia, v.c, dt, damping);
-            v.a = advance(v.a, {acting.x, damped.x, inertia.inverse_mass_x, mass * g_x}, damping.global, has_global, step, works);
-            v.b = advance(v.b, {acting.y, damped.y, inertia.inverse_mass_y, mass * g_y}, damping.global, has_global, step, works);
-            v.c = advance(v.c, {acting.moment, damped_moment, inertia.inverse_inertia, 0.0}, damping.global, has_global, step,
-                          works);
-            v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
-        });
+    for_groups(range,
+               [&](Index i, Index count)
+               {
+                   const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
+                   BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
+                   hold_stopped(&blocks.rest[i], count, inertia);
+                   Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
+                   const Pack mass = load_some(&model.mass[i], count);
+                   const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule);
+                   const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
+                   const Pack damped_moment = damp_rotation(acting, inertia, v.c, dt, damping);
+                   const auto renew = [&](Pack velocity, const Component& c)
+                   { return advance<step_changes>(velocity, c, damping.global, has_global, step, works); };
+                   const Pack vx = renew(v.a, {acting.x, damped.x, inertia.inverse_mass_x});
+                   const Pack vy = renew(v.b, {acting.y, damped.y, inertia.inverse_mass_y});
+                   works.gravity += mass * (g_x * mean_way(v.a, vx, step) + g_y * mean_way(v.b, vy, step));
+                   v.a = vx;
+                   v.b = vy;
+                   v.c = renew(v.c, {acting.moment, damped_moment, inertia.inverse_inertia});
+                   v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
+               });
+    return works;
+}
+}  // namespace
+
+void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
+{
+    const bool step_changes = blocks.step.next != blocks.step.last;
+    const Works works = step_changes ? change_velocities<true>(range, model, rule, blocks)
+                                     : change_velocities<false>(range, model, rule, blocks);
     works.add_to(ledger);
 }
 
