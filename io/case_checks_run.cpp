@@ -111,6 +111,20 @@ class RunCheck : public CaseCheck
             warn("no stage runs until converged under the default damping", "Remove it, or give fraction instead.");
     }
 
+    void check_relaxation(const StageDef& stage, const std::string& path, const std::string& object)
+    {
+        if (stage.relax_cycles == 0)
+            return;
+        const auto refuse = [&](const std::string& why, const char* remedy)
+        { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
+        if (stage.excavate.empty())
+            refuse("nothing is excavated", "Add excavate, or remove relax_cycles.");
+        const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
+        if (!stage.duration && stage.relax_cycles > most)
+            refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),
+                   "Let the stage last longer, or take the forces off faster.");
+    }
+
     void check_stages()
     {
         if (def_.stages.empty() && !problems_.has("stage"))
@@ -133,6 +147,7 @@ class RunCheck : public CaseCheck
             if (given(path + ".max_cycles") && ends && !given(path + ".until"))
                 problems_.add(path + ".max_cycles", object, "max_cycles", "limits a stage with until",
                               "Use cycles, or add until = \"converged\".");
+            check_relaxation(stage, path, object);
             for (const std::string& name : stage.excavate)
             {
                 check_block_reference(path + ".excavate", object, name, "excavation or block", excavations_);

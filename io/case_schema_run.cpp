@@ -82,55 +82,64 @@ SectionSpec stage_section()
                           .choices = {"converged"},
                           .default_note = "cycles or duration is given instead"},
                          ValueType::text);
-    return {"stage",
-            SectionKind::array,
-            "stage",
-            "What happens, one stage after another in the order of the file. At its start a stage first removes, then fixes, then "
-            "frees blocks. It ends after `cycles`, after `duration`, or when converged: give exactly one.",
-            {field<&StageDef::name>(
-                 {.name = "name", .effect = "For the screen and the histories.", .default_note = "\"stage1\", \"stage2\", ..."}),
-             field<&StageDef::cycles>({.name = "cycles",
-                                       .effect = "Run this many cycles.",
-                                       .example = "5000",
-                                       .range = count,
-                                       .default_note = "duration or until is given instead"}),
-             field<&StageDef::duration>({.name = "duration",
-                                         .unit = "s",
-                                         .effect = "Run this long.",
-                                         .example = "1.5",
-                                         .range = {.low = 0, .high = 1e12, .low_included = false},
-                                         .default_note = "cycles or until is given instead"}),
-             with_assign(std::move(until), [](void* object, const TomlNode&, const KeySpec&)
-                         { static_cast<StageDef*>(object)->until_converged = true; }),
-             field<&StageDef::max_cycles>({.name = "max_cycles",
-                                           .effect = "With until: give up after this many; the program then ends with exit code 4.",
-                                           .range = count}),
-             field<&StageDef::solver>(
-                 {.name = "solver",
-                  .effect = "With until: `\"static\"` first tries to find the state of rest by Newton's iteration, "
-                            "without cycles. That takes 200 free blocks, no loads, springs at all contacts and the "
-                            "default damping. Blocks that come away fall in the cycles that follow; where there is no "
-                            "equilibrium all is left to cycles. A block on the verge of falling may stand in its answer. "
-                            "`\"dynamic\"`: cycles alone.",
-                  .choices = {"static", "dynamic"}}),
-             field<&StageDef::excavate>({.name = "excavate",
-                                         .effect = "Names of excavations or blocks that are removed.",
-                                         .example = "[\"tunnel\"]",
-                                         .default_note = "none"}),
-             field<&StageDef::fix>({.name = "fix",
-                                    .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
-                                    .default_note = "none"}),
-             field<&StageDef::free>(
-                 {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
-             field<&StageDef::method>({.name = "method",
-                                       .effect = "contact.method from here on.",
-                                       .choices = {"force", "impulse", "hybrid"},
-                                       .default_note = "unchanged"}),
-             field<&StageDef::damping>({.name = "damping",
-                                        .effect = "damping.preset from here on.",
-                                        .choices = {"default", "paper", "dynamic"},
-                                        .default_note = "unchanged"})},
-            append<&CaseDef::stages>};
+    return {
+        "stage",
+        SectionKind::array,
+        "stage",
+        "What happens, one stage after another in the order of the file. At its start a stage first removes, then fixes, then "
+        "frees blocks. It ends after `cycles`, after `duration`, or when converged: give exactly one.",
+        {field<&StageDef::name>(
+             {.name = "name", .effect = "For the screen and the histories.", .default_note = "\"stage1\", \"stage2\", ..."}),
+         field<&StageDef::cycles>({.name = "cycles",
+                                   .effect = "Run this many cycles.",
+                                   .example = "5000",
+                                   .range = count,
+                                   .default_note = "duration or until is given instead"}),
+         field<&StageDef::duration>({.name = "duration",
+                                     .unit = "s",
+                                     .effect = "Run this long.",
+                                     .example = "1.5",
+                                     .range = {.low = 0, .high = 1e12, .low_included = false},
+                                     .default_note = "cycles or until is given instead"}),
+         with_assign(std::move(until),
+                     [](void* object, const TomlNode&, const KeySpec&) { static_cast<StageDef*>(object)->until_converged = true; }),
+         field<&StageDef::max_cycles>({.name = "max_cycles",
+                                       .effect = "With until: give up after this many; the program then ends with exit code 4.",
+                                       .range = count}),
+         field<&StageDef::solver>(
+             {.name = "solver",
+              .effect = "With until: `\"static\"` first tries to find the state of rest by Newton's iteration, "
+                        "without cycles. That takes 200 free blocks, no loads, springs at all contacts and the "
+                        "default damping. Blocks that come away fall in the cycles that follow; where there is no "
+                        "equilibrium all is left to cycles. A block on the verge of falling may stand in its answer. "
+                        "`\"dynamic\"`: cycles alone.",
+              .choices = {"static", "dynamic"}}),
+         field<&StageDef::excavate>({.name = "excavate",
+                                     .effect = "Names of excavations or blocks that are removed.",
+                                     .example = "[\"tunnel\"]",
+                                     .default_note = "none"}),
+         field<&StageDef::relax_cycles>(
+             {.name = "relax_cycles",
+              .effect =
+                  "With excavate: the forces of the removed blocks on their neighbours are taken off evenly over so many cycles. "
+                  "0: at once, as in a blast. Rock next to an opening that is made at once swings, slips and opens joints that "
+                  "stand when it is made slowly. A stage with until ends after that.",
+              .example = "2000",
+              .range = {.low = 0, .high = 1e9}}),
+         field<&StageDef::fix>({.name = "fix",
+                                .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
+                                .default_note = "none"}),
+         field<&StageDef::free>(
+             {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
+         field<&StageDef::method>({.name = "method",
+                                   .effect = "contact.method from here on.",
+                                   .choices = {"force", "impulse", "hybrid"},
+                                   .default_note = "unchanged"}),
+         field<&StageDef::damping>({.name = "damping",
+                                    .effect = "damping.preset from here on.",
+                                    .choices = {"default", "paper", "dynamic"},
+                                    .default_note = "unchanged"})},
+        append<&CaseDef::stages>};
 }
 
 SectionSpec history_section()

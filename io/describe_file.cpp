@@ -166,7 +166,10 @@ void describe_case(Page& page, const fs::path& file)
                              ends_at_rest(stage) ? fmt::format("until converged, at most {} cycles", stage.max_cycles)
                              : stage.cycles      ? fmt::format("{} cycles", *stage.cycles)
                                                  : fmt::format("{:.6g} s", stage.duration.value_or(0.0)),
-                             stage.excavate.empty() ? "" : fmt::format(", excavates {}", fmt::join(stage.excavate, ", "))));
+                             stage.excavate.empty()
+                                 ? ""
+                                 : fmt::format(", excavates {}", fmt::join(stage.excavate, ", ")) +
+                                       (stage.relax_cycles == 0 ? "" : fmt::format(" over {} cycles", stage.relax_cycles))));
     for (const HistoryDef& history : def.histories)
         page.add("history", fmt::format("{}: {}", history.name, fmt::join(history.quantities, ", ")));
     for (const Problem& warning : read.warnings)

@@ -150,6 +150,10 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                   [](Vec2& v) { return std::tie(v.x(), v.y()); });
     archive.template rows<double>("/blocks/reference_angle", n, blocks.reference_angle, itself);
     archive.template rows<std::int32_t>("/blocks/next_to_excavation", any_extent, state.next_to_excavation, itself);
+    archive.template rows<std::int32_t>("/blocks/released", any_extent, state.released,
+                                        [](ReleasedForce& f) { return std::tie(f.block); });
+    archive.template rows<double>("/blocks/released_force", state.released.size(), state.released,
+                                  [](ReleasedForce& f) { return std::tie(f.x, f.y, f.moment); });
 }
 
 template <typename Archive>

@@ -1,5 +1,6 @@
 #include "io/state_checks.h"
 
+#include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 
 #include <algorithm>
@@ -102,6 +103,17 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
     const bool ascending = std::adjacent_find(near.begin(), near.end(), std::greater_equal<>()) == near.end();
     if (!ascending || (!near.empty() && (near.front() < 0 || near.back() >= blocks.size())))
         return Damage{"/blocks/next_to_excavation", "not ascending numbers of blocks"};
+    Index last = -1;
+    for (const ReleasedForce& f : state.released)
+    {
+        if (f.block <= last || f.block >= blocks.size())
+            return Damage{"/blocks/released", "not ascending numbers of blocks"};
+        if (!are_finite({f.x, f.y, f.moment}))
+            return Damage{"/blocks/released_force", "not a force"};
+        last = f.block;
+    }
+    if (!state.released.empty() && (!state.stage_begun || state.cycle >= released_until(model, state)))
+        return Damage{"/blocks/released", "not of the running stage"};
     return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include "core/detection/contact_tracking.h"
 #include "core/motion/integrator.h"
 #include "core/motion/loads.h"
+#include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
 #include "parallel/impulse_sweeps.h"
@@ -99,7 +100,8 @@ bool CycleRunner::found_deep_overlap() const
 Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
     const StageRules rules = resolve_rules(model, state);
-    const bool same = prepared_ && rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out;
+    const bool same = prepared_ && rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
+                      rules.has_loads == rules_.has_loads;
     rules_ = rules;
     if (!same)
         prepare(model, state);
@@ -153,7 +155,9 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
             [&]
             {
                 prescribe_motions(model, state.cycle, state.contacts, state.blocks, state.ledger);
+                clear_released_forces(state, work_.external);
                 apply_loads(model, state.cycle, state.blocks, work_.external, work_.loaded);
+                apply_released_forces(model, state, work_.external, work_.released);
             });
     clock.lap(CycleStage::update);
 
@@ -196,7 +200,10 @@ void CycleRunner::close_cycle(const Model& model, State& state)
         rest_changed = rest_changed || part.rest_changed;
     }
     if (rules_.has_loads)
+    {
         add_load_work(model, state.cycle, state.blocks, work_.loaded, state.ledger);
+        add_released_work(model, work_.released, state);
+    }
     ++state.cycle;
     Steps& step = state.blocks.step;
     state.time += step.next;

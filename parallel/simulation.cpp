@@ -2,6 +2,7 @@
 
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
+#include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
@@ -72,6 +73,8 @@ void Simulation::excavate(const std::string& name)
     for (Index i = 0; i < model_.blocks(); ++i)
         removed[i] = (excavation != no_index && model_.excavation[i] == excavation) || i == single;
 
+    if (model_.stages[state_.stage].relax_cycles > 0)
+        release_forces(removed, state_);
     const Contacts& contacts = state_.contacts;
     std::vector<Index>& near = state_.next_to_excavation;
     for (Index i = 0; i < contacts.size(); ++i)
@@ -107,6 +110,7 @@ void Simulation::begin_stage(Index stage)
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
     state_.quiet_since = -1.0;
+    state_.released.clear();
     state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
     const double stored = stored_energy(model_, state_).total();
@@ -137,13 +141,15 @@ void Simulation::begin_stage(Index stage)
 void Simulation::solve_statics()
 {
     statics_ = hdem::solve_statics(model_, state_, threads_, static_rule(model_));
-    if (statics_->kind == StaticOutcome::Kind::balanced)
-        runner_.renew_contacts(model_, state_, threads_);
+    if (statics_->kind != StaticOutcome::Kind::balanced)
+        return;
+    state_.released.clear();
+    runner_.renew_contacts(model_, state_, threads_);
 }
 
 void Simulation::finish_by_statics()
 {
-    if (!resolve_rules(model_, state_).tries_statics || !can_solve_statics(model_, state_) ||
+    if (!resolve_rules(model_, state_).tries_statics || !state_.released.empty() || !can_solve_statics(model_, state_) ||
         equilibrium().fastest.value >= model_.convergence.mean_speed)
         return;
     State before = state_;
@@ -179,8 +185,11 @@ void Simulation::advance(std::int64_t cycles)
     {
         if (state_.contacts_outdated)
             renew_contacts();
-        if (const Index stiff = runner_.run(model_, state_, end - state_.cycle, threads_); stiff != no_index)
+        const std::int64_t stop = state_.released.empty() ? end : std::min(end, released_until(model_, state_));
+        if (const Index stiff = runner_.run(model_, state_, stop - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
+        if (!state_.released.empty() && state_.cycle >= released_until(model_, state_))
+            state_.released.clear();
         if (runner_.found_deep_overlap())
             refuse_overlap(model_, state_);
     }

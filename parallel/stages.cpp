@@ -100,9 +100,11 @@ class StageRunner
         return simulation_.check_rest() && cycle - begin_ >= criteria.least_cycles;
     }
 
-    /// Does a load begin or end later in this stage? The rock is at rest only after that.
+    /// Does a load begin or end later in this stage, or do excavated blocks still act? The rock is at rest only after that.
     [[nodiscard]] bool is_load_to_change(std::int64_t cycle) const
     {
+        if (!simulation_.state().released.empty())
+            return true;
         const auto is_to_come = [&](std::int64_t change) { return change >= cycle && change < end_; };
         return std::ranges::any_of(simulation_.model().loads, [&](const Load& load)
                                    { return load.from < load.until && (is_to_come(load.from) || is_to_come(load.until)); });

@@ -105,6 +105,10 @@ class Resolver
 
     void check_stage(const StageDef& stage, const std::string& key)
     {
+        if (stage.duration && *stage.duration / model_.time_step < static_cast<double>(stage.relax_cycles))
+            fail(key + ".relax_cycles", "stage: relax_cycles = " + std::to_string(stage.relax_cycles) + " (its duration has only " +
+                                            std::to_string(static_cast<std::int64_t>(*stage.duration / model_.time_step)) +
+                                            " cycles). Let it last longer, or take the forces off faster.");
         for (const std::string& name : stage.excavate)
         {
             const bool is_excavation = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name) !=

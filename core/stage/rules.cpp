@@ -48,9 +48,9 @@ StageRules resolve_rules(const StageSetting& s)
                      .stable_share = s.stable_fraction,
                      .falls_by = s.method == Method::impulse ? g : 0.0,
                      .loose_distance = s.convergence.loose_distance},
-            .rest = looks_for_rest && !s.is_driven && !s.has_loads ? rest_of(s, g) : RestRule{},
+            .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
-            .has_loads = s.has_loads,
+            .has_loads = s.has_loads || s.releases,
             .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && s.method != Method::impulse && s.gravity > 0.0 &&
                              s.solver == RestSolver::statics};
 }
@@ -66,6 +66,7 @@ StageRules resolve_rules(const Model& model, const State& state)
                           .gravity = model.gravity.norm(),
                           .until_converged = begun && model.stages[state.stage].until_converged,
                           .has_loads = !model.loads.empty(),
+                          .releases = !state.released.empty(),
                           .is_driven = model.is_driven,
                           .has_step = model.has_step,
                           .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics});

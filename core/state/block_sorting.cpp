@@ -111,6 +111,9 @@ void sort_blocks(Model& model, State& state)
     for (Index& block : state.next_to_excavation)
         block = moved.block[block];
     std::sort(state.next_to_excavation.begin(), state.next_to_excavation.end());
+    for (ReleasedForce& force : state.released)
+        force.block = moved.block[force.block];
+    std::ranges::sort(state.released, {}, &ReleasedForce::block);
     move_contacts(moved, state.contacts);
     state.contacts_outdated = true;
 }

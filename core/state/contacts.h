@@ -104,6 +104,7 @@ class Contacts
 
     [[nodiscard]] double length_floor(Index i) const { return lane[i / lanes].length_floor[i % lanes]; }
     [[nodiscard]] double normal_force(int end, Index i) const { return lane[i / lanes].normal_force[end][i % lanes]; }
+    [[nodiscard]] double tilt_force(int end, Index i) const { return lane[i / lanes].tilt_force[end][i % lanes]; }
     [[nodiscard]] double shear_force(int end, Index i) const { return lane[i / lanes].shear_force[end][i % lanes]; }
     [[nodiscard]] double rest_overlap(int end, Index i) const { return lane[i / lanes].rest_overlap[end][i % lanes]; }
     [[nodiscard]] double& rest_overlap(int end, Index i) { return lane[i / lanes].rest_overlap[end][i % lanes]; }

@@ -18,12 +18,22 @@ struct StageOutcome
     bool at_rest = false;
 };
 
+/// What excavated blocks gave to a block that stays (core/motion/released_forces.h).
+struct ReleasedForce
+{
+    Index block = no_index;
+    double x = 0.0;  ///< [N]
+    double y = 0.0;
+    double moment = 0.0;  ///< about the block's centroid [N m]
+};
+
 struct State
 {
     Blocks blocks;
     Contacts contacts;
     std::vector<BlockMotion> rebuilt_at;    ///< poses at the last broad-phase rebuild
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
+    std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
     EnergyLedger ledger;
     std::int64_t cycle = 0;
     double time = 0.0;  ///< sum of all steps [s]

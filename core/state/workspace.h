@@ -109,5 +109,6 @@ struct Workspace
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
     std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step
+    std::vector<Triple> released;  ///< the same of those on which excavated blocks still act
 };
 }  // namespace hdem

@@ -14,6 +14,11 @@ COLLAPSE_RUNS = (REFERENCE, "hybrid", "hybrid_matched")
 SEEDS_PER_PLACE = 20    # give up after this many for each realisation that is wanted
 
 
+def turned(dips, angle):
+    """The same joint sets with all dips turned, again within -90 and 90 degrees."""
+    return tuple((dip + angle + 90) % 180 - 90 for dip in dips)
+
+
 class TooFew(Exception):
     """Told to the user in one line."""
 
@@ -103,20 +108,20 @@ def search_all(pool, runner, searches, told):
     return sorted(found, key=lambda trial: trial.geometry), sorted(others, key=lambda trial: trial.geometry)
 
 
-def places(realisations):
+def places(realisations, angle):
     """Orientations take them in turn."""
     count = len(ORIENTATIONS)
-    return [Search(dips, (realisations - i + count - 1) // count, compared, lambda trial: not trial.reason) for i, dips in enumerate(ORIENTATIONS)]
+    return [Search(turned(dips, angle), (realisations - i + count - 1) // count, compared, lambda trial: not trial.reason) for i, dips in enumerate(ORIENTATIONS)]
 
 
-def run_all(runner, realisations, jobs, told):
+def run_all(runner, realisations, angle, jobs, told):
     """(accepted, discarded, collapses), each sorted by seed: one collapse for four realisations, first from what was discarded."""
     wanted = (realisations + 3) // 4
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            accepted, discarded = search_all(pool, runner, places(realisations), told)
+            accepted, discarded = search_all(pool, runner, places(realisations, angle), told)
             collapses = [trial for trial in discarded if trial.is_collapse][:wanted]
-            more = Search(COLLAPSING, wanted - len(collapses), tried, lambda trial: trial.is_collapse)
+            more = Search(turned(COLLAPSING, angle), wanted - len(collapses), tried, lambda trial: trial.is_collapse)
             collapses += search_all(pool, runner, [more], told)[0]
             return accepted, discarded, list(pool.map(lambda trial: collapsed(runner, trial), collapses))
         except BaseException:

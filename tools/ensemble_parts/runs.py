@@ -80,8 +80,8 @@ def digest(file):
 class Runner:
     """Calls hdem, at most once for the same program, case and settings in the same folder."""
 
-    def __init__(self, program, case, folder):
-        self.program, self.case, self.folder = Path(program), case, folder
+    def __init__(self, program, case, folder, more=()):
+        self.program, self.case, self.folder, self.more = Path(program), case, folder, list(more)
         try:
             told = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=False)
             self.identity = {"program": digest(self.program), "case": digest(case)}    # a version is told by uncommitted changes too
@@ -96,7 +96,7 @@ class Runner:
 
     def run(self, geometry, variant, max_cycles):
         folder = self.folder / geometry.name / f"{variant}_{max_cycles}"
-        settings = geometry.settings + VARIANTS[variant] + [f"stage[1].max_cycles={max_cycles}"]
+        settings = geometry.settings + VARIANTS[variant] + [f"stage[1].max_cycles={max_cycles}"] + self.more
         key = self.identity | {"settings": settings}
         return self.kept(folder, key) or self.fresh(folder, key)
 

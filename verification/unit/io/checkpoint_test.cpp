@@ -141,6 +141,21 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfStepsThatVary)
     EXPECT_NE(state.blocks.step.next, setup.model.time_step);
 }
 
+TEST(Checkpoint, GivesTheUnbrokenRunOfForcesThatAreTakenOff)
+{
+    const ScratchFolder folder("checkpoint_relax");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.stages[1].relax_cycles = 600;
+    const Ended unbroken = run_unbroken(scene);
+    const std::int64_t begin = unbroken.stage_cycles[1];
+    for (const std::int64_t cycle : {begin + 1, begin + 311, begin + 600})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
 TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksThatRest)
 {
     const ScratchFolder folder("checkpoint_rest");

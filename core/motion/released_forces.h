@@ -1,0 +1,31 @@
+#pragma once
+/// What excavated blocks have given to those that stay, taken off over some cycles of the stage.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// Keep the forces of all contacts between a removed block and one that stays, summed block by block, in State::released. What blocks removed now were given
+/// before is forgotten. Forces are those of the last cycle; of impulses J / dt.
+/// @param removed  1 for each block that goes
+/// @pre    the contacts are still those of before the excavation
+void release_forces(const std::vector<std::uint8_t>& removed, State& state);
+
+/// The cycle from which on nothing is left of them.
+[[nodiscard]] std::int64_t released_until(const Model& model, const State& state);
+
+/// No force on their blocks in `external`: before loads and released forces are put there.
+void clear_released_forces(const State& state, std::vector<Triple>& external);
+
+/// What is left of them in this cycle, added to `external`, one entry a block. In the n-th cycle of the stage
+///
+///   F = (1 - n / relax_cycles) F_0      in the axes of the model, at the centroid, with their moment about it
+///
+/// `before` receives the velocities of their blocks, for add_released_work.
+void apply_released_forces(const Model& model, const State& state, std::vector<Triple>& external, std::vector<Triple>& before);
+
+/// Their work, once the velocities are updated.
+void add_released_work(const Model& model, const std::vector<Triple>& before, State& state);
+}  // namespace hdem

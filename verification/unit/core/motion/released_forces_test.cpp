@@ -1,0 +1,127 @@
+#include "core/motion/released_forces.h"
+#include "core/state/state_hash.h"
+#include "parallel/stages.h"
+#include "verification/unit/case_run.h"
+
+namespace hdem
+{
+namespace
+{
+using scenes::rectangle;
+using test::CaseRun;
+
+constexpr std::int64_t settled = 20'000;
+constexpr std::int64_t relaxed = 400;
+
+/// A block of 1 m on the ground, a second one on it a quarter of a metre to the right.
+CaseDef two_on_ground(const std::string& gone)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "ground", rectangle({-3, -1}, {6, 0}));
+    scenes::add_block(scene, "lower", rectangle({0, 0}, {1, 1}));
+    scenes::add_block(scene, "upper", rectangle({0.25, 1}, {1.25, 2}));
+    scene.contact.method = Method::force;
+    scene.stages = {{.name = "settle", .cycles = settled},
+                    {.name = "dig", .cycles = 2 * relaxed, .relax_cycles = relaxed, .excavate = {gone}}};
+    return scene;
+}
+
+double weight(const CaseRun& run, const std::string& block)
+{
+    return run.model().mass[run.slot(block)] * run.model().gravity.norm();
+}
+
+/// Sum of the normal forces between the lower block and the ground.
+double on_ground(const CaseRun& run)
+{
+    const Contacts& contacts = run.state().contacts;
+    const Index ground = run.slot("ground"), lower = run.slot("lower");
+    double sum = 0.0;
+    for (Index i = 0; i < contacts.size(); ++i)
+        if (std::minmax(contacts.ref[i], contacts.inc[i]) == std::minmax(ground, lower))
+            sum += contacts.normal_force(0, i) + contacts.normal_force(1, i);
+    return sum;
+}
+
+TEST(ReleasedForces, AreWhatTheBlocksGave)
+{
+    CaseRun run(two_on_ground("upper"));
+    run.advance(settled);
+    run.simulation.begin_stage(1);
+    ASSERT_EQ(run.state().released.size(), 1U);
+    const ReleasedForce& force = run.state().released.front();
+    EXPECT_EQ(force.block, run.slot("lower"));
+    const double load = weight(run, "upper");
+    EXPECT_NEAR(force.x, 0.0, 1e-5 * load);
+    EXPECT_NEAR(force.y, -load, 1e-5 * load);
+    EXPECT_NEAR(force.moment, -0.25 * load, 1e-5 * load) << "a quarter of a metre to the right: it turns clockwise";
+}
+
+TEST(ReleasedForces, AreTakenOffEvenly)
+{
+    CaseRun run(two_on_ground("upper"));
+    run.advance(settled);
+    run.simulation.begin_stage(1);
+    const double load = weight(run, "upper"), own = weight(run, "lower");
+    run.advance(1);
+    EXPECT_NEAR(on_ground(run), own + load, 1e-4 * load) << "nothing happens at once";
+    run.advance(relaxed / 2 - 1);
+    EXPECT_NEAR(on_ground(run), own + 0.5 * load, 0.03 * load);
+    EXPECT_FALSE(run.state().released.empty());
+    run.advance(relaxed / 2);
+    EXPECT_TRUE(run.state().released.empty());
+    run.advance(relaxed);
+    EXPECT_NEAR(on_ground(run), own, 0.01 * load);
+    EXPECT_LT(relative_residual(run.state().ledger, stored_energy(run.model(), run.state())), 1e-9);
+}
+
+/// What stood on the removed block falls with a(t) = g t / T, so far as g T^2 / 6.
+TEST(ReleasedForces, OfASupportLetItsLoadFallSlowly)
+{
+    CaseDef scene = two_on_ground("lower");
+    scene.damping.preset = DampingPreset::dynamic;
+    scene.blocks[2].polygon = rectangle({0.0, 1.0}, {1.0, 2.0});
+    scene.stages = {
+        {.name = "settle", .cycles = settled, .damping = DampingPreset::paper},
+        {.name = "dig", .cycles = relaxed, .relax_cycles = relaxed, .excavate = {"lower"}, .damping = DampingPreset::dynamic}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(settled);
+    run.simulation.begin_stage(1);
+    run.advance(relaxed);
+    const double t = relaxed * run.model().time_step;
+    EXPECT_NEAR(run.displacement("upper").y(), -run.model().gravity.norm() * t * t / 6.0, 0.01 * t * t);
+    EXPECT_LT(relative_residual(run.state().ledger, stored_energy(run.model(), run.state())), 1e-9);
+}
+
+TEST(ReleasedForces, KeepAStageFromBeingAtRest)
+{
+    CaseDef scene = two_on_ground("upper");
+    scene.convergence.least_cycles = 1;
+    scene.stages[1] = {.name = "dig", .until_converged = true, .max_cycles = 100'000, .relax_cycles = 3000, .excavate = {"upper"}};
+    CaseRun run(scene);
+    const std::vector<StageResult> results = run_stages(run.simulation, {}, nullptr);
+    EXPECT_TRUE(results.back().at_rest);
+    EXPECT_GE(results.back().cycles, 3000);
+    EXPECT_NEAR(on_ground(run), weight(run, "lower"), 1e-3 * weight(run, "lower"));
+}
+
+/// Steps that vary, blocks that rest afterwards: however the run is cut into calls.
+TEST(ReleasedForces, EndInTheirCycleHoweverARunIsCut)
+{
+    CaseDef scene = two_on_ground("upper");
+    scene.stages[1] = {.name = "dig", .until_converged = true, .max_cycles = 100'000, .relax_cycles = 401, .excavate = {"upper"}};
+    CaseRun whole(scene), cut(scene);
+    for (CaseRun* run : {&whole, &cut})
+    {
+        run->advance(settled);
+        run->simulation.begin_stage(1);
+    }
+    whole.advance(1000);
+    for (const std::int64_t cycles : {1, 399, 2, 1, 597})
+        cut.advance(cycles);
+    EXPECT_EQ(state_hash(whole.model(), whole.state()), state_hash(cut.model(), cut.state()));
+    EXPECT_EQ(whole.state().time, cut.state().time);
+}
+}  // namespace
+}  // namespace hdem
