@@ -19,16 +19,30 @@ StoredEnergy stored_energy(const Model& model, const State& state)
         if (state.blocks.is_free(i))
             stored.one_step_fall += 0.5 * model.mass[i] * fall * fall;
     }
+    double held = 0.0;
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
         if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
             continue;
-        const SpringEnergy springs = spring_energy(model, state.blocks, state.contacts.get(i));
-        stored.elastic_normal += springs.normal;
+        const Contact contact = state.contacts.get(i);
+        const SpringEnergy springs = spring_energy(model, state.blocks, contact);
+        held += held_energy(model, contact);
         stored.elastic_shear += springs.shear;
         stored.pending += springs.pending;
     }
+    stored.elastic_normal = held - state.ledger.coasting - stored.elastic_shear;
     return stored;
+}
+
+double held_energy(const Model& model, const Contact& contact)
+{
+    const double shear_stiffness = model.joints.laws[contact.law].shear_stiffness * contact.last_length;
+    double held = 0.0;
+    for (const PointHistory& point : contact.point)
+        if (is_spring(static_cast<std::uint8_t>(point.regime)))
+            held += 0.5 * point.normal_force * (point.overlap - point.rest_overlap) +
+                    (point.shear_force != 0.0 ? 0.5 * point.shear_force * point.shear_force / shear_stiffness : 0.0);
+    return held;
 }
 
 SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact)

@@ -24,7 +24,11 @@ struct StoredEnergy
 /// this is less than what it holds, and the next one makes up for it: the ledger's sums explain total(), and total() - pending is there.
 [[nodiscard]] StoredEnergy stored_energy(const Model& model, const State& state);
 
-/// Energy in the springs of one contact, at the same half step [J].
+/// Energy in the springs of one contact at the time of its last forces, 1/2 F u + 1/2 F_S^2 / (K_S L), whatever has moved since [J].
+[[nodiscard]] double held_energy(const Model& model, const Contact& contact);
+
+/// Energy in the springs of one contact, at the same half step [J]. As far as it depends on how its blocks turn to second order in the turn of a step: stored_energy takes
+/// only its split from here.
 struct SpringEnergy
 {
     double normal = 0.0;
@@ -35,17 +39,21 @@ struct SpringEnergy
 };
 [[nodiscard]] SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact);
 
-/// Work of a spring force over one step is F (u(t + dt) - u(t - dt)) / 2, since a force changes the velocity by half before
-/// and half after its time. Summed over steps this is the change of 1/2 F(t) u(t + dt) plus
+/// A force changes the velocity by half before and half after its time, so that its work in a cycle is exactly
 ///
-///   1/2 (F(t - dt) u(t) - F(t) u(t - dt))
+///   W = 1/2 F v dt + 1/2 F v' dt      v, v' velocities before and after, along F at the poses at which F acts
 ///
-/// which vanishes for a closed linear spring. It is what closing or opening between two cycles, a change of contact length and a
-/// hand-over between regimes take (or give): the ledger's contact_changes. What a change of features does to the springs is there too.
+/// The first half is known where the force is found, contact by contact. The second is summed block by block once the velocities are known
+/// (EnergyLedger::coasting), so that no pose has to be turned back. With what the spring holds, 1/2 F u, the sum of all over a cycle leaves
+///
+///   1/2 (F(t - dt) u(t - dt) - F(t) (u(t) - v dt)) - 1/2 F(t - dt) v dt
+///
+/// which vanishes for a closed linear spring whose points go straight ahead. It is what closing or opening between two cycles, turning, a change of contact length
+/// and a hand-over between regimes take (or give): the ledger's contact_changes. What a change of features does to the springs is there too.
 template <typename R>
-[[nodiscard]] inline R change_energy(R last_force, R overlap, R force, R last_overlap)
+[[nodiscard]] inline R change_energy(R last_force, R last_overlap, R force, R overlap_before)
 {
-    return R(0.5) * (last_force * overlap - force * last_overlap);
+    return R(0.5) * (last_force * last_overlap - force * overlap_before);
 }
 
 /// Energy that came in less what is stored or spent; what the ledger cannot explain [J].

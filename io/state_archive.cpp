@@ -124,6 +124,7 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<double>("/state/ledger", "impulse_loss", ledger.impulse_loss);
     archive.template value<double>("/state/ledger", "contact_changes", ledger.contact_changes);
     archive.template value<double>("/state/ledger", "removed", ledger.removed);
+    archive.template value<double>("/state/ledger", "coasting", ledger.coasting);
 }
 
 template <typename Archive>

@@ -154,7 +154,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         team.alone(
             [&]
             {
-                prescribe_motions(model, state.cycle, state.contacts, state.blocks, state.ledger);
+                prescribe_motions(model, state.cycle, state.blocks, state.ledger);
                 clear_released_forces(state, work_.external);
                 apply_loads(model, state.cycle, state.blocks, work_.external, work_.loaded);
                 apply_released_forces(model, state, work_.external, work_.released);
@@ -258,6 +258,8 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
 
 void CycleRunner::add_up_contacts(State& state)
 {
+    state.ledger.contact_changes -= state.ledger.coasting;
+    state.ledger.coasting = 0.0;
     for (const ContactPart& part : partition_.contacts)
     {
         state.ledger.add(part.ledger);

@@ -81,14 +81,13 @@ template <Contact4 contact>
 
     // Energies of this step; u is the stretch of the normal spring.
     const Pack u = rests ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
-    // Way of the point after the last force, along the reference edge's normal of then, beyond what the overlap gained.
-    const Pack strayed = (p.v_m - g.turning[k].m * dt) * dt - (p.overlap - load_lane(l.overlap[k]));
+    const Pack last_u = rests ? load_lane(l.overlap[k]) : load_lane(l.overlap[k]) - last_rest;
     const Pack plastic = -v_t * dt - (shear - start) * (g.joint->shear_compliance * g.length_inverse);
     const Pack slipped = Pack(0.5) * (start + shear) * plastic;
     const Mask stays = spring & (spring_normal + abs(spring_shear) > zero);
     sums.friction += select(stays, slipped, zero);
-    sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, u, normal, u - p.v_m * dt) +
-                    Pack(0.5) * (spring_normal * strayed + dt * ((spring_shear - shear) * curved + (start - spring_shear) * v_t));
+    sums.changes += select(stays, zero, slipped) + change_energy(spring_normal, last_u, normal, u - p.v_m * dt) +
+                    Pack(0.5) * dt * (start * v_t - shear * curved);
     if constexpr (!rests)
     {
         // The rest overlap has become shorter under the force of now.
@@ -111,7 +110,7 @@ template <Contact4 contact>
     sums.moment_ref += p.ref_t * normal + p.ref_m * shear;
 }
 
-/// Tilt forces of both points, and their work: half a step under those of the last cycle, half under those of now.
+/// Tilt forces of both points, and their work in the half step before them.
 inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
 {
     Pack work = 0.0;
@@ -123,8 +122,7 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
         // It acts on the surface of inc, half of the overlap beyond the point.
         const Pack beyond = Pack(0.5) * p.overlap;
         const Pack v_t = p.v_t - g.w * beyond;
-        const Pack last = load_lane(l.tilt_force[k]);
-        work += (tilt + last) * v_t - last * g.turning[k].surface * dt;
+        work += tilt * v_t;
         store_lane(l.tilt_force[k], tilt);
         sums.f_t += tilt;
         sums.moment_inc -= (p.inc_m + beyond) * tilt;

@@ -20,7 +20,9 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
                             (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
                             (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
         ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
-        ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * inertia.inverse_inertia * w);
+        const double dw = inertia.inverse_inertia * w;
+        ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * dw);
+        ledger.coasting += half_step * ((force.x - weight.x()) * dvx + (force.y - weight.y()) * dvy + force.moment * dw);
     };
     for (const ImpulsePoint& p : points)
     {

@@ -1,5 +1,5 @@
 #pragma once
-/// What springs do against velocities that are no motion of the run: changes of prescribed ones, position corrections.
+/// What springs do against velocities that are no motion of the run: position corrections.
 
 #include "core/state/state.h"
 #include "core/state/workspace.h"

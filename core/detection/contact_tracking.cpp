@@ -11,19 +11,12 @@ namespace hdem
 {
 namespace
 {
-double energy_of(const Model& model, const Blocks& blocks, const Contact& contact)
-{
-    const bool loaded = contact.point[0].normal_force > 0.0 || contact.point[1].normal_force > 0.0 ||
-                        contact.point[0].shear_force != 0.0 || contact.point[1].shear_force != 0.0;
-    return loaded ? spring_energy(model, blocks, contact).total() : 0.0;
-}
-
 /// find_features, with the energy it takes from or gives to the springs booked.
 double search(const Model& model, const Blocks& blocks, Contact& contact, EnergyLedger& ledger)
 {
-    const double before = energy_of(model, blocks, contact);
+    const double before = held_energy(model, contact);
     const double distance = find_features(model, blocks, contact);
-    ledger.contact_changes += before - energy_of(model, blocks, contact);
+    ledger.contact_changes += before - held_energy(model, contact);
     return distance;
 }
 }  // namespace
@@ -136,7 +129,7 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
         if (search(model, blocks, contact, ledger) <= blocks.margin[block_a] + blocks.margin[block_b])
             out.push_back(contact);
         else
-            ledger.contact_changes += energy_of(model, blocks, contact);
+            ledger.contact_changes += held_energy(model, contact);
     }
 }
 

@@ -26,7 +26,7 @@ struct Component
 /// Works of a range of blocks.
 struct Works
 {
-    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0;
+    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0, coasting = 0.0;
 
     void add_to(EnergyLedger& ledger) const
     {
@@ -35,6 +35,7 @@ struct Works
         ledger.local_damping += sum(local);
         ledger.global_damping += sum(global);
         ledger.contact_changes += sum(changes);
+        ledger.coasting += sum(coasting);
     }
 };
 
@@ -92,7 +93,7 @@ template <bool step_changes>
 Works change_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks)
 {
     const Steps step = blocks.step;
-    const Pack dt = step.kick();
+    const Pack dt = step.kick(), after = 0.5 * step.next;
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
     const bool has_global = rule.global != 0.0;
     Works works;
@@ -111,10 +112,13 @@ Works change_velocities(IndexRange range, const Model& model, const DampingRule&
                    { return advance<step_changes>(velocity, c, damping.global, has_global, step, works); };
                    const Pack vx = renew(v.a, {acting.x, damped.x, inertia.inverse_mass_x});
                    const Pack vy = renew(v.b, {acting.y, damped.y, inertia.inverse_mass_y});
+                   const Pack w = renew(v.c, {acting.moment, damped_moment, inertia.inverse_inertia});
                    works.gravity += mass * (g_x * mean_way(v.a, vx, step) + g_y * mean_way(v.b, vy, step));
+                   // Of contacts alone; what loads have in it is taken out by add_load_work.
+                   works.coasting += after * ((acting.x - mass * g_x) * vx + (acting.y - mass * g_y) * vy + acting.moment * w);
                    v.a = vx;
                    v.b = vy;
-                   v.c = renew(v.c, {acting.moment, damped_moment, inertia.inverse_inertia});
+                   v.c = w;
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                });
     return works;

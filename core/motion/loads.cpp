@@ -1,7 +1,5 @@
 #include "core/motion/loads.h"
 
-#include "core/contact/spring_power.h"
-
 namespace hdem
 {
 namespace
@@ -27,8 +25,7 @@ enum class Prescription
     ends  ///< velocities are zero again
 };
 
-void prescribe(const Load& load, const Model& model, Blocks& blocks, std::vector<Triple>& change, EnergyLedger& ledger,
-               Prescription what)
+void prescribe(const Load& load, const Model& model, Blocks& blocks, EnergyLedger& ledger, Prescription what)
 {
     if (!load.velocity_x && !load.velocity_y && !load.angular_velocity)
         return;
@@ -39,14 +36,9 @@ void prescribe(const Load& load, const Model& model, Blocks& blocks, std::vector
         if (blocks.present[i] == 0)
             continue;
         BlockMotion& motion = blocks.motion[i];
-        const BlockMotion was = motion;
         ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
         ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
         ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
-        if (motion.vx == was.vx && motion.vy == was.vy && motion.w == was.w)
-            continue;
-        change.resize(static_cast<std::size_t>(blocks.size()));
-        change[i] = {change[i].x + motion.vx - was.vx, change[i].y + motion.vy - was.vy, change[i].w + motion.w - was.w};
     }
 }
 }  // namespace
@@ -75,21 +67,15 @@ void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, s
     }
 }
 
-void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger)
+void prescribe_motions(const Model& model, std::int64_t cycle, Blocks& blocks, EnergyLedger& ledger)
 {
-    std::vector<Triple> change;
     // What a load prescribed ends with it; first, so that another load may take over in the same cycle, wherever it is listed.
     for (const Load& load : model.loads)
         if (cycle == load.until && load.from < load.until)
-            prescribe(load, model, blocks, change, ledger, Prescription::ends);
+            prescribe(load, model, blocks, ledger, Prescription::ends);
     for (const Load& load : model.loads)
         if (acts(load, cycle))
-            prescribe(load, model, blocks, change, ledger, Prescription::acts);
-    if (change.empty())
-        return;
-    // The last force has worked for half a step along the old velocity. The contacts will book that half along the new one.
-    const SpringPower power = spring_power({0, contacts.size()}, contacts, blocks, change);
-    ledger.load_work -= 0.5 * blocks.step.last * (power.normal + power.shear);
+            prescribe(load, model, blocks, ledger, Prescription::acts);
 }
 
 void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
@@ -105,9 +91,10 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
                 const BlockMotion& motion = blocks.motion[i];
                 const Triple& was = before[at++];
                 const Vec2 force = model.mass[i] * load.acceleration + load.force;
-                const auto way = [&](double then, double now) { return 0.5 * (then * blocks.step.last + now * blocks.step.next); };
-                ledger.load_work += force.x() * way(was.x, motion.vx) + force.y() * way(was.y, motion.vy) +
-                                    load.moment * way(was.w, motion.w);
+                const auto power = [&](double x, double y, double w) { return force.x() * x + force.y() * y + load.moment * w; };
+                const double after = 0.5 * blocks.step.next * power(motion.vx, motion.vy, motion.w);
+                ledger.load_work += 0.5 * blocks.step.last * power(was.x, was.y, was.w) + after;
+                ledger.coasting -= after;
             }
 }
 }  // namespace hdem

@@ -14,7 +14,7 @@ void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, s
 
 /// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
 /// spring sheared at a given velocity answers to the displacement at the end of the cycle.
-void prescribe_motions(const Model& model, std::int64_t cycle, const Contacts& contacts, Blocks& blocks, EnergyLedger& ledger);
+void prescribe_motions(const Model& model, std::int64_t cycle, Blocks& blocks, EnergyLedger& ledger);
 
 /// Work of these loads, once the velocities are updated.
 void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,

@@ -105,13 +105,14 @@ void add_released_work(const Model& model, const std::vector<Triple>& before, St
 {
     const double share = released_share(model, state);
     const Steps& step = state.blocks.step;
-    const auto way = [&](double then, double now) { return 0.5 * (then * step.last + now * step.next); };
     for (std::size_t i = 0; i < before.size(); ++i)
     {
         const ReleasedForce& force = state.released[i];
         const BlockMotion& now = state.blocks.motion[force.block];
-        state.ledger.load_work += share * (force.x * way(before[i].x, now.vx) + force.y * way(before[i].y, now.vy) +
-                                           force.moment * way(before[i].w, now.w));
+        const auto power = [&](double x, double y, double w) { return share * (force.x * x + force.y * y + force.moment * w); };
+        const double after = 0.5 * step.next * power(now.vx, now.vy, now.w);
+        state.ledger.load_work += 0.5 * step.last * power(before[i].x, before[i].y, before[i].w) + after;
+        state.ledger.coasting -= after;
     }
 }
 }  // namespace hdem

@@ -15,10 +15,15 @@ bool is_quiet(Index block, const Model& model, const RestRule& rule, const Block
            unbalance(block, model, blocks) < rule.quiet;
 }
 
+/// The contacts have counted on its way up to their forces: half a step.
 void stop(Index block, const Model& model, Blocks& blocks, EnergyLedger& ledger)
 {
-    ledger.local_damping += kinetic_energy(model, blocks, block);
     BlockMotion& motion = blocks.motion[block];
+    const BlockForce& force = blocks.force[block];
+    const Vec2 weight = model.mass[block] * model.gravity;
+    ledger.local_damping += kinetic_energy(model, blocks, block) +
+                            0.5 * blocks.step.last *
+                                ((force.x - weight.x()) * motion.vx + (force.y - weight.y()) * motion.vy + force.moment * motion.w);
     motion.vx = motion.vy = motion.w = 0.0;
 }
 
