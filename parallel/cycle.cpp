@@ -316,7 +316,7 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
-    apply_impulses(model, state, team, impulses, partition_, work_);
+    apply_impulses(model, rules_.islands, state, team, impulses, partition_, work_);
     clock.lap(CycleStage::impulse);
     if (team.is_first())
         add_up_contacts(state);

@@ -32,14 +32,14 @@ void for_colours(const Team& team, bool together, Partition& partition, const St
 }
 
 /// Islands that sweeps do not bring to an end, each by one thread. Which these are does not depend on the number of threads.
-void solve_islands(const Model& model, State& state, const Team& team, Partition& partition, Workspace& work)
+void solve_islands(const Model& model, ExactIslands which, State& state, const Team& team, Partition& partition, Workspace& work)
 {
     Blocks& blocks = state.blocks;
     MassRange masses;
     for (const ContactPart& part : partition.contacts)
         if (!part.impulses.empty())
             masses.add(part.masses);
-    if (masses.suits_sweeps(model.contact.impulse_sweeps))
+    if (which == ExactIslands::great_mass_ratios && masses.suits_sweeps(model.contact.impulse_sweeps))
         return;
     const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = parts.begin; i < parts.end; ++i)
@@ -57,7 +57,7 @@ void solve_islands(const Model& model, State& state, const Team& team, Partition
         });
     const IndexRange islands = team.share(static_cast<Index>(partition.islands.size()));
     for (Index i = islands.begin; i < islands.end; ++i)
-        solve_island(model, blocks, work.pseudo, partition.islands[i]);
+        solve_island(model, which, blocks, work.pseudo, partition.islands[i]);
     team.barrier();
     if (team.is_first())
         for (const Island& island : partition.islands)
@@ -65,7 +65,8 @@ void solve_islands(const Model& model, State& state, const Team& team, Partition
 }
 }  // namespace
 
-void apply_impulses(const Model& model, State& state, const Team& team, Index impulses, Partition& partition, Workspace& work)
+void apply_impulses(const Model& model, ExactIslands exact, State& state, const Team& team, Index impulses, Partition& partition,
+                    Workspace& work)
 {
     const bool together = impulses >= impulses_worth_sharing;
     Blocks& blocks = state.blocks;
@@ -86,7 +87,7 @@ void apply_impulses(const Model& model, State& state, const Team& team, Index im
                         sweep_correction(model, blocks, part.impulses, work.pseudo);        // Eq. (19)
                     });
     team.barrier();
-    solve_islands(model, state, team, partition, work);
+    solve_islands(model, exact, state, team, partition, work);
     const IndexRange block_parts = team.share(static_cast<Index>(partition.blocks.size()));
     for (Index i = block_parts.begin; i < block_parts.end; ++i)
         add_correction_gravity(partition.blocks[i].range, model, blocks, work.pseudo, partition.blocks[i].ledger);

@@ -14,5 +14,6 @@ class Team;
 /// (29), (30).
 /// @param impulses  points in the impulse regime in this cycle
 /// @pre  all threads of the team are here; velocities hold all other forces
-void apply_impulses(const Model& model, State& state, const Team& team, Index impulses, Partition& partition, Workspace& work);
+void apply_impulses(const Model& model, ExactIslands exact, State& state, const Team& team, Index impulses, Partition& partition,
+                    Workspace& work);
 }  // namespace hdem

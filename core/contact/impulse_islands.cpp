@@ -290,19 +290,21 @@ void solve_correction(const Model& model, const Blocks& blocks, std::vector<Trip
 }
 }  // namespace
 
-void solve_island(const Model& model, Blocks& blocks, std::vector<Triple>& pseudo, Island& island)
+void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island)
 {
     MassRange masses;
     for (const Index block : island.blocks)
         masses.add(blocks.inertia[block]);
-    if (masses.suits_sweeps(model.contact.impulse_sweeps))
+    const bool suits_sweeps = masses.suits_sweeps(model.contact.impulse_sweeps);
+    if (suits_sweeps && which == ExactIslands::great_mass_ratios)
         return;
     const bool whole = island.points.size() <= small_island;
     for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
     {
         if (cluster.points.size() > small_cluster)
         {
-            island.loss += sweep_more(model, blocks, pseudo, cluster);
+            if (!suits_sweeps)
+                island.loss += sweep_more(model, blocks, pseudo, cluster);
             continue;
         }
         island.loss += solve_velocities(blocks, cluster);

@@ -1,5 +1,5 @@
 #pragma once
-/// Islands: impulse points that share movable blocks. Those with great ratios of mass are solved all at once where sweeps have left too much.
+/// Islands: impulse points that share movable blocks. Some are solved all at once where sweeps have left too much.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -12,6 +12,13 @@
 
 namespace hdem
 {
+/// Which islands are solved all at once.
+enum class ExactIslands
+{
+    great_mass_ratios,  ///< those that sweeps would need many cycles for
+    small               ///< these, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
+};
+
 /// How much the masses of movable blocks differ.
 struct MassRange
 {
@@ -62,9 +69,9 @@ class IslandFinder
     std::vector<Index> place_;      ///< of blocks in their islands
 };
 
-/// Solves velocities and position correction of an island all at once, if its masses differ much and the sweeps have left too much. Of an island of
+/// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much. Of an island of
 /// more than 100 points only the clusters, where the sweeps have left more than around them: there is nothing to be gained where the cluster's
-/// neighbours are not known better. Clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a heavy block
-/// may still sink into what it lies on.
-void solve_island(const Model& model, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
+/// neighbours are not known better. Where masses differ much, clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a
+/// heavy block may still sink into what it lies on.
+void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
 }  // namespace hdem

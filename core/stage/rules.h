@@ -4,6 +4,7 @@
 /// Each part of the cycle receives its own rule and asks for no mode. The screen, `hdem check` and the checks of a case ask the same function, so
 /// that what a user is told is what runs.
 
+#include "core/contact/impulse_islands.h"
 #include "core/contact/regime.h"
 #include "core/model/case_def.h"
 #include "core/model/model.h"
@@ -36,6 +37,7 @@ struct StageSetting
 struct StageRules
 {
     RegimeRule contact;
+    ExactIslands islands = ExactIslands::great_mass_ratios;
     DampingRule damping;
     StepRule step;
     RestRule rest;
