@@ -26,7 +26,7 @@ class StaticSearch
 
     /// Find contacts and features at the present places, and begin there.
     void find_contacts();
-    /// Twice at most: with steps of half at least, then from the start again with steps as short as the energy asks for.
+    /// Twice at most: with steps of half at least until they bring nothing any more, then from the start again with steps as short as the energy asks for.
     End run();
     /// The places and forces found become the next start.
     void commit();
