@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hdem
 {
@@ -15,13 +16,14 @@ constexpr double holds_below = 5e-3;  // and blocks that have come away are held
 constexpr int holds_after = 4;        // iterations without gain, when they may be what keeps the others out of balance
 constexpr double many_parted = 1e-3;  // share of the points: where fewer part, the search is not farther from its end than before
 constexpr double freezes_below = 0.05;
-constexpr int freezes_after = 15;    // iterations without gain, and below that ratio, when the worst blocks are left out
-constexpr double least_far = 5e-3;   // of the middle size of a block
-constexpr double moves = 0.2;        // of far: what a point has moved whose block is named when the search is given up
-constexpr double longest_way = 0.3;  // of far, of a point in one step
-constexpr int most_restraints = 3;   // of points that go farther, until the step is taken as it is
-constexpr int shortens_after = 12;   // iterations without gain
-constexpr int stuck_after = 10;      // iterations without gain after which what is accepted is taken
+constexpr int freezes_after = 15;        // iterations without gain, and below that ratio, when the worst blocks are left out
+constexpr int keeps_features_after = 5;  // searches for contacts
+constexpr double least_far = 5e-3;       // of the middle size of a block
+constexpr double moves = 0.2;            // of far: what a point has moved whose block is named when the search is given up
+constexpr double longest_way = 0.3;      // of far, of a point in one step
+constexpr int most_restraints = 3;       // of points that go farther, until the step is taken as it is
+constexpr int shortens_after = 12;       // iterations without gain
+constexpr int stuck_after = 10;          // iterations without gain after which what is accepted is taken
 constexpr double short_far = 0.02;
 constexpr double settled =
     1e-3;  // a search that begins farther out of balance is not carried to the end: new features will change the forces again
@@ -58,7 +60,10 @@ std::vector<Index> StaticSearch::loose() const
 
 void StaticSearch::find_contacts()
 {
+    const Contacts before = searches_ >= keeps_features_after ? state_.contacts : Contacts();
     with_team(threads_, [&](const Team& team) { rebuild_.run(model_, state_, team); });
+    keep_features(before);
+    ++searches_;
     const auto contacts = static_cast<std::size_t>(state_.contacts.size());
     points_.resize(2 * contacts);
     tangents_.resize(contacts);
@@ -71,6 +76,21 @@ void StaticSearch::find_contacts()
     start_ = state_.blocks.motion;
     std::ranges::replace(is_held_, std::uint8_t{frozen}, std::uint8_t{not_held});
     begin();
+}
+
+/// Two parts that face each other with two pairs of edges about as well may change from one to the other at each search, and back: they stay as they are.
+void StaticSearch::keep_features(const Contacts& before)
+{
+    Contacts& now = state_.contacts;
+    const auto parts = [](const Contacts& contacts, Index i) { return std::pair(contacts.part_a[i], contacts.part_b[i]); };
+    for (Index i = 0, old = 0; i < now.size(); ++i)  // both lists are sorted by parts
+    {
+        while (old < before.size() && parts(before, old) < parts(now, i))
+            ++old;
+        if (old < before.size() && parts(before, old) == parts(now, i) &&
+            (before.ref_edge[old] != now.ref_edge[i] || before.inc_edge[old] != now.inc_edge[i]))
+            now.put(i, before.get(old));
+    }
 }
 
 void StaticSearch::number()

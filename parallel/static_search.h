@@ -48,6 +48,7 @@ class StaticSearch
     };
 
     void begin();
+    void keep_features(const Contacts& before);
     void number();
     End iterate(const Pass& pass);
     void find_imbalance(bool frozen, bool along_step);
@@ -100,6 +101,7 @@ class StaticSearch
     double block_size_ = 0.0;  ///< of the middle block [m]
     double far_ = 0.0;         ///< a point that moves farther has left its place [m]
     double friction_ = 0.0;
+    int searches_ = 0;
     int iterations_ = 0;
     int solves_ = 0;
 };
