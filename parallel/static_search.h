@@ -5,6 +5,7 @@
 #include "parallel/contact_rebuild.h"
 #include "parallel/factorisation.h"
 #include "parallel/gmres.h"
+#include "parallel/piece_sums.h"
 #include "parallel/static_solver.h"
 
 namespace hdem
@@ -25,7 +26,7 @@ class StaticSearch
 
     /// Find contacts and features at the present places, and begin there.
     void find_contacts();
-    /// Twice at most: with steps of half at least, then from the start again with steps as short as the energy asks for.
+    /// Twice at most: with steps of half at least until they bring nothing any more, then from the start again with steps as short as the energy asks for.
     End run();
     /// The places and forces found become the next start.
     void commit();
@@ -47,6 +48,7 @@ class StaticSearch
     };
 
     void begin();
+    void keep_features(const Contacts& before);
     void number();
     End iterate(const Pass& pass);
     void find_imbalance(bool frozen, bool along_step);
@@ -61,7 +63,15 @@ class StaticSearch
     [[nodiscard]] bool is_balanced(const StaticRule& goal) const;
     [[nodiscard]] IndexRange contacts() const { return {0, state_.contacts.size()}; }
     template <typename Work>
-    void for_contacts(const Work& work);
+    void for_contacts(const Work& work)
+    {
+        sum_pieces<Nothing>(threads_, state_.contacts.size(),
+                            [&](IndexRange range)
+                            {
+                                work(range);
+                                return Nothing{};
+                            });
+    }
 
     const Model& model_;
     State& state_;
@@ -88,8 +98,10 @@ class StaticSearch
 
     PointTally tally_;
     Imbalance imbalance_;
-    double far_ = 0.0;  ///< a point that moves farther has left its place [m]
+    double block_size_ = 0.0;  ///< of the middle block [m]
+    double far_ = 0.0;         ///< a point that moves farther has left its place [m]
     double friction_ = 0.0;
+    int searches_ = 0;
     int iterations_ = 0;
     int solves_ = 0;
 };

@@ -14,7 +14,7 @@ struct StaticRule
     double acceleration = 1e-3;  ///< greatest of a block, moment over radius included [m/s2]
     double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
     int stagnation = 50;         ///< iterations without a tenth less out of balance after which a search is given up
-    int most_iterations = 300;
+    int most_iterations = 500;
 };
 
 /// A tenth of what the convergence criteria of the model ask for; just that is accepted.

@@ -175,6 +175,74 @@ CaseDef jointed_rock()
     return scene;
 }
 
+/// Rock that three sets of joints cut, about as the tunnel of the publication stands in.
+CaseDef three_joint_sets(double spacing, double friction_angle_deg, double cohesion)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.domain = {.given = true, .width = 35.0, .height = 33.0, .fixed = {"left", "right", "bottom"}};
+    scene.joint_sets = {{.name = "inclined", .dip_deg = 25.0, .spacing = spacing, .deviation_deg = 2.0},
+                        {.name = "steep", .dip_deg = 75.0, .spacing = 2.0 * spacing, .deviation_deg = 2.0},
+                        {.name = "steep_back", .dip_deg = -55.0, .spacing = spacing, .deviation_deg = 2.0}};
+    scene.generator.seed = 10;
+    scene.generator.smallest_block_area = 0.12 * spacing * spacing;
+    scene.joints[0].friction_angle_deg = friction_angle_deg;
+    scene.joints[0].cohesion = cohesion;
+    return scene;
+}
+
+TEST(StaticSolver, WhatNewFeaturesTakeFromASpringIsGivenBack)
+{
+    const StaticRun rock(three_joint_sets(1.7, 35.0, 1e5));
+    ASSERT_EQ(rock.outcome.kind, Kind::balanced);
+    for (Index i = 0; i < rock.state.contacts.size(); ++i)
+        for (int k = 0; k < 2; ++k)
+            EXPECT_EQ(rock.state.contacts.rest_overlap(k, i), 0.0) << i;
+}
+
+TEST(StaticSolver, WeakJointsComeToRest)
+{
+    const StaticRun rock(three_joint_sets(1.0, 15.0, 1000.0));
+    EXPECT_EQ(rock.outcome.kind, Kind::balanced);
+    EXPECT_LT(rock.outcome.iterations, 100);
+}
+
+/// All lengths, and the cohesion with them: pressures and overlaps then grow as lengths do.
+CaseDef scaled(CaseDef scene, double scale)
+{
+    scene.domain.width *= scale;
+    scene.domain.height *= scale;
+    for (JointSetDef& set : scene.joint_sets)
+        set.spacing *= scale;
+    scene.generator.smallest_block_area *= scale * scale;
+    scene.generator.smallest_edge *= scale;
+    for (BlockDef& block : scene.blocks)
+        for (Vec2& p : block.polygon)
+            p *= scale;
+    for (JointDef& joint : scene.joints)
+        joint.cohesion *= scale;
+    return scene;
+}
+
+TEST(StaticSolver, AModelOfAnySizeHasTheSameAnswer)
+{
+    const StaticRun rock(jointed_rock()), pillars(pillars_and_a_sliding_block());
+    for (const double scale : {1.0 / 128.0, 128.0})
+    {
+        const StaticRun same_rock(scaled(jointed_rock(), scale)), same_pillars(scaled(pillars_and_a_sliding_block(), scale));
+        EXPECT_EQ(same_pillars.outcome.kind, pillars.outcome.kind) << scale;
+        EXPECT_EQ(same_pillars.loose(), pillars.loose()) << scale;
+        ASSERT_EQ(same_rock.outcome.kind, rock.outcome.kind) << scale;
+        double greatest = 0.0, off = 0.0;
+        for (Index b = 0; b < rock.state.blocks.size(); ++b)
+        {
+            const Vec2 way = rock.state.blocks.displacement(b);
+            greatest = std::max(greatest, way.norm());
+            off = std::max(off, (same_rock.state.blocks.displacement(b) / scale - way).norm());
+        }
+        EXPECT_LT(off, 1e-2 * greatest) << scale;
+    }
+}
+
 TEST(StaticSolver, GivesTheSameBitsOnAnyNumberOfThreads)
 {
     const StaticRun one(jointed_rock(), 1), three(jointed_rock(), 3);
