@@ -111,6 +111,7 @@ void Simulation::begin_stage(Index stage)
     state_.stage_begin_cycle = state_.cycle;
     state_.quiet_since = -1.0;
     state_.released.clear();
+    state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
     const double stored = stored_energy(model_, state_).total();
@@ -141,20 +142,21 @@ void Simulation::begin_stage(Index stage)
 void Simulation::solve_statics()
 {
     statics_ = hdem::solve_statics(model_, state_, threads_, static_rule(model_));
-    if (statics_->kind != StaticOutcome::Kind::balanced)
+    if (!statics_->is_taken())
         return;
+    state_.statics_taken = true;
     state_.released.clear();
     runner_.renew_contacts(model_, state_, threads_);
 }
 
 void Simulation::finish_by_statics()
 {
-    if (!resolve_rules(model_, state_).tries_statics || !state_.released.empty() || !can_solve_statics(model_, state_) ||
-        equilibrium().fastest.value >= model_.convergence.mean_speed)
+    if (!resolve_rules(model_, state_).tries_statics || !state_.released.empty() || state_.statics_taken ||
+        !can_solve_statics(model_, state_) || equilibrium().fastest.value >= model_.convergence.mean_speed)
         return;
     State before = state_;
     solve_statics();
-    if (statics_->kind == StaticOutcome::Kind::balanced && !statics_->loose.empty())
+    if (statics_->is_taken() && !statics_->loose.empty())
     {
         state_ = std::move(before);  // what slides slowly is not stopped on its way
         runner_.renew_contacts(model_, state_, threads_);

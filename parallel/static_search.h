@@ -28,6 +28,8 @@ class StaticSearch
     void find_contacts();
     /// Twice at most: with steps of half at least until they bring nothing any more, then from the start again with steps as short as the energy asks for.
     End run();
+    /// From where it began as far as the iterations of the rule go, whatever that brings.
+    void advance() { iterate({}); }
     /// The places and forces found become the next start.
     void commit();
 

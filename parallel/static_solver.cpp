@@ -4,11 +4,12 @@
 #include "core/contact/contact_forces.h"
 #include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
-#include "core/motion/rest.h"
 #include "core/stage/rules.h"
+#include "parallel/static_approach.h"
 #include "parallel/static_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hdem
@@ -17,6 +18,7 @@ namespace
 {
 constexpr int most_searches = 12;    // for contacts
 constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
+constexpr Index large = 10'000;      // from zero stress Newton by itself takes longer than with cycles in turn
 
 /// Forces by the law of the cycles; the state must be as they would leave it.
 Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, std::vector<std::uint8_t> is_held)
@@ -46,12 +48,62 @@ double weight_work(const Model& model, const State& before, const State& after)
     return work;
 }
 
-void stop_all(Blocks& blocks)
+/// Search after search for contacts, from a trial state that is at rest. The trial is balanced if the outcome is.
+StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule)
 {
-    for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.is_free(b))
-            blocks.motion[b].vx = blocks.motion[b].vy = blocks.motion[b].w = 0.0;
-    wake_all(blocks);
+    StaticSearch search(model, trial, threads, rule);
+    StaticOutcome outcome;
+    while (outcome.searches < most_searches)
+    {
+        search.find_contacts();
+        ++outcome.searches;
+        const StaticSearch::End end = search.run();
+        outcome.iterations = search.iterations();
+        outcome.solves = search.solves();
+        outcome.residual = search.ratio();
+        outcome.loose = search.loose();
+        if (end == StaticSearch::End::gave_up)
+        {
+            outcome.kind = outcome.loose.empty() ? StaticOutcome::Kind::not_converged : StaticOutcome::Kind::no_equilibrium;
+            return outcome;
+        }
+        search.commit();
+        if (end != StaticSearch::End::in_balance)
+            break;
+    }
+    stop_all(trial.blocks);
+    outcome.residual = evaluate_as_in_a_cycle(model, trial, search.is_held()).ratio();
+    trial.ledger.friction += search.friction();
+    if (outcome.residual <= rule.nearly)
+        outcome.kind = outcome.residual <= 2.0 * rule.accepted ? StaticOutcome::Kind::balanced
+                                                               : StaticOutcome::Kind::nearly_balanced;
+    return outcome;
+}
+
+/// The same after the rounds of an approach.
+StaticOutcome approach_and_search(const Model& model, State& trial, int threads, const StaticRule& rule)
+{
+    StaticOutcome approach;
+    if (!approach_balance(model, trial, threads, rule, approach))
+        return approach;
+    StaticOutcome outcome = search_balance(model, trial, threads, rule);
+    outcome.iterations += approach.iterations;
+    outcome.solves += approach.solves;
+    outcome.searches += approach.searches;
+    return outcome;
+}
+
+bool is_large(const State& state)
+{
+    return state.blocks.size() >= large;
+}
+
+State at_rest(const State& state)
+{
+    State trial = state;
+    stop_all(trial.blocks);
+    trial.released.clear();
+    return trial;
 }
 }  // namespace
 
@@ -78,37 +130,25 @@ bool can_solve_statics(const Model& model, const State& state)
 
 StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule)
 {
-    State trial = state;
-    stop_all(trial.blocks);
-    StaticSearch search(model, trial, threads, rule);
-    StaticOutcome outcome;
-    while (outcome.searches < most_searches)
+    const bool approaches_first = is_large(state) && is_unloaded(model, state);
+    using Way = StaticOutcome (*)(const Model&, State&, int, const StaticRule&);
+    const std::array<Way, 2> ways = approaches_first ? std::array<Way, 2>{approach_and_search, search_balance}
+                                                     : std::array<Way, 2>{search_balance, approach_and_search};
+    State trial = at_rest(state);
+    StaticOutcome outcome = ways[0](model, trial, threads, rule);
+    if (!outcome.is_taken())
     {
-        search.find_contacts();
-        ++outcome.searches;
-        const StaticSearch::End end = search.run();
-        outcome.iterations = search.iterations();
-        outcome.solves = search.solves();
-        outcome.residual = search.ratio();
-        outcome.loose = search.loose();
-        if (end == StaticSearch::End::gave_up)
-        {
-            outcome.kind = outcome.loose.empty() ? StaticOutcome::Kind::not_converged : StaticOutcome::Kind::no_equilibrium;
-            return outcome;
-        }
-        search.commit();
-        if (end != StaticSearch::End::in_balance)
-            break;
+        trial = at_rest(state);
+        StaticOutcome second = ways[1](model, trial, threads, rule);
+        second.iterations += outcome.iterations;
+        second.solves += outcome.solves;
+        second.searches += outcome.searches;
+        if (second.is_taken() || outcome.kind == StaticOutcome::Kind::not_converged)
+            outcome = std::move(second);
     }
-    stop_all(trial.blocks);
-    const Imbalance left = evaluate_as_in_a_cycle(model, trial, search.is_held());
-    outcome.residual = left.ratio();
-    if (!(left.ratio() <= 2.0 * rule.accepted))
+    if (!outcome.is_taken())
         return outcome;
-    outcome.kind = StaticOutcome::Kind::balanced;
-    const double work = weight_work(model, state, trial);
-    trial.ledger.gravity_work += work;
-    trial.ledger.friction += search.friction();
+    trial.ledger.gravity_work = state.ledger.gravity_work + weight_work(model, state, trial);
     trial.ledger.local_damping += residual(trial.ledger, stored_energy(model, trial)) -
                                   residual(state.ledger, stored_energy(model, state));
     state = std::move(trial);

@@ -11,10 +11,11 @@ struct StaticRule
 {
     double ratio = 1e-6;         ///< sum of unbalanced forces and moments over that of weights [-]
     double accepted = 1e-5;      ///< where no more can be reached [-]
+    double nearly = 1e-3;        ///< from where cycles may go on [-]
     double acceleration = 1e-3;  ///< greatest of a block, moment over radius included [m/s2]
     double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
     int stagnation = 50;         ///< iterations without a tenth less out of balance after which a search is given up
-    int most_iterations = 500;
+    int most_iterations = 350;
 };
 
 /// A tenth of what the convergence criteria of the model ask for; just that is accepted.
@@ -25,10 +26,13 @@ struct StaticOutcome
     enum class Kind
     {
         balanced,
-        no_equilibrium,  ///< blocks go on moving however far the search follows them
+        nearly_balanced,  ///< single blocks rest where the law of a contact jumps: cycles have to settle them
+        no_equilibrium,   ///< blocks go on moving however far the search follows them
         not_converged
     };
     Kind kind = Kind::not_converged;
+    /// Is the state the one that was found?
+    [[nodiscard]] bool is_taken() const { return kind == Kind::balanced || kind == Kind::nearly_balanced; }
     int iterations = 0;
     int solves = 0;              ///< of the linear system's preconditioner
     int searches = 0;            ///< of contacts
@@ -47,7 +51,9 @@ struct StaticOutcome
 /// 3. a share t in [1/2, 1] of the step, by the energy with frozen shear strengths, which is convex
 /// 4. in balance: features and contacts are found anew; the state is the answer if it is still in balance
 ///
-/// `state` changes only when it is balanced: places, forces and regimes of contacts, velocities 0, ledger. The slip's work goes to friction, all else that
+/// From zero stress, and where that leads nowhere, Newton and cycles take turns first (parallel/static_approach.h).
+///
+/// `state` changes only when it is balanced, or nearly: places, forces and regimes of contacts, velocities 0, ledger. The slip's work goes to friction, all else that
 /// weight and springs have given to local damping, as the cycles in its place would have done. The same bits on any number of threads.
 /// @pre  can_solve_statics, contacts are not outdated.  Afterwards contacts must be found anew.
 /// @see  verification/unit/parallel/static_solver_test.cpp

@@ -104,8 +104,8 @@ std::string statics_note(const Model& model, const StaticOutcome& statics)
             "note: static solution: no equilibrium found {}; {} blocks kept moving:{}. The stage goes through cycles from "
             "its beginning.",
             effort, statics.loose.size(), names);
-    const std::string found = fmt::format("note: static solution: in balance {}, unbalanced force ratio {:.2g}", effort,
-                                          statics.residual);
+    const std::string found = fmt::format("note: static solution: {} balance {}, unbalanced force ratio {:.2g}",
+                                          statics.kind == StaticOutcome::Kind::balanced ? "in" : "near", effort, statics.residual);
     return statics.loose.empty() ? found + "." : found + fmt::format("; {} blocks come away:{}.", statics.loose.size(), names);
 }
 
