@@ -30,6 +30,9 @@ class CycleRunner
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
     void renew_contacts(const Model& model, State& state, int threads);
 
+    /// The contacts were found by somebody else; they stay as they are.
+    void take_contacts() { prepared_ = false; }
+
     /// Closed contact points summed over all cycles.
     [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
 

@@ -17,6 +17,10 @@
 
 namespace hdem
 {
+namespace
+{
+constexpr std::int64_t wakes_every = 1000;  ///< cycles: so long woken blocks have to come to rest again
+}
 int default_threads()
 {
 #ifdef _OPENMP
@@ -146,7 +150,8 @@ void Simulation::solve_statics()
         return;
     state_.statics_taken = true;
     state_.released.clear();
-    runner_.renew_contacts(model_, state_, threads_);
+    state_.contacts_outdated = false;
+    runner_.take_contacts();  // found anew, some would have other features, which bear otherwise
 }
 
 void Simulation::finish_by_statics()
@@ -223,11 +228,16 @@ Equilibrium Simulation::equilibrium() const
 bool Simulation::check_rest()
 {
     const ConvergenceDef& convergence = model_.convergence;
-    if (!holds(convergence, equilibrium()))
+    const Equilibrium now = equilibrium();
+    if (!holds(convergence, now))
     {
         state_.quiet_since = -1.0;
         const RestRule rest = resolve_rules(model_, state_).rest;
-        if (rest.leaves_out && wake_if_all_rest(model_, rest.model_unsupported, state_.blocks))
+        // Each block by itself may have what all together may not.
+        const bool blocks_hold = now.fastest.value < convergence.mean_speed &&
+                                 now.unbalanced.value < convergence.block_unbalanced_ratio;
+        const bool looks = all_rest(state_.blocks) || (blocks_hold && state_.cycle % wakes_every == 0);
+        if (rest.leaves_out && looks && wake_unbalanced(model_, rest.quiet, state_.blocks))
             state_.rest_changed = true;
         return false;
     }

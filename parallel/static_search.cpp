@@ -1,6 +1,7 @@
 #include "parallel/static_search.h"
 
 #include "core/contact/block_forces.h"
+#include "core/detection/edge_touch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +90,13 @@ void StaticSearch::keep_features(const Contacts& before)
             ++old;
         if (old < before.size() && parts(before, old) == parts(now, i) &&
             (before.ref_edge[old] != now.ref_edge[i] || before.inc_edge[old] != now.inc_edge[i]))
-            now.put(i, before.get(old));
+        {
+            Contact kept = before.get(old);
+            const EdgeView v = view_edges(kept.edges, state_.blocks.motion[kept.ref], state_.blocks.motion[kept.inc]);
+            kept.seen = {static_cast<float>(v.t0), static_cast<float>(v.m0), static_cast<float>(v.t1), static_cast<float>(v.m1)};
+            now.put(i, kept);
+            now.stale[i] = 0;
+        }
     }
 }
 

@@ -55,7 +55,7 @@ struct StaticOutcome
 ///
 /// `state` changes only when it is balanced, or nearly: places, forces and regimes of contacts, velocities 0, ledger. The slip's work goes to friction, all else that
 /// weight and springs have given to local damping, as the cycles in its place would have done. The same bits on any number of threads.
-/// @pre  can_solve_statics, contacts are not outdated.  Afterwards contacts must be found anew.
+/// @pre  can_solve_statics, contacts are not outdated.  Afterwards they are those of the new places.
 /// @see  verification/unit/parallel/static_solver_test.cpp
 StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule);
 }  // namespace hdem

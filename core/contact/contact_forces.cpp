@@ -114,7 +114,7 @@ template <Contact4 contact>
 inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
 {
     Pack work = 0.0;
-    const Pack pull = select(g.touch.length > floor, length_pull(sums.work, g.length_inverse), Pack(0.0));
+    const Pack pull = length_pull(sums.work, g.length_inverse) * length_growth(g.touch.length, floor);
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<Pack>& p = g.touch.point[k];

@@ -150,10 +150,24 @@ template <typename R>
     return (contact_length > R(0.0)) & (overlap > R(-closed_gap) * length_floor);
 }
 
-/// One point's share of the contact length: half, but at least half of the floor (a corner on a corner has next to none) [m].
+/// One point's share of the contact length [m]: half of it from two floors on, at least half of the floor (a corner on a corner has next to none). Between them the
+/// length grows as a parabola:
+///
+///   L = f + l^2 / (4 f)     for 0 <= l <= 2 f      dL/dl = l / (2 f)
+///
+/// With a bend at l = f the force along the edge (contact/force_law.h, dV/dL) would jump there, and a corner that rests at that place would rattle for ever.
 template <typename R>
 [[nodiscard]] inline R point_length(R contact_length, R length_floor)
 {
-    return R(0.5) * max(contact_length, length_floor);
+    const R two = R(2.0) * length_floor;
+    const R within = max(min(contact_length, two), R(0.0));
+    return R(0.5) * (max(contact_length, two) - length_floor + R(0.25) * within * within / length_floor);
+}
+
+/// How much of a change of the contact length changes the length that counts [-].
+template <typename R>
+[[nodiscard]] inline R length_growth(R contact_length, R length_floor)
+{
+    return max(min(R(0.5) * contact_length / length_floor, R(1.0)), R(0.0));
 }
 }  // namespace hdem

@@ -83,14 +83,19 @@ void wake_all(Blocks& blocks)
     std::fill(blocks.rest.begin(), blocks.rest.end(), std::uint8_t{0});
 }
 
-bool wake_if_all_rest(const Model& model, double limit, Blocks& blocks)
+bool all_rest(const Blocks& blocks)
 {
     for (Index b = 0; b < blocks.size(); ++b)
         if (blocks.is_free(b) && blocks.takes_part(b))
             return false;
+    return true;
+}
+
+bool wake_unbalanced(const Model& model, double limit, Blocks& blocks)
+{
     bool woken = false;
     for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.is_free(b) && unbalance(b, model, blocks) >= limit)
+        if (blocks.is_free(b) && blocks.rest[b] >= stopped && unbalance(b, model, blocks) >= limit)
         {
             blocks.rest[b] = 0;
             woken = true;

@@ -33,9 +33,12 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
 /// All blocks take part again.
 void wake_all(Blocks& blocks);
 
-/// Where no free block takes part any more but the stage may not end: those take part again whose unbalance is `limit` or more [m/s2].
+/// Does no free block take part any more?
+[[nodiscard]] bool all_rest(const Blocks& blocks);
+
+/// Where the stage may not end yet: stopped blocks whose unbalance is `limit` or more take part again [m/s2].
 /// @return  whether there are any
-bool wake_if_all_rest(const Model& model, double limit, Blocks& blocks);
+bool wake_unbalanced(const Model& model, double limit, Blocks& blocks);
 
 /// Does it touch, or nearly touch, a block that takes part, or take part itself?
 [[nodiscard]] bool is_beside_moving(Index block, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks);

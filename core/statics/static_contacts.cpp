@@ -154,7 +154,7 @@ void put_loads(IndexRange range, const Model& model, const State& state, const s
             work += r[k].normal * at.stretch;
         }
         double f_t = 0.0, f_m = 0.0, moment_ref = 0.0, moment_inc = 0.0;
-        const double pull = v.touch.length > v.floor ? length_pull(work, 1.0 / v.length) : 0.0;
+        const double pull = length_pull(work, 1.0 / v.length) * length_growth(v.touch.length, v.floor);
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = v.touch.point[k];
@@ -277,7 +277,7 @@ void commit_points(IndexRange range, const Model& model, const std::vector<Stati
                                                                                               : Regime::stick);
             work += r.normal * at.stretch;
         }
-        const double pull = v.touch.length > v.floor ? length_pull(work, 1.0 / v.length) : 0.0;
+        const double pull = length_pull(work, 1.0 / v.length) * length_growth(v.touch.length, v.floor);
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = v.touch.point[k];

@@ -115,7 +115,17 @@ TEST(ClosedContact, AllowsForRoundingOfTouchingFacesOnly)
 TEST(PointLength, IsHalfTheContactButNotLessThanHalfTheFloor)
 {
     EXPECT_DOUBLE_EQ(point_length(0.8, 1e-3), 0.4);
-    EXPECT_DOUBLE_EQ(point_length(1e-9, 1e-3), 0.5e-3);
+    EXPECT_NEAR(point_length(1e-9, 1e-3), 0.5e-3, 1e-15);
+}
+
+TEST(PointLength, AndItsGrowthHaveNoJump)
+{
+    constexpr double f = 1e-3, h = 1e-9;
+    EXPECT_DOUBLE_EQ(point_length(2.0 * f, f), f);
+    EXPECT_EQ(length_growth(-f, f), 0.0);
+    EXPECT_EQ(length_growth(3.0 * f, f), 1.0);
+    for (double l = 0.05 * f; l < 3.0 * f; l += 0.1 * f)
+        EXPECT_NEAR(length_growth(l, f), (point_length(l + h, f) - point_length(l - h, f)) / h, 1e-6) << l;
 }
 
 struct RandomTouch
