@@ -150,6 +150,13 @@ template <typename R>
     return (contact_length > R(0.0)) & (overlap > R(-closed_gap) * length_floor);
 }
 
+/// How much of a change of the contact length changes the length that counts, see point_length [-].
+template <typename R>
+[[nodiscard]] inline R length_growth(R contact_length, R length_floor)
+{
+    return max(min(R(0.5) * contact_length / length_floor, R(1.0)), R(0.0));
+}
+
 /// One point's share of the contact length [m]: half of it from two floors on, at least half of the floor (a corner on a corner has next to none). Between them the
 /// length grows as a parabola:
 ///
@@ -159,15 +166,7 @@ template <typename R>
 template <typename R>
 [[nodiscard]] inline R point_length(R contact_length, R length_floor)
 {
-    const R two = R(2.0) * length_floor;
-    const R within = max(min(contact_length, two), R(0.0));
-    return R(0.5) * (max(contact_length, two) - length_floor + R(0.25) * within * within / length_floor);
-}
-
-/// How much of a change of the contact length changes the length that counts [-].
-template <typename R>
-[[nodiscard]] inline R length_growth(R contact_length, R length_floor)
-{
-    return max(min(R(0.5) * contact_length / length_floor, R(1.0)), R(0.0));
+    const R growth = length_growth(contact_length, length_floor);
+    return R(0.5) * (max(contact_length, R(2.0) * length_floor) + length_floor * (growth * growth - R(1.0)));
 }
 }  // namespace hdem
