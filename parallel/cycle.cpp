@@ -244,12 +244,12 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         if (rule.closing != Closing::whole_cycles)
             rule.closing = closing_of(part.answer, state.blocks.step.next);
         for (const IndexRange& range : part.active)
-            part.tally += evaluate_contacts(range, model, rule, state.blocks, state.contacts,
-                                            work_.loads);  // Eqs. (1)-(10), (24)-(28)
+            part.tally = evaluate_contacts(range, model, rule, state.blocks, state.contacts, work_.loads,
+                                           part.tally);  // Eqs. (1)-(10), (24)-(28)
         if (!part.stiff.empty())
             part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);
-        part.ledger.friction += part.tally.friction;
-        part.ledger.contact_changes += part.tally.changes;
+        part.ledger.friction += sum(part.tally.friction);
+        part.ledger.contact_changes += sum(part.tally.changes);
         part.impulses.clear();
         if (part.tally.impulses > 0)
             collect_impulse_points(part.range, model, state.blocks, state.contacts, part.impulses);
@@ -272,6 +272,7 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
 {
     part.ledger = {};
     part.rest_changed = false;
+    VelocityWorks works;
     const auto let_rest = [&](IndexRange range)
     { part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed; };
     for (const IndexRange& range : part.active)
@@ -280,8 +281,9 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
                    state.blocks);  // Eqs. (7), (8)
         if (rules_.rest.leaves_out)
             let_rest(range);
-        update_velocities(range, model, rules_.damping, state.blocks, part.ledger);  // Eqs. (11)-(14), (20)-(22)
+        update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
     }
+    works.add_to(part.ledger);
     if (rules_.rest.leaves_out && now % support_every == 0)  // also where no block takes part any more
         let_rest(part.range);
 }

@@ -27,8 +27,8 @@ Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, std::vector<s
     loads.resize(state.contacts.stale.size());
     const RegimeRule rule = resolve_rules(model, state).contact;
     const ContactTally tally = evaluate_contacts({0, state.contacts.size()}, model, rule, state.blocks, state.contacts, loads);
-    state.ledger.friction += tally.friction;
-    state.ledger.contact_changes += tally.changes;
+    state.ledger.friction += sum(tally.friction);
+    state.ledger.contact_changes += sum(tally.changes);
     BlockContacts list;
     list_block_contacts(state.contacts, state.blocks.size(), list);
     sum_forces({0, state.blocks.size()}, model, list, loads, {}, false, state.blocks);

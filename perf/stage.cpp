@@ -41,8 +41,9 @@ void evaluate(const Model& model, StageScratch& scratch)
 
 void move(const Model& model, StageScratch& scratch)
 {
-    update_velocities(scratch.all_blocks(), model, resolve_rules(model, scratch.state).damping, scratch.state.blocks,
-                      scratch.state.ledger);
+    VelocityWorks works;
+    update_velocities(scratch.all_blocks(), model, resolve_rules(model, scratch.state).damping, scratch.state.blocks, works);
+    works.add_to(scratch.state.ledger);
     benchmark::DoNotOptimize(update_positions(scratch.all_blocks(), model, scratch.state.blocks));
 }
 

@@ -133,7 +133,7 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
 
 template <ContactLaw law>
 ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                      ContactLoads& loads)
+                      ContactLoads& loads, const ContactTally& before)
 {
     const Steps& step = blocks.step;
     const Pack dt = step.last;
@@ -143,7 +143,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
     const double closing_speed = rule.closing_speed;
     const Pack ways = closing_ways(step);
     LawLanes laws(model.joints.laws);
-    Pack friction = 0.0, changes = 0.0;
+    Pack friction = before.friction, changes = before.changes;
     Mask::V closed{}, impulses{}, stale{}, deep{};
     const Pack floors_deep = model.contact.overlap_limit /
                              model.contact.length_floor;  // both are shares of the smaller block's size
@@ -233,21 +233,26 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         store_use(select(springs, mobilised, -1.0), g.touch.ex, g.touch.ey, bits, &loads.use[i]);
     }
     const auto count = [](Mask::V v) { return static_cast<Index>(v[0] + v[1] + v[2] + v[3]); };
-    return {sum(friction), sum(changes), count(closed), count(impulses), count(stale), count(deep)};
+    return {friction,
+            changes,
+            before.closed + count(closed),
+            before.impulses + count(impulses),
+            before.stale + count(stale),
+            before.deep + count(deep)};
 }
 }  // namespace
 
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads)
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
 {
     switch (rule.law)
     {
     case ContactLaw::springs:
-        return evaluate<ContactLaw::springs>(range, model, rule, blocks, contacts, loads);
+        return evaluate<ContactLaw::springs>(range, model, rule, blocks, contacts, loads, sums);
     case ContactLaw::impulses:
-        return evaluate<ContactLaw::impulses>(range, model, rule, blocks, contacts, loads);
+        return evaluate<ContactLaw::impulses>(range, model, rule, blocks, contacts, loads, sums);
     case ContactLaw::by_speed:
-        return evaluate<ContactLaw::by_speed>(range, model, rule, blocks, contacts, loads);
+        return evaluate<ContactLaw::by_speed>(range, model, rule, blocks, contacts, loads, sums);
     }
     return {};
 }

@@ -15,6 +15,7 @@ namespace hdem
 ///
 /// Steps 1-3 of a cycle: overlap, length and relative velocity from the stored features (Eq. 3), regime (Eqs. 24-28),
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
+/// @return  `sums` and what this range adds
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads);
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums = {});
 }  // namespace hdem

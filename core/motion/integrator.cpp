@@ -23,26 +23,10 @@ struct Component
     Pack inverse;  ///< inverse mass or inertia, 0 where the motion is prescribed
 };
 
-/// Works of a range of blocks.
-struct Works
-{
-    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0, coasting = 0.0;
-
-    void add_to(EnergyLedger& ledger) const
-    {
-        ledger.gravity_work += sum(gravity);
-        ledger.load_work -= sum(holding);
-        ledger.local_damping += sum(local);
-        ledger.global_damping += sum(global);
-        ledger.contact_changes += sum(changes);
-        ledger.coasting += sum(coasting);
-    }
-};
-
 /// New velocity; books the works of this component. The kinetic energy changes by each force times the mean of both velocities and the mean of both steps;
 /// springs, weight and loads are booked by the mean of both ways, (v last + v' next) / 2. Where the step changes the first is F (v' - v) (next - last) / 4 less.
 template <bool step_changes>
-inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, const Steps& step, Works& works)
+inline Pack advance(Pack velocity, const Component& c, Pack global, bool has_global, const Steps& step, VelocityWorks& works)
 {
     const Pack zero = 0.0;
     const Pack dt = step.kick();
@@ -90,13 +74,13 @@ double greatest(Pack p)
 }
 
 template <bool step_changes>
-Works change_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks)
+void change_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& sums)
 {
     const Steps step = blocks.step;
     const Pack dt = step.kick(), after = 0.5 * step.next;
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
     const bool has_global = rule.global != 0.0;
-    Works works;
+    VelocityWorks works = sums;
     for_groups(range,
                [&](Index i, Index count)
                {
@@ -121,16 +105,26 @@ Works change_velocities(IndexRange range, const Model& model, const DampingRule&
                    v.c = w;
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                });
-    return works;
+    sums = works;
 }
 }  // namespace
 
-void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger)
+void VelocityWorks::add_to(EnergyLedger& ledger) const
 {
-    const bool step_changes = blocks.step.next != blocks.step.last;
-    const Works works = step_changes ? change_velocities<true>(range, model, rule, blocks)
-                                     : change_velocities<false>(range, model, rule, blocks);
-    works.add_to(ledger);
+    ledger.gravity_work += sum(gravity);
+    ledger.load_work -= sum(holding);
+    ledger.local_damping += sum(local);
+    ledger.global_damping += sum(global);
+    ledger.contact_changes += sum(changes);
+    ledger.coasting += sum(coasting);
+}
+
+void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works)
+{
+    if (blocks.step.next != blocks.step.last)
+        change_velocities<true>(range, model, rule, blocks, works);
+    else
+        change_velocities<false>(range, model, rule, blocks, works);
 }
 
 double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo)

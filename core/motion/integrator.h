@@ -8,14 +8,22 @@
 
 namespace hdem
 {
+/// Works of ranges of blocks, lane by lane: see ContactTally.
+struct VelocityWorks
+{
+    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0, coasting = 0.0;
+
+    void add_to(EnergyLedger& ledger) const;
+};
+
 /// Step 4 of a cycle: velocities at t + dt/2 from the forces at t, with the damping of each block's state.
 ///
 ///   v <- v + (F - F_d) dt / m,   w <- w + (M - M_d) dt / I           [Lee2025] Eqs. (11), (12)
 ///   v <- v (1 - alpha_d dt)                                          [Lee2025] Eqs. (20), (21), first
 ///
 /// Reads force and inertia, writes velocities of the blocks in `range`; adds the work of gravity, of prescribed motions and of
-/// damping to `ledger`, each force times the mean of the velocities before and after.
-void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, EnergyLedger& ledger);
+/// damping to `works`, each force times the mean of the velocities before and after.
+void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
 
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
 /// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.

@@ -1,6 +1,7 @@
 #pragma once
 /// Scratch of a cycle, reused: nothing here outlives one, and nothing here is allocated after the first cycles.
 
+#include "core/simd.h"
 #include "core/types.h"
 
 #include <cstdint>
@@ -38,26 +39,16 @@ struct ContactLoads
     }
 };
 
-/// Sums over a range of contacts in one cycle.
+/// Sums over ranges of contacts in one cycle. Energies lane by lane: contacts in between that give nothing do not change a bit of them, so that it does not matter which
+/// of those at rest take part.
 struct ContactTally
 {
-    double friction = 0.0;  ///< energy spent by slip [J]
-    double changes = 0.0;   ///< EnergyLedger::contact_changes [J]
-    Index closed = 0;       ///< closed points
-    Index impulses = 0;     ///< of these, in the impulse regime
-    Index stale = 0;        ///< contacts whose features are to be searched anew
-    Index deep = 0;         ///< contacts with an overlap above contact.overlap_limit
-
-    ContactTally& operator+=(const ContactTally& other)
-    {
-        friction += other.friction;
-        changes += other.changes;
-        closed += other.closed;
-        impulses += other.impulses;
-        stale += other.stale;
-        deep += other.deep;
-        return *this;
-    }
+    Pack friction = 0.0;  ///< energy spent by slip [J]
+    Pack changes = 0.0;   ///< EnergyLedger::contact_changes [J]
+    Index closed = 0;     ///< closed points
+    Index impulses = 0;   ///< of these, in the impulse regime
+    Index stale = 0;      ///< contacts whose features are to be searched anew
+    Index deep = 0;       ///< contacts with an overlap above contact.overlap_limit
 };
 
 /// Which contacts a block has: `entry` holds 2 contact + side (0: the block of part_a, 1: of part_b) from begin[block] to begin[block + 1], ascending.
