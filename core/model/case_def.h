@@ -229,7 +229,7 @@ struct StageDef
     bool until_converged = false;        ///< or until converged, at most max_cycles
     std::int64_t max_cycles = 1'000'000;
     RestSolver solver = RestSolver::dynamics;
-    std::int64_t relax_cycles = 0;  ///< over which the forces of excavated blocks are taken off; 0: at once
+    std::int64_t relax_cycles = 0;         ///< over which the forces of excavated blocks are taken off; 0: at once
     std::vector<std::string> excavate;     ///< excavation or block names removed at the start of the stage
     std::vector<std::string> fix;          ///< block names fixed at the start
     std::vector<std::string> free;         ///< block names freed at the start

@@ -18,7 +18,8 @@ struct EnergyLedger
     double contact_changes = 0.0;  ///< see change_energy in core/energy_ledger.h
     double removed = 0.0;          ///< taken away with excavated or fixed blocks
 
-    double coasting = 0.0;  ///< of this cycle alone: what the contact forces do in the half step after them, to be booked with the next cycle's contact_changes
+    double coasting =
+        0.0;  ///< of this cycle alone: what the contact forces do in the half step after them, to be booked with the next cycle's contact_changes
 
     void add(const EnergyLedger& other)
     {
