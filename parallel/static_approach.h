@@ -16,7 +16,6 @@ namespace hdem
 /// Velocities are 0 afterwards; cycle, time, method and step are as before, and contacts have forces. The ledger holds what the cycles booked.
 /// @return  false if it does not come near, or a block goes too deep into another
 /// @pre  velocities 0, no impulse points
-/// @see  verification/unit/parallel/static_solver_test.cpp
 bool approach_balance(const Model& model, State& state, int threads, const StaticRule& rule, StaticOutcome& outcome);
 
 /// All free blocks stand still, and all take part.
