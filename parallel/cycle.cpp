@@ -26,7 +26,7 @@ constexpr std::int64_t timed_every = 16;
 
 void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
 {
-    rules_ = resolve_rules(model, state);
+    rules_ = find_rules_(model, state);
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
     with_team(threads,
               [&](const Team& team)
@@ -99,7 +99,7 @@ bool CycleRunner::found_deep_overlap() const
 
 Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
-    const StageRules rules = resolve_rules(model, state);
+    const StageRules rules = find_rules_(model, state);
     const bool same = prepared_ && rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
                       rules.has_loads == rules_.has_loads;
     rules_ = rules;

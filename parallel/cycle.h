@@ -20,6 +20,11 @@ class Team;
 class CycleRunner
 {
   public:
+    using FindRules = StageRules (*)(const Model&, const State&);
+
+    /// @param find_rules  of the stage, asked again before each call's cycles
+    explicit CycleRunner(FindRules find_rules = resolve_rules) : find_rules_(find_rules) {}
+
     /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.
     /// The same bits on any number of threads, and however a run is cut into calls.
     /// @return  a contact whose springs have begun to act in the last cycle and are too stiff for the step (core/motion/step_check.h): the run must not go on;
@@ -66,6 +71,7 @@ class CycleRunner
     std::vector<StageSamples> samples_;
     double used_ = 0.0;  ///< share of their margins
     std::int64_t contact_point_updates_ = 0;
+    FindRules find_rules_;
     StageRules rules_;  ///< of the running stage
     bool prepared_ = false;
     std::int64_t first_evaluation_ = 0;  ///< cycle in which all contacts take part: they were found then, or a run goes on

@@ -2,6 +2,7 @@
 
 #include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
+#include "core/stage/rules.h"
 #include "parallel/cycle.h"
 #include "parallel/static_search.h"
 
@@ -27,15 +28,13 @@ struct Clock
     std::int64_t cycle;
     double time;
     Steps step;
-    Method method;
 };
 
 /// Damped cycles by springs, from rest to rest. The clock of the run stands still.
 /// @return  unbalanced ratio of the last cycle; infinite if a block has gone too deep, or the step was too great for a spring
 double run_cycles(const Model& model, State& state, int threads, CycleRunner& runner)
 {
-    const Clock before{state.cycle, state.time, state.blocks.step, state.method};
-    state.method = Method::force;
+    const Clock before{state.cycle, state.time, state.blocks.step};
     const std::int64_t end = state.cycle + cycles_a_round;
     state.contacts_outdated = true;
     while (state.cycle < end)
@@ -51,7 +50,6 @@ double run_cycles(const Model& model, State& state, int threads, CycleRunner& ru
     state.cycle = before.cycle;
     state.time = before.time;
     state.blocks.step = before.step;
-    state.method = before.method;
     state.rest_changed = false;
     return now.unbalanced_force_ratio();
 }
@@ -69,7 +67,7 @@ bool is_unloaded(const Model& model, const State& state)
 
 bool approach_balance(const Model& model, State& state, int threads, const StaticRule& rule, StaticOutcome& outcome)
 {
-    CycleRunner runner;
+    CycleRunner runner(approach_rules);
     std::vector<double> ratios;
     StaticRule few = rule;
     few.most_iterations = iterations_a_round;

@@ -59,7 +59,6 @@ class StaticSearch
     [[nodiscard]] bool too_many_held() const;
     bool find_step();
     [[nodiscard]] double greatest_way_of_step();
-    void factorise();
     void take_step(double least_share);
     void place(double share);
     [[nodiscard]] bool is_balanced(const StaticRule& goal) const;

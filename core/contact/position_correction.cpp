@@ -39,7 +39,7 @@ void add_correction_springs(IndexRange range, const Blocks& blocks, const Contac
                             EnergyLedger& ledger)
 {
     // The contacts will find overlaps that no velocity explains, and book their work as if it had come from nowhere.
-    const double work = -spring_power(range, contacts, blocks, pseudo).normal * blocks.step.next;
+    const double work = -normal_power(range, contacts, blocks, pseudo) * blocks.step.next;
     ledger.position_correction += work;
     ledger.contact_changes += work;
 }

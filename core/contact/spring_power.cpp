@@ -23,9 +23,9 @@ EdgeTouch touch_at_velocities(const Contacts& contacts, Index i, const Blocks& b
 }
 }  // namespace
 
-SpringPower spring_power(IndexRange range, const Contacts& contacts, const Blocks& blocks, const std::vector<Triple>& velocity)
+double normal_power(IndexRange range, const Contacts& contacts, const Blocks& blocks, const std::vector<Triple>& velocity)
 {
-    SpringPower power;
+    double power = 0.0;
     for (Index i = range.begin; i < range.end; ++i)
     {
         const bool spring = is_spring(contacts.regime[0][i]) || is_spring(contacts.regime[1][i]);
@@ -33,12 +33,8 @@ SpringPower spring_power(IndexRange range, const Contacts& contacts, const Block
             continue;
         const EdgeTouch touch = touch_at_velocities(contacts, i, blocks, velocity);
         for (int k = 0; k < 2; ++k)
-        {
-            if (!is_spring(contacts.regime[k][i]))
-                continue;
-            power.normal -= contacts.normal_force(k, i) * touch.point[k].v_m;
-            power.shear += contacts.shear_force(k, i) * touch.point[k].v_t;
-        }
+            if (is_spring(contacts.regime[k][i]))
+                power -= contacts.normal_force(k, i) * touch.point[k].v_m;
     }
     return power;
 }

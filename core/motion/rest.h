@@ -20,7 +20,6 @@ struct RestRule
     double quiet = 0.0;              ///< [m/s2]
     double waking = 0.0;             ///< [m/s2]
     double unsupported = 0.0;        ///< [m/s2]
-    double model_unsupported = 0.0;  ///< where all blocks have this or less, the criteria of the model hold [m/s2]
 };
 inline constexpr std::int64_t rest_every = 16;      ///< cycles between checks
 inline constexpr std::int64_t support_every = 256;  ///< cycles between checks of blocks that are left out

@@ -21,12 +21,27 @@ RestRule rest_of(const StageSetting& s, double g)
             .quiet_speed = 0.2 * s.convergence.mean_speed,
             .quiet = 0.5 * model_unsupported,
             .waking = std::max(0.01 * g, unsupported),
-            .unsupported = unsupported,
-            .model_unsupported = model_unsupported};
+            .unsupported = unsupported};
 }
 
 /// Of the mean speed at which rock counts as at rest: slower blocks are damped as if they did not slide.
 constexpr double settling_speeds = 40.0;
+StageSetting setting_of(const Model& model, const State& state)
+{
+    const bool begun = state.stage_begun;
+    return {.method = state.method,
+            .preset = state.damping,
+            .damping = model.damping,
+            .stable_fraction = model.stable_fraction,
+            .convergence = model.convergence,
+            .gravity = model.gravity.norm(),
+            .until_converged = begun && model.stages[state.stage].until_converged,
+            .has_loads = !model.loads.empty(),
+            .releases = !state.released.empty(),
+            .is_driven = model.is_driven,
+            .has_step = model.has_step,
+            .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
+}
 }  // namespace
 
 StageRules resolve_rules(const StageSetting& s)
@@ -58,19 +73,14 @@ StageRules resolve_rules(const StageSetting& s)
 
 StageRules resolve_rules(const Model& model, const State& state)
 {
-    const bool begun = state.stage_begun;
-    return resolve_rules({.method = state.method,
-                          .preset = state.damping,
-                          .damping = model.damping,
-                          .stable_fraction = model.stable_fraction,
-                          .convergence = model.convergence,
-                          .gravity = model.gravity.norm(),
-                          .until_converged = begun && model.stages[state.stage].until_converged,
-                          .has_loads = !model.loads.empty(),
-                          .releases = !state.released.empty(),
-                          .is_driven = model.is_driven,
-                          .has_step = model.has_step,
-                          .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics});
+    return resolve_rules(setting_of(model, state));
+}
+
+StageRules approach_rules(const Model& model, const State& state)
+{
+    StageSetting setting = setting_of(model, state);
+    setting.method = Method::force;
+    return resolve_rules(setting);
 }
 
 std::vector<StageRules> resolve_rules(const CaseDef& def)

@@ -51,6 +51,9 @@ struct StageRules
 /// Of the running stage; before the first one, of the case as a whole.
 [[nodiscard]] StageRules resolve_rules(const Model& model, const State& state);
 
+/// Of the cycles that bring a static solution near: those of the stage by springs alone.
+[[nodiscard]] StageRules approach_rules(const Model& model, const State& state);
+
 /// Of each stage of a case, in their order.
 [[nodiscard]] std::vector<StageRules> resolve_rules(const CaseDef& def);
 

@@ -185,6 +185,20 @@ CaseDef joints(double width, double height, double spacing, double deviation_deg
     return scene;
 }
 
+CaseDef three_joint_sets(double spacing, double friction_angle_deg, double cohesion)
+{
+    CaseDef scene = empty_scene();
+    scene.domain = {.given = true, .width = 35.0, .height = 33.0, .fixed = {"left", "right", "bottom"}};
+    scene.joint_sets = {{.name = "inclined", .dip_deg = 25.0, .spacing = spacing, .deviation_deg = 2.0},
+                        {.name = "steep", .dip_deg = 75.0, .spacing = 2.0 * spacing, .deviation_deg = 2.0},
+                        {.name = "steep_back", .dip_deg = -55.0, .spacing = spacing, .deviation_deg = 2.0}};
+    scene.generator.seed = 10;
+    scene.generator.smallest_block_area = 0.12 * spacing * spacing;
+    scene.joints[0].friction_angle_deg = friction_angle_deg;
+    scene.joints[0].cohesion = cohesion;
+    return scene;
+}
+
 CaseDef turned(CaseDef scene, double angle_deg)
 {
     const Vec2 d = unit_direction(angle_deg);

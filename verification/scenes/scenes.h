@@ -45,6 +45,8 @@ CaseDef voronoi(int columns, int rows, std::uint64_t seed = 1);
 /// Two sets of through-going joints cut width x height [m] of rock: dips of 10 and -80 degrees, both at `spacing` [m]; sides and bottom are
 /// fixed. `deviation_deg` scatters the dips, as in rock.
 CaseDef joints(double width, double height, double spacing, double deviation_deg = 0.0);
+/// Rock that three sets of joints cut, about as the tunnel of the publication stands in.
+CaseDef three_joint_sets(double spacing, double friction_angle_deg, double cohesion);
 
 /// The same scene seen from elsewhere: explicit blocks, velocities, gravity and loads turned anticlockwise about the origin, ...
 /// @pre no [domain]: the generator has its own axes

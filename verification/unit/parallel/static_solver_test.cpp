@@ -175,24 +175,9 @@ CaseDef jointed_rock()
     return scene;
 }
 
-/// Rock that three sets of joints cut, about as the tunnel of the publication stands in.
-CaseDef three_joint_sets(double spacing, double friction_angle_deg, double cohesion)
-{
-    CaseDef scene = scenes::empty_scene();
-    scene.domain = {.given = true, .width = 35.0, .height = 33.0, .fixed = {"left", "right", "bottom"}};
-    scene.joint_sets = {{.name = "inclined", .dip_deg = 25.0, .spacing = spacing, .deviation_deg = 2.0},
-                        {.name = "steep", .dip_deg = 75.0, .spacing = 2.0 * spacing, .deviation_deg = 2.0},
-                        {.name = "steep_back", .dip_deg = -55.0, .spacing = spacing, .deviation_deg = 2.0}};
-    scene.generator.seed = 10;
-    scene.generator.smallest_block_area = 0.12 * spacing * spacing;
-    scene.joints[0].friction_angle_deg = friction_angle_deg;
-    scene.joints[0].cohesion = cohesion;
-    return scene;
-}
-
 TEST(StaticSolver, WhatNewFeaturesTakeFromASpringIsGivenBack)
 {
-    const StaticRun rock(three_joint_sets(1.7, 35.0, 1e5));
+    const StaticRun rock(scenes::three_joint_sets(1.7, 35.0, 1e5));
     ASSERT_EQ(rock.outcome.kind, Kind::balanced);
     for (Index i = 0; i < rock.state.contacts.size(); ++i)
         for (int k = 0; k < 2; ++k)
@@ -201,7 +186,7 @@ TEST(StaticSolver, WhatNewFeaturesTakeFromASpringIsGivenBack)
 
 TEST(StaticSolver, WeakJointsComeToRest)
 {
-    const StaticRun rock(three_joint_sets(1.0, 15.0, 1000.0));
+    const StaticRun rock(scenes::three_joint_sets(1.0, 15.0, 1000.0));
     EXPECT_EQ(rock.outcome.kind, Kind::balanced);
     EXPECT_LT(rock.outcome.iterations, 100);
 }
