@@ -110,6 +110,8 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::int64_t>("/state", "feature_searches", state.feature_searches);
     archive.template value<std::uint8_t>("/state", "contacts_outdated", state.contacts_outdated);
     archive.template value<std::uint8_t>("/state", "rest_changed", state.rest_changed);
+    archive.template value<std::uint8_t>("/state", "flies_ahead", state.flies_ahead);
+    archive.template value<std::uint8_t>("/state", "is_calm", state.is_calm);
     archive.template value<std::uint8_t>("/state", "statics_taken", state.statics_taken);
     archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
                                         [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest); });

@@ -4,6 +4,7 @@
 #include "core/contact/contact_forces.h"
 #include "core/contact/impulse_law.h"
 #include "core/detection/contact_tracking.h"
+#include "core/motion/flight.h"
 #include "core/motion/integrator.h"
 #include "core/motion/loads.h"
 #include "core/motion/released_forces.h"
@@ -77,6 +78,8 @@ void CycleRunner::prepare(const Model& model, const State& state)
         has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
     }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
+    for (BlockPart& part : partition_.blocks)
+        find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
     work_.loads.resize(state.contacts.stale.size());
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
     work_.external.assign(rules_.has_loads ? static_cast<std::size_t>(blocks) : 0, {});
@@ -273,26 +276,27 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
     part.ledger = {};
     part.rest_changed = false;
     VelocityWorks works;
-    const auto let_rest = [&](IndexRange range)
-    { part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed; };
     for (const IndexRange& range : part.active)
-    {
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
-        if (rules_.rest.leaves_out)
-            let_rest(range);
+    const auto let_rest = [&](IndexRange range)
+    { part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed; };
+    if (rules_.rest.leaves_out && now % support_every == 0)
+        let_rest(part.range);  // also where no block takes part any more
+    else if (rules_.rest.leaves_out)
+        std::ranges::for_each(part.active, let_rest);
+    for (const IndexRange& range : part.active)
         update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
-    }
     works.add_to(part.ledger);
-    if (rules_.rest.leaves_out && now % support_every == 0)  // also where no block takes part any more
-        let_rest(part.range);
 }
 
-double CycleRunner::change_positions(const Model& model, State& state, const BlockPart& part, std::vector<Triple>* pseudo)
+double CycleRunner::change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo)
 {
     double way = 0.0;
     for (const IndexRange& range : part.active)
         way = std::max(way, update_positions(range, model, state.blocks, pseudo));
+    if (state.flies_ahead && !part.flying.empty())
+        way += fly_ahead(part.flying, rules_.step.loose_distance, model, state.blocks, part.ledger);
     return way;
 }
 

@@ -60,7 +60,7 @@ class CycleRunner
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
-    double change_positions(const Model& model, State& state, const BlockPart& part, std::vector<Triple>* pseudo);
+    double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);
     void move(const Model& model, State& state, const Team& team, std::int64_t now);
     void move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
                             StageClock& clock);

@@ -19,8 +19,9 @@ namespace hdem
 {
 namespace
 {
+constexpr double stirs = 10.0;              ///< mean speeds of the criterion: calm rock in which a block is faster is calm no more
 constexpr std::int64_t wakes_every = 1000;  ///< cycles: so long woken blocks have to come to rest again
-}
+}  // namespace
 int default_threads()
 {
 #ifdef _OPENMP
@@ -115,6 +116,8 @@ void Simulation::begin_stage(Index stage)
     state_.stage_begin_cycle = state_.cycle;
     state_.quiet_since = -1.0;
     state_.released.clear();
+    state_.is_calm = false;
+    state_.flies_ahead = false;
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
@@ -225,6 +228,25 @@ Equilibrium Simulation::equilibrium() const
     return sums;
 }
 
+void Simulation::find_calm(const Equilibrium& now)
+{
+    const RestRule rest = resolve_rules(model_, state_).rest;
+    if (!rest.leaves_out)
+        return;
+    const ConvergenceDef& convergence = model_.convergence;
+    const bool rests = all_rest(state_.blocks);
+    // Each block by itself may have what all together may not.
+    const bool blocks_hold = now.fastest.value < convergence.mean_speed &&
+                             now.unbalanced.value < convergence.block_unbalanced_ratio;
+    if (!state_.is_calm)
+        state_.is_calm = rests || blocks_hold;
+    else if (now.fastest.value > stirs * convergence.mean_speed)
+        state_.is_calm = false;
+    const bool looks = rests || (blocks_hold && state_.cycle % wakes_every == 0);
+    if (looks && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
+        state_.rest_changed = true;
+}
+
 bool Simulation::check_rest()
 {
     const ConvergenceDef& convergence = model_.convergence;
@@ -232,13 +254,7 @@ bool Simulation::check_rest()
     if (!holds(convergence, now))
     {
         state_.quiet_since = -1.0;
-        const RestRule rest = resolve_rules(model_, state_).rest;
-        // Each block by itself may have what all together may not.
-        const bool blocks_hold = now.fastest.value < convergence.mean_speed &&
-                                 now.unbalanced.value < convergence.block_unbalanced_ratio;
-        const bool looks = all_rest(state_.blocks) || (blocks_hold && state_.cycle % wakes_every == 0);
-        if (rest.leaves_out && looks && wake_unbalanced(model_, rest.quiet, state_.blocks))
-            state_.rest_changed = true;
+        find_calm(now);
         return false;
     }
     if (state_.quiet_since < 0.0)

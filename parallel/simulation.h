@@ -39,6 +39,7 @@ class Simulation
     void begin_stage(Index stage);
     /// Free blocks that have left the model are held where they are; their kinetic energy is removed.
     void hold_lost_blocks();
+    void find_calm(const Equilibrium& now);
     /// The same later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where a block comes away.
     void finish_by_statics();
     /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.

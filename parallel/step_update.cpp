@@ -23,9 +23,13 @@ void update_step(const Model& model, const StepRule& rule, State& state, const T
     for (const BlockPart& part : partition.blocks)
         bound.add(part.step);
     const double next = next_step(state.blocks.step.last, bound, rule, model.time_step, now % grow_every == 0);
+    const bool flies = flies_ahead(bound, rule, model.time_step);
     team.barrier();
     if (team.is_first())
+    {
         state.blocks.step.next = next;
+        state.flies_ahead = flies;
+    }
     team.barrier();
 }
 }  // namespace hdem

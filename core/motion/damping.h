@@ -34,7 +34,7 @@ struct DampingRule
     double global = 0.0;  ///< alpha_d = 2 xi_g omega_avg of Eq. (22) [1/s]
     LocalDamping form = LocalDamping::by_axis;
     double settling =
-        0.0;  ///< below this speed along the joint all of local damping acts, whatever friction has left, above twice of it only that [m/s]
+        0.0;  ///< below this speed along the joint, or of the rim, all of local damping acts, whatever friction has left, above twice of it only that [m/s]
 
     /// Is the most mobilised joint of a block asked for?
     [[nodiscard]] bool needs_joint() const { return form == LocalDamping::along_joint; }
@@ -63,7 +63,8 @@ using BlockDamping = BasicBlockDamping<double>;
 ///
 ///   |F_d,t| <= sum (F_max - |F_S|)
 ///
-/// and rotation is damped by alpha (1 - |F_S| / F_max) of that joint. A sliding block has nothing in reserve and moves freely. A block about
+/// and rotation is damped by alpha (1 - |F_S| / F_max) of that joint. Motions slower than `settling` are damped by alpha all the same: a block on a joint
+/// at its strength would swing on its normal springs for thousands of cycles. A sliding block has nothing in reserve and moves freely. A block about
 /// to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
 /// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D). Across the joint all of the net force counts, so that a block does not
 /// go on swinging on its normal springs. The axes are those of the joint: the answer does not depend on how the model is turned.
@@ -126,6 +127,14 @@ struct DampedForce
     R x, y;
 };
 
+/// Share of local damping that acts on slow motions whatever friction has left: 1 up to the speed, 0 from twice of it on.
+template <typename R>
+[[nodiscard]] inline R settling_share(R speed, double settling)
+{
+    const R zero = 0.0;
+    return settling > 0.0 ? max(min(R(2.0) - speed / R(settling), R(1.0)), zero) : zero;
+}
+
 /// Local damping of translation. A block that can move along one axis only is damped along it.
 template <typename R>
 [[nodiscard]] inline DampedForce<R> damp_translation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R vx, R vy, R dt,
@@ -138,8 +147,7 @@ template <typename R>
     const R m = acting.t_x * acting.y - acting.t_y * acting.x;
     const auto along = [&](R force, R velocity, R inverse_mass)
     {
-        const R settles = damping.settling > 0.0 ? max(min(R(2.0) - abs(velocity) / R(damping.settling), R(1.0)), zero) : zero;
-        const R limit = acting.reserve + settles * damping.local * abs(force);
+        const R limit = acting.reserve + settling_share(abs(velocity), damping.settling) * damping.local * abs(force);
         return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, limit);
     };
     const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
@@ -154,11 +162,12 @@ template <typename R>
 
 /// Moment on a block after local damping.
 template <typename R>
-[[nodiscard]] inline R damp_rotation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R w, R dt,
+[[nodiscard]] inline R damp_rotation(const BasicActing<R>& acting, const BasicInertia<R>& inertia, R w, R radius, R dt,
                                      const BasicBlockDamping<R>& damping)
 {
-    return damping.form == LocalDamping::by_axis
-               ? locally_damped(acting.moment, w, damping.local_rotation)
-               : stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, damping.local_rotation);
+    if (damping.form == LocalDamping::by_axis)
+        return locally_damped(acting.moment, w, damping.local_rotation);
+    const R alpha = max(damping.local_rotation, settling_share(abs(w) * radius, damping.settling) * damping.local);
+    return stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, alpha);
 }
 }  // namespace hdem

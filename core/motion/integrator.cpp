@@ -91,7 +91,7 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
                    const Pack mass = load_some(&model.mass[i], count);
                    const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule);
                    const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
-                   const Pack damped_moment = damp_rotation(acting, inertia, v.c, dt, damping);
+                   const Pack damped_moment = damp_rotation(acting, inertia, v.c, load_some(&model.radius[i], count), dt, damping);
                    const auto renew = [&](Pack velocity, const Component& c)
                    { return advance<step_changes>(velocity, c, damping.global, has_global, step, works); };
                    const Pack vx = renew(v.a, {acting.x, damped.x, inertia.inverse_mass_x});

@@ -6,20 +6,25 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
+#include <limits>
+
 namespace hdem
 {
 /// Which blocks are at rest. Values are the speed of a block's rim, and its net force and moment as an acceleration of the rim (motion/equilibrium.h).
 ///
 /// A block that is quiet at eight checks in a row is stopped: its last kinetic energy goes to local damping, its velocity is set to zero, its pose and contact forces
 /// stay frozen. Contacts between blocks that are stopped, or fixed, give the same forces in every cycle and are not evaluated again. A block is woken in the
-/// cycle in which its unbalance reaches `waking`, or an impulse reaches it; and every 256 cycles, if its unbalance is more than what a stage may end with.
+/// cycle in which its unbalance reaches `waking`, or an impulse reaches it; and every 256 cycles, if it is more than `unsupported`.
+/// While some blocks still move these limits are wide; when none does, they are those that a stage may end with (core/stage/rules.cpp).
 struct RestRule
 {
-    bool leaves_out = false;         ///< blocks at rest are left out
-    double quiet_speed = 0.0;        ///< [m/s]
-    double quiet = 0.0;              ///< [m/s2]
-    double waking = 0.0;             ///< [m/s2]
-    double unsupported = 0.0;        ///< [m/s2]
+    bool leaves_out = false;                                            ///< blocks at rest are left out
+    double quiet_speed = 0.0;                                           ///< [m/s]
+    double quiet = 0.0;                                                 ///< at each check [m/s2]
+    double quiet_on_average = std::numeric_limits<double>::infinity();  ///< over the checks [m/s2]
+    double waking = 0.0;                                                ///< [m/s2]
+    double unsupported = 0.0;                                           ///< [m/s2]
+    double quiet_at_end = 0.0;                                          ///< `quiet` when no block moves any more [m/s2]
 };
 inline constexpr std::int64_t rest_every = 16;      ///< cycles between checks
 inline constexpr std::int64_t support_every = 256;  ///< cycles between checks of blocks that are left out

@@ -118,12 +118,17 @@ class SpringSum
     double everywhere_ = 0.0;  ///< in each direction [1/s2]
 };
 
+bool is_alone(Index block, const BlockContacts& list)
+{
+    return list.begin[block] == list.begin[block + 1];
+}
+
 /// How long a block may move as it does [s].
 double motion_bound(Index block, const Model& model, const BlockContacts& list, const Blocks& blocks)
 {
     const BlockMotion& m = blocks.motion[block];
     const double speed = std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block];
-    const bool alone = list.begin[block] == list.begin[block + 1];
+    const bool alone = is_alone(block, list);
     const double share = blocks.force[block].contacts == 0 ? approach_share : slide_share;
     const double way = alone ? flight_share * blocks.margin[block] : share * model.size(block);
     return speed > 0.0 ? way / speed : infinity;
@@ -153,19 +158,35 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
         if (look_at_all)
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
         if (rule.falls_by > 0.0)
-            bound.least = std::min(bound.least, std::sqrt(fall_share * model.size(b) / rule.falls_by));
-        bound.add({.least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks)),
-                   .standing_moves = takes_part && !blocks.is_loose(b, rule.loose_distance)});
+            bound.touching = std::min(bound.touching, std::sqrt(fall_share * model.size(b) / rule.falls_by));
+        const double least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
+        const bool is_loose = blocks.is_loose(b, rule.loose_distance);
+        double& limit = is_loose && is_alone(b, list) ? bound.flying : bound.touching;
+        limit = std::min(limit, least);
+        bound.standing_moves = bound.standing_moves || (takes_part && !is_loose);
     }
     return bound;
 }
 
+namespace
+{
+bool keeps_base(const StepBound& bound, const StepRule& rule, double base)
+{
+    return rule.keeps_given && (bound.standing_moves || bound.least() < base);
+}
+}  // namespace
+
 double next_step(double last, const StepBound& bound, const StepRule& rule, double base, bool may_grow)
 {
-    const bool keeps_base = rule.keeps_given && (bound.standing_moves || bound.least < base);
-    if (keeps_base || bound.least == infinity)
+    if (keeps_base(bound, rule, base) || bound.least() == infinity)
         return base;
-    const double most = std::min({bound.least, (may_grow ? 2.0 : 1.0) * std::max(last, base), longest * base});
+    const double most = std::min({bound.least(), (may_grow ? 2.0 : 1.0) * std::max(last, base), longest * base});
     return base * std::exp2(std::floor(steps_an_octave * std::log2(most / base) + 1e-9) / steps_an_octave);
+}
+
+bool flies_ahead(const StepBound& bound, const StepRule& rule, double base)
+{
+    return rule.flies_ahead && bound.flying < infinity &&
+           (keeps_base(bound, rule, base) ? base : bound.touching) < 0.5 * bound.flying;
 }
 }  // namespace hdem

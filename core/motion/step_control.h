@@ -15,6 +15,7 @@ struct StepRule
     bool varies = false;  ///< else all steps are those of the case
     bool keeps_given =
         false;  ///< the case gives the step: as long as rock that stands moves it is kept; loose blocks by themselves may take longer ones
+    bool flies_ahead = false;     ///< blocks with nothing near them take longer steps (core/motion/flight.h)
     double stable_share = 0.9;    ///< of the largest stable step [-]
     double falls_by = 0.0;        ///< where impulses alone carry blocks: what a block falls by between two of them [m/s2]
     double loose_distance = 0.0;  ///< a block that moved farther in its stage is loose [m]
@@ -35,12 +36,15 @@ struct StepRule
 /// What a range of blocks says about the next step.
 struct StepBound
 {
-    double least = std::numeric_limits<double>::infinity();  ///< [s]
-    bool standing_moves = false;                             ///< a block takes part that is not loose
+    double touching = std::numeric_limits<double>::infinity();  ///< least of all others [s]
+    double flying = std::numeric_limits<double>::infinity();    ///< least of loose blocks with nothing near them [s]
+    bool standing_moves = false;                                ///< a block takes part that is not loose
 
+    [[nodiscard]] double least() const { return touching < flying ? touching : flying; }
     void add(const StepBound& other)
     {
-        least = other.least < least ? other.least : least;
+        touching = other.touching < touching ? other.touching : touching;
+        flying = other.flying < flying ? other.flying : flying;
         standing_moves = standing_moves || other.standing_moves;
     }
 };
@@ -56,6 +60,9 @@ struct StepBound
 
 /// The next step: base 2^(k/8) with the greatest whole number k that the bound allows; at most twice as long as the last one.
 [[nodiscard]] double next_step(double last, const StepBound& bound, const StepRule& rule, double base, bool may_grow);
+
+/// Do blocks in flight go ahead? Where they alone move the step itself grows, and the clock is theirs.
+[[nodiscard]] bool flies_ahead(const StepBound& bound, const StepRule& rule, double base);
 
 /// Cycles between two looks at speeds, two at which the step may grow, and two at the stable step of all blocks.
 inline constexpr std::int64_t look_every = 4;

@@ -1,27 +1,34 @@
 #include "core/stage/rules.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hdem
 {
 namespace
 {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 ContactLaw law_of(Method method)
 {
     return method == Method::force ? ContactLaw::springs
                                    : (method == Method::impulse ? ContactLaw::impulses : ContactLaw::by_speed);
 }
 
-/// A stopped block has half of what a stage may end with. It is woken by a hundredth of its weight, which presses less than 1e-7 m into its joints.
+/// While some blocks still move, others rest with less than a thousandth of their weight out of balance on average; in single cycles it is a few thousandths, where a
+/// corner rattles. They are woken by a hundredth, which presses less than 1e-7 m into their joints. When no block moves any more, a block rests with half of what the stage may end with.
 RestRule rest_of(const StageSetting& s, double g)
 {
     const double unsupported = s.convergence.block_unbalanced_ratio * g;
-    const double model_unsupported = std::min(unsupported, s.convergence.unbalanced_force_ratio * g);
+    const double at_end = 0.5 * std::min(unsupported, s.convergence.unbalanced_force_ratio * g);
+    const double waking = std::max(0.01 * g, unsupported);
     return {.leaves_out = true,
             .quiet_speed = 0.2 * s.convergence.mean_speed,
-            .quiet = 0.5 * model_unsupported,
-            .waking = std::max(0.01 * g, unsupported),
-            .unsupported = unsupported};
+            .quiet = s.is_calm ? at_end : std::max(at_end, 5e-3 * g),
+            .quiet_on_average = s.is_calm ? infinity : std::max(at_end, 8e-4 * g),
+            .waking = waking,
+            .unsupported = s.is_calm ? unsupported : waking,
+            .quiet_at_end = at_end};
 }
 
 /// Of the mean speed at which rock counts as at rest: slower blocks are damped as if they did not slide.
@@ -38,6 +45,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .until_converged = begun && model.stages[state.stage].until_converged,
             .has_loads = !model.loads.empty(),
             .releases = !state.released.empty(),
+            .is_calm = state.is_calm,
             .is_driven = model.is_driven,
             .has_step = model.has_step,
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
@@ -61,6 +69,7 @@ StageRules resolve_rules(const StageSetting& s)
                         .settling = settling},
             .step = {.varies = looks_for_rest && !s.is_driven && !s.has_loads,
                      .keeps_given = s.has_step,
+                     .flies_ahead = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases,
                      .stable_share = s.stable_fraction,
                      .falls_by = s.method == Method::impulse ? g : 0.0,
                      .loose_distance = s.convergence.loose_distance},

@@ -29,6 +29,7 @@ struct StageSetting
     bool until_converged = false;  ///< the stage ends when the rock is at rest
     bool has_loads = false;        ///< the case has loads of any kind
     bool releases = false;         ///< forces of excavated blocks are being taken off
+    bool is_calm = false;          ///< no block moves any more; what is out of balance still keeps the stage from ending
     bool is_driven = false;        ///< some motion is prescribed
     bool has_step = false;         ///< the case gives the time step
     RestSolver solver = RestSolver::dynamics;

@@ -156,7 +156,7 @@ TEST(LocalDamping, StopsABlockAndNoMore)
     { return damp_translation(Acting{.x = -1.0, .reserve = 9.0}, inertia, velocity, 0.0, 1.0, damping).x; };
     EXPECT_NEAR(braked(1.5), -1.5, 1e-15) << "it stops";
     EXPECT_NEAR(braked(3.0), -1.8, 1e-15);
-    EXPECT_NEAR(damp_rotation(Acting{.moment = -1.0}, inertia, 1.5, 1.0, damping), -1.5, 1e-15);
+    EXPECT_NEAR(damp_rotation(Acting{.moment = -1.0}, inertia, 1.5, 1.0, 1.0, damping), -1.5, 1e-15);
 }
 
 /// The same law in every orientation.

@@ -212,12 +212,18 @@ TEST(RestRule, FollowsTheCriterionOfEachBlock)
 {
     CaseDef scene = resting_stack();
     scene.convergence.block_unbalanced_ratio = 2e-4;
-    const RestRule rule = resolve_rules(scene)[0].rest;
-    EXPECT_TRUE(rule.leaves_out);
-    EXPECT_LT(rule.quiet_speed, scene.convergence.mean_speed);
-    EXPECT_DOUBLE_EQ(rule.unsupported, 2e-4 * 9.81);
-    EXPECT_LT(rule.quiet, rule.unsupported);
-    EXPECT_GT(rule.waking, rule.unsupported);
+    const RestRule moving = resolve_rules(scene)[0].rest;
+    EXPECT_TRUE(moving.leaves_out);
+    EXPECT_LT(moving.quiet_speed, scene.convergence.mean_speed);
+    EXPECT_LT(moving.quiet_on_average, moving.quiet);
+    EXPECT_LT(moving.quiet, moving.unsupported);
+    EXPECT_LE(moving.unsupported, moving.waking);
+    const RestRule calm = resolve_rules({.convergence = scene.convergence, .until_converged = true, .is_calm = true}).rest;
+    EXPECT_DOUBLE_EQ(calm.unsupported, 2e-4 * 9.81);
+    EXPECT_LT(calm.quiet, calm.unsupported);
+    EXPECT_EQ(calm.quiet, moving.quiet_at_end);
+    EXPECT_LT(calm.quiet, moving.quiet);
+    EXPECT_GT(calm.waking, calm.unsupported);
     scene.gravity = {0.0, 0.0};
     EXPECT_GT(resolve_rules(scene)[0].rest.quiet, 0.0) << "in space too";
 }

@@ -187,7 +187,7 @@ CaseDef stack_at_its_own_step()
 TEST(StepControl, TakesAShareOfTheStableStepWhereNoneIsGiven)
 {
     CaseRun run(stack_at_its_own_step());
-    run.advance(200);
+    run.advance(100);
     const double step = run.state().blocks.step.next;
     const double limit = critical_time_step(run.model(), run.state().blocks, run.state().contacts, 2000);
     EXPECT_GT(step, 2.0 * run.model().time_step);
@@ -196,7 +196,7 @@ TEST(StepControl, TakesAShareOfTheStableStepWhereNoneIsGiven)
     CaseDef half = stack_at_its_own_step();
     half.time.stable_fraction = 0.45;
     CaseRun slower(half);
-    slower.advance(200);
+    slower.advance(100);
     EXPECT_NEAR(slower.state().blocks.step.next, 0.5 * step, 1e-12);
 }
 
@@ -228,14 +228,14 @@ TEST(StepControl, AddsNoEnergyAtTheLargestStep)
 TEST(NextStep, FollowsTheBoundAndGrowsSlowly)
 {
     const StepRule own{.varies = true}, given{.varies = true, .keeps_given = true};
-    const auto bound = [](double least) { return StepBound{.least = least}; };
+    const auto bound = [](double least) { return StepBound{.touching = least}; };
     EXPECT_DOUBLE_EQ(next_step(1.0, bound(1.5), own, 1.0, true), std::exp2(0.5));
     EXPECT_DOUBLE_EQ(next_step(1.0, bound(1.5), own, 1.0, false), 1.0) << "not in each cycle";
     EXPECT_DOUBLE_EQ(next_step(1.0, bound(50.0), own, 1.0, true), 2.0) << "twofold at once";
     EXPECT_DOUBLE_EQ(next_step(32.0, bound(4.0), own, 1.0, false), 4.0) << "shorter at once";
     EXPECT_DOUBLE_EQ(next_step(1.0, bound(0.5), own, 1.0, false), 0.5) << "below Eq. (32) where that is too long";
     EXPECT_DOUBLE_EQ(next_step(1.0, bound(0.5), given, 1.0, false), 1.0) << "a step that is given is not shortened";
-    EXPECT_DOUBLE_EQ(next_step(8.0, {.least = 8.0, .standing_moves = true}, given, 1.0, true), 1.0);
+    EXPECT_DOUBLE_EQ(next_step(8.0, {.touching = 8.0, .standing_moves = true}, given, 1.0, true), 1.0);
     EXPECT_DOUBLE_EQ(next_step(8.0, StepBound{}, own, 1.0, true), 1.0) << "nothing moves";
 }
 
