@@ -156,6 +156,10 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
     }
 }
 
+/// Approaches up to this many times what weight gives in a cycle do not bounce: steps cannot follow such a bounce, and a block would hop from one cycle to the
+/// next for ever.
+constexpr double least_bounce = 2.0;
+
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
 {
     for (ImpulsePoint& p : points)
@@ -165,7 +169,8 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
         p.load_velocity = std::max(p.weight_velocity, pressed);
         if (p.approach <= 0.0)
             continue;
-        p.target = std::min(0.0, pressed - p.restitution * p.approach);
+        const bool bounces = p.approach > least_bounce * p.weight_velocity;
+        p.target = std::min(0.0, pressed - (bounces ? p.restitution * p.approach : 0.0));
         if (p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;
     }

@@ -157,12 +157,13 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
             continue;
         if (look_at_all)
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
-        if (rule.falls_by > 0.0)
-            bound.touching = std::min(bound.touching, std::sqrt(fall_share * model.size(b) / rule.falls_by));
         const double least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
+        const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * model.size(b) / rule.falls_by) : infinity;
         const bool is_loose = blocks.is_loose(b, rule.loose_distance);
-        double& limit = is_loose && is_alone(b, list) ? bound.flying : bound.touching;
-        limit = std::min(limit, least);
+        if (is_loose && is_alone(b, list))
+            bound.flying = std::min(bound.flying, least);
+        else
+            bound.touching = std::min({bound.touching, least, falls});
         bound.standing_moves = bound.standing_moves || (takes_part && !is_loose);
     }
     return bound;

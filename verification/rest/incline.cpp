@@ -73,7 +73,8 @@ double cycles_to_slide(const Incline& incline, double way, double step)
 
 void set_endless(Scene& scene, const Incline& incline, double step)
 {
-    constexpr std::int64_t cycles = 40000;
+    const double to_the_end = std::sqrt(2.0 * 300.0 * incline.base / incline.acceleration()) / step;  // of the plane, undamped
+    const auto cycles = static_cast<std::int64_t>(std::min(40000.0, to_the_end));
     const double slow_way = 0.5 * 0.2 * incline.acceleration() * std::pow(static_cast<double>(cycles) * step, 2);
     scene.fate[1] = Fate::moves;
     scene.end = End::never;

@@ -105,7 +105,8 @@ Scene stack(int number, Draw& draw, bool dropped)
     }
     scene.same_in_twin = !dropped;  // where each corner hits, round-off decides
     draw_step(scene, draw, limit);
-    scene.def.stages[0].max_cycles = 60000 + static_cast<std::int64_t>(10.0 * std::sqrt(gaps / g) / least_step(scene, limit));
+    // A tower of 20 blocks sways for ten seconds.
+    scene.def.stages[0].max_cycles = 200000 + static_cast<std::int64_t>(10.0 * std::sqrt(gaps / g) / least_step(scene, limit));
     scene.what = fmt::format("{} blocks{}, eccentricity {:.2g}", bricks.size(),
                              dropped ? fmt::format(", dropped {:.2g} m", gaps) : "", greatest_eccentricity(bricks));
     return scene;
