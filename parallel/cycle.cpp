@@ -279,12 +279,9 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
     for (const IndexRange& range : part.active)
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
-    const auto let_rest = [&](IndexRange range)
-    { part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed; };
-    if (rules_.rest.leaves_out && now % support_every == 0)
-        let_rest(part.range);  // also where no block takes part any more
-    else if (rules_.rest.leaves_out)
-        std::ranges::for_each(part.active, let_rest);
+    if (rules_.rest.leaves_out)
+        for (const IndexRange& range : part.active)
+            part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed;
     for (const IndexRange& range : part.active)
         update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
     works.add_to(part.ledger);

@@ -19,8 +19,7 @@ namespace hdem
 {
 namespace
 {
-constexpr double stirs = 10.0;              ///< mean speeds of the criterion: calm rock in which a block is faster is calm no more
-constexpr std::int64_t wakes_every = 1000;  ///< cycles: so long woken blocks have to come to rest again
+constexpr double stirs = 10.0;  ///< mean speeds of the criterion: calm rock in which a block is faster is calm no more
 }  // namespace
 int default_threads()
 {
@@ -234,16 +233,12 @@ void Simulation::find_calm(const Equilibrium& now)
     if (!rest.leaves_out)
         return;
     const ConvergenceDef& convergence = model_.convergence;
-    const bool rests = all_rest(state_.blocks);
+    const bool was_calm = state_.is_calm;
     // Each block by itself may have what all together may not.
     const bool blocks_hold = now.fastest.value < convergence.mean_speed &&
                              now.unbalanced.value < convergence.block_unbalanced_ratio;
-    if (!state_.is_calm)
-        state_.is_calm = rests || blocks_hold;
-    else if (now.fastest.value > stirs * convergence.mean_speed)
-        state_.is_calm = false;
-    const bool looks = rests || (blocks_hold && state_.cycle % wakes_every == 0);
-    if (looks && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
+    state_.is_calm = was_calm ? now.fastest.value <= stirs * convergence.mean_speed : blocks_hold || all_rest(state_.blocks);
+    if (state_.is_calm && !was_calm && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
         state_.rest_changed = true;
 }
 

@@ -55,7 +55,6 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
                  EnergyLedger& ledger)
 {
     const bool check = cycle % rest_every == 0;
-    const double waking = cycle % support_every == 0 ? rule.unsupported : rule.waking;
     bool changed = false;
     for (Index b = range.begin; b < range.end; ++b)
     {
@@ -69,7 +68,7 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
                 stop(b, model, blocks, ledger);
             continue;
         }
-        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(unbalance(b, model, blocks) < waking);
+        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(unbalance(b, model, blocks) < rule.waking);
         changed = changed || woken || rest == stopped;
         rest = woken ? 0 : left_out;
     }

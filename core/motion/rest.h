@@ -14,7 +14,7 @@ namespace hdem
 ///
 /// A block that is quiet at eight checks in a row is stopped: its last kinetic energy goes to local damping, its velocity is set to zero, its pose and contact forces
 /// stay frozen. Contacts between blocks that are stopped, or fixed, give the same forces in every cycle and are not evaluated again. A block is woken in the
-/// cycle in which its unbalance reaches `waking`, or an impulse reaches it; and every 256 cycles, if it is more than `unsupported`.
+/// cycle in which its unbalance reaches `waking`, or an impulse reaches it.
 /// While some blocks still move these limits are wide; when none does, they are those that a stage may end with (core/stage/rules.cpp).
 struct RestRule
 {
@@ -23,11 +23,9 @@ struct RestRule
     double quiet = 0.0;                                                 ///< at each check [m/s2]
     double quiet_on_average = std::numeric_limits<double>::infinity();  ///< over the checks [m/s2]
     double waking = 0.0;                                                ///< [m/s2]
-    double unsupported = 0.0;                                           ///< [m/s2]
     double quiet_at_end = 0.0;                                          ///< `quiet` when no block moves any more [m/s2]
 };
-inline constexpr std::int64_t rest_every = 16;      ///< cycles between checks
-inline constexpr std::int64_t support_every = 256;  ///< cycles between checks of blocks that are left out
+inline constexpr std::int64_t rest_every = 16;  ///< cycles between checks
 
 /// Stop quiet blocks of `range`, wake others; forces are those of this cycle, velocities those of the last.
 /// @return  whether contacts or blocks are to be left out, or taken in again, from the next cycle on

@@ -1,14 +1,11 @@
 #include "core/stage/rules.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hdem
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 ContactLaw law_of(Method method)
 {
     return method == Method::force ? ContactLaw::springs
@@ -16,23 +13,28 @@ ContactLaw law_of(Method method)
 }
 
 /// While some blocks still move, others rest with less than a thousandth of their weight out of balance on average; in single cycles it is a few thousandths, where a
-/// corner rattles. They are woken by a hundredth, which presses less than 1e-7 m into their joints. When no block moves any more, a block rests with half of what the stage may end with.
+/// corner rattles. They are woken by a hundredth, which presses less than 1e-7 m into their joints. When no block moves any more they settle together: a
+/// block rests with a hundredth of what the stage may end with, and is woken by half of that.
 RestRule rest_of(const StageSetting& s, double g)
 {
-    const double unsupported = s.convergence.block_unbalanced_ratio * g;
-    const double at_end = 0.5 * std::min(unsupported, s.convergence.unbalanced_force_ratio * g);
-    const double waking = std::max(0.01 * g, unsupported);
-    return {.leaves_out = true,
-            .quiet_speed = 0.2 * s.convergence.mean_speed,
-            .quiet = s.is_calm ? at_end : std::max(at_end, 5e-3 * g),
-            .quiet_on_average = s.is_calm ? infinity : std::max(at_end, 8e-4 * g),
-            .waking = waking,
-            .unsupported = s.is_calm ? unsupported : waking,
-            .quiet_at_end = at_end};
+    const double at_end = std::min(s.convergence.block_unbalanced_ratio, s.convergence.unbalanced_force_ratio) * g;
+    const RestRule calm{.leaves_out = true,
+                        .quiet_speed = 0.2 * s.convergence.mean_speed,
+                        .quiet = 0.01 * at_end,
+                        .waking = 0.5 * at_end,
+                        .quiet_at_end = 0.01 * at_end};
+    if (s.is_calm)
+        return calm;
+    RestRule moving = calm;
+    moving.quiet = std::max(at_end, 5e-3 * g);
+    moving.quiet_on_average = std::max(at_end, 8e-4 * g);
+    moving.waking = std::max(at_end, 0.01 * g);
+    return moving;
 }
 
 /// Of the mean speed at which rock counts as at rest: slower blocks are damped as if they did not slide.
 constexpr double settling_speeds = 40.0;
+
 StageSetting setting_of(const Model& model, const State& state)
 {
     const bool begun = state.stage_begun;
