@@ -52,9 +52,11 @@ SectionSpec convergence_section()
          field<&ConvergenceDef::loose_distance>({.name = "loose_distance",
                                                  .unit = "m",
                                                  .effect = "In a stage with `until = \"converged\"` under the default damping, "
-                                                           "blocks that moved farther in it are loose. While only loose "
-                                                           "blocks move, the step may be longer than a time.step that is given. "
-                                                           "Loose blocks take impulses, other rock keeps its springs.",
+                                                           "blocks that moved farther in it are loose. While other rock "
+                                                           "is slower than ten times mean_speed, the step may be longer than a "
+                                                           "time.step that is given. A loose block in flight takes longer steps "
+                                                           "than rock that moves. Loose blocks take impulses, other rock keeps "
+                                                           "its springs.",
                                                  .range = length}),
          field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
                                                     .unit = "m",
@@ -75,7 +77,7 @@ SectionSpec stage_section()
     KeySpec until = spec({.name = "until",
                           .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. Under the default damping "
                                     "the step is then as long as what moves, or is "
-                                    "about to touch, can bear (where time.step is given: only once no standing rock moves), and "
+                                    "about to touch, can bear (where time.step is given: only while standing rock is slow), and "
                                     "blocks at rest are left "
                                     "out until what they carry changes.",
                           .example = "\"converged\"",

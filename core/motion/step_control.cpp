@@ -3,6 +3,7 @@
 #include "core/detection/contact_tracking.h"
 #include "core/geometry/convex_part.h"
 #include "core/motion/contact_springs.h"
+#include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
 
 #include <Eigen/Eigenvalues>
@@ -118,6 +119,12 @@ class SpringSum
     double everywhere_ = 0.0;  ///< in each direction [1/s2]
 };
 
+/// Is it faster than slow, or will it be before the step can grow?
+bool moves(Index block, const StepRule& rule, const Model& model, const Blocks& blocks)
+{
+    return rim_speed(block, model, blocks) + unbalance(block, model, blocks) * grow_every * model.time_step >= rule.slow;
+}
+
 bool is_alone(Index block, const BlockContacts& list)
 {
     return list.begin[block] == list.begin[block + 1];
@@ -164,7 +171,7 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
             bound.flying = std::min(bound.flying, least);
         else
             bound.touching = std::min({bound.touching, least, falls});
-        bound.standing_moves = bound.standing_moves || (takes_part && !is_loose);
+        bound.standing_moves = bound.standing_moves || (takes_part && !is_loose && moves(b, rule, model, blocks));
     }
     return bound;
 }

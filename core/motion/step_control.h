@@ -14,10 +14,11 @@ struct StepRule
 {
     bool varies = false;  ///< else all steps are those of the case
     bool keeps_given =
-        false;  ///< the case gives the step: as long as rock that stands moves it is kept; loose blocks by themselves may take longer ones
+        false;  ///< the case gives the step: it is kept as long as rock that stands is not slow; loose blocks, and slow rock, may take longer ones
     bool flies_ahead = false;     ///< blocks with nothing near them take longer steps (core/motion/flight.h)
     double stable_share = 0.9;    ///< of the largest stable step [-]
     double falls_by = 0.0;        ///< where impulses alone carry blocks: what a block falls by between two of them [m/s2]
+    double slow = 0.0;            ///< rock that stands keeps the given step while it is faster [m/s]
     double loose_distance = 0.0;  ///< a block that moved farther in its stage is loose [m]
 
     /// Is the case's own step never shortened, so that it must be stable?
@@ -38,7 +39,7 @@ struct StepBound
 {
     double touching = std::numeric_limits<double>::infinity();  ///< least of all others [s]
     double flying = std::numeric_limits<double>::infinity();    ///< least of loose blocks with nothing near them [s]
-    bool standing_moves = false;                                ///< a block takes part that is not loose
+    bool standing_moves = false;                                ///< a block that is not loose is faster than slow
 
     [[nodiscard]] double least() const { return touching < flying ? touching : flying; }
     void add(const StepBound& other)

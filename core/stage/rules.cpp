@@ -35,6 +35,9 @@ RestRule rest_of(const StageSetting& s, double g)
 /// Of the mean speed at which rock counts as at rest: slower blocks are damped as if they did not slide.
 constexpr double settling_speeds = 40.0;
 
+/// Of the same: while rock that stands is faster a given step is kept.
+constexpr double slow_speeds = 10.0;
+
 StageSetting setting_of(const Model& model, const State& state)
 {
     const bool begun = state.stage_begun;
@@ -74,6 +77,7 @@ StageRules resolve_rules(const StageSetting& s)
                      .flies_ahead = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases,
                      .stable_share = s.stable_fraction,
                      .falls_by = s.method == Method::impulse ? g : 0.0,
+                     .slow = slow_speeds * s.convergence.mean_speed,
                      .loose_distance = s.convergence.loose_distance},
             .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,

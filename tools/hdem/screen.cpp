@@ -76,11 +76,10 @@ std::vector<std::string> step_notes(const Model& model, const StepRule& rule)
     if (!rule.varies)
         return {};
     if (rule.keeps_given)
-        return {fmt::format(
-            "note: while all rock that stands is at rest, blocks that have moved more than {:.4g} m in this stage take longer "
-            "steps than the {:.4g} s given, as long as they can bear. A greater convergence.loose_distance keeps the "
-            "given step.",
-            rule.loose_distance, model.time_step)};
+        return {fmt::format("note: the {:.4g} s given are kept while a block that has moved less than {:.4g} m in this stage is "
+                            "faster than {:.4g} m/s. Else "
+                            "steps are as long as what moves can bear. A stage with duration or cycles keeps them always.",
+                            model.time_step, rule.loose_distance, rule.slow)};
     return {fmt::format(
         "note: no time.step is given: in this stage a cycle takes {:.4g} (time.stable_fraction) of the largest step that is "
         "stable for the blocks that are not at rest.",

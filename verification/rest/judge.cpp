@@ -126,12 +126,12 @@ class Judge
     }
 
     /// Static theorem at the places where the blocks lie: a little more friction and cohesion than there is, and all that is nearly touched. Not asked of blocks with
-    /// cohesion that have fallen over: how much of it a corner has on the face that it stands on is a law of hdem (core/README.md), not of statics.
+    /// cohesion that have moved far: how much of it a corner has on the face that it stands on is a law of hdem (core/README.md), not of statics.
     void support()
     {
         const double least = least_size(scene_);
         const JointDef& joint = scene_.def.joints.front();
-        if (joint.cohesion > 0.0 && std::ranges::find(scene_.fate, Fate::moves) != scene_.fate.end())
+        if (joint.cohesion > 0.0 && farthest_way(outcome_) > 0.1 * least)
             return;
         const Strength strength{1.02 * std::tan(radians(joint.friction_angle_deg)) + 1e-3, 1.05 * joint.cohesion};
         const std::vector<TouchingPoint> points = find_touching(outcome_.bodies, 1e-4 * least + 2e-6, bars.overlap * least);
