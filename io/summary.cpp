@@ -39,6 +39,17 @@ Json timing_json(const RunSummary& s)
         json[t.name] = {{"min", t.least}, {"mean", t.mean}, {"max", t.greatest}, {"share", t.share}};
     return json;
 }
+
+/// null where none was tried, or before a restart.
+Json statics_json(const std::optional<StaticResult>& statics)
+{
+    if (!statics)
+        return {};
+    return {{"outcome", statics->outcome},
+            {"iterations", statics->iterations},
+            {"unbalanced_force_ratio", statics->residual},
+            {"loose_blocks", statics->loose}};
+}
 }  // namespace
 
 std::string summary_text(const RunSummary& s)
@@ -49,7 +60,8 @@ std::string summary_text(const RunSummary& s)
                           {"cycles", stage.cycles},
                           {"until_converged", stage.sought_rest},
                           {"converged", stage.at_rest},
-                          {"not_at_rest", stage.not_at_rest}});
+                          {"not_at_rest", stage.not_at_rest},
+                          {"static_solution", statics_json(stage.statics)}});
     Json stage_seconds = Json::array();
     for (const StageSummary& stage : s.stages)
         stage_seconds.push_back(stage.wall_seconds);

@@ -2,6 +2,7 @@
 /// summary.json: the outcome of a run in one small file.
 
 #include "core/energy_ledger.h"
+#include "core/statics/static_result.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +20,7 @@ struct StageSummary
     bool at_rest = false;                  ///< key converged
     std::vector<std::string> not_at_rest;  ///< names of blocks that were not supported when it ended without rest
     double wall_seconds = 0.0;             ///< since the start or restart [s]
+    std::optional<StaticResult> statics;   ///< key static_solution
 };
 
 /// Wall time of one stage of the cycles, over the threads.

@@ -38,6 +38,17 @@ class Pace
     std::int64_t cycles_ = 1;
 };
 
+std::optional<StaticResult> static_result(const Simulation& simulation)
+{
+    if (!simulation.statics())
+        return std::nullopt;
+    const StaticOutcome& found = *simulation.statics();
+    StaticResult result{.outcome = name_of(found.kind), .iterations = found.iterations, .residual = found.residual};
+    for (const Index block : found.loose)
+        result.loose.push_back(simulation.model().name[block]);
+    return result;
+}
+
 class StageRunner
 {
   public:
@@ -49,14 +60,14 @@ class StageRunner
     }
 
     /// The stage that the state is in, from its present cycle on.
-    StageResult run()
+    StageResult run(std::chrono::steady_clock::time_point begun)
     {
         const State& state = simulation_.state();
-        const auto begun = std::chrono::steady_clock::now();
         def_ = &simulation_.model().stages[state.stage];
         begin_ = state.stage_begin_cycle;
         end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
         StageResult result{.name = def_->name, .first_cycle = begin_, .sought_rest = ends_at_rest(*def_)};
+        result.statics = static_result(simulation_);
         result.at_rest = is_at_rest();
         while (state.cycle < end_ && !result.at_rest && !broken_off_)
         {
@@ -180,12 +191,13 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
     const auto stages = static_cast<Index>(simulation.model().stages.size());
     for (Index i = state.stage; i < stages && !runner.broken_off(); ++i)
     {
+        const auto begun = std::chrono::steady_clock::now();
         if (!goes_on)
             simulation.begin_stage(i);
         goes_on = false;
         for (Observer* const observer : observers)
             observer->begin_stage(simulation.model(), state);
-        results.push_back(runner.run());
+        results.push_back(runner.run(begun));
         if (i + 1 < stages && !runner.broken_off())
             simulation.note_outcome(results.back().at_rest);
     }

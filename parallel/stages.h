@@ -2,8 +2,10 @@
 /// Runs the stages of a case: so many cycles, so long, or until converged.
 
 #include "core/observer.h"
+#include "core/statics/static_result.h"
 #include "parallel/simulation.h"
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -32,7 +34,8 @@ struct StageResult
     bool sought_rest = false;  ///< it was to end when the rock is at rest
     bool at_rest = false;
     std::vector<Index> not_at_rest;  ///< blocks that were not supported when the stage ended without rest
-    double wall_seconds = 0.0;       ///< since the start or restart
+    double wall_seconds = 0.0;       ///< since the start or restart, with what is done when it begins
+    std::optional<StaticResult> statics;
 };
 
 /// Last cycle the stage may reach, seen from where it begins.

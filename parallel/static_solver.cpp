@@ -115,6 +115,12 @@ StaticRule static_rule(const Model& model)
             .acceleration = 0.1 * convergence.block_unbalanced_ratio * model.gravity.norm()};
 }
 
+const char* name_of(StaticOutcome::Kind kind)
+{
+    constexpr std::array names = {"balanced", "nearly_balanced", "no_equilibrium", "not_converged"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
 bool can_solve_statics(const Model& model, const State& state)
 {
     for (const std::vector<std::uint8_t>& regimes : state.contacts.regime)

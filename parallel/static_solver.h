@@ -40,6 +40,9 @@ struct StaticOutcome
     std::vector<Index> loose{};  ///< blocks that have come away, ascending; or that moved when the search was given up
 };
 
+/// "balanced", "nearly_balanced", "no_equilibrium" or "not_converged".
+[[nodiscard]] const char* name_of(StaticOutcome::Kind kind);
+
 /// Is it worth a try where the rules of the stage allow it (StageRules::tries_statics)? Many blocks, all but at rest, all contacts on springs.
 [[nodiscard]] bool can_solve_statics(const Model& model, const State& state);
 

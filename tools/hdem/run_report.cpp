@@ -177,7 +177,8 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
                             .sought_rest = stage.sought_rest,
                             .at_rest = stage.at_rest,
                             .not_at_rest = names_of(model, stage.not_at_rest),
-                            .wall_seconds = stage.wall_seconds});
+                            .wall_seconds = stage.wall_seconds,
+                            .statics = stage.statics});
     s.kinetic_energy = now.kinetic_energy;
     s.kinetic_energy_limit = now.kinetic_energy_at(model.convergence.mean_speed);
     s.unbalanced_force_ratio = now.unbalanced_force_ratio();

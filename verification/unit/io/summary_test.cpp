@@ -18,6 +18,7 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     summary.detached_blocks = {"b12", "b13"};
     summary.stages = {{.name = "initial", .cycles = 5000},
                       {.name = "excavated", .cycles = 32709, .sought_rest = true, .at_rest = true}};
+    summary.stages[1].statics = StaticResult{.outcome = "balanced", .iterations = 22, .residual = 2e-9, .loose = {"b12"}};
     summary.state_hash = 0xabc;
     write_summary(folder / "summary.json", summary);
     const auto json = nlohmann::json::parse(test::text_in(folder / "summary.json"));
@@ -53,6 +54,12 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     EXPECT_EQ(json["detached_blocks"], (std::vector<std::string>{"b12", "b13"}));
     EXPECT_EQ(json["stages"][1]["converged"], true);
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
+    EXPECT_TRUE(json["stages"][0]["static_solution"].is_null());
+    const auto& statics = json["stages"][1]["static_solution"];
+    EXPECT_EQ(statics["outcome"], "balanced");
+    EXPECT_EQ(statics["iterations"], 22);
+    EXPECT_EQ(statics["unbalanced_force_ratio"], 2e-9);
+    EXPECT_EQ(statics["loose_blocks"], std::vector<std::string>{"b12"});
 }
 
 TEST(Summary, IsJsonWhateverTheNumbersAndTexts)

@@ -34,6 +34,20 @@ std::vector<StageResult> run_all(const CaseDef& scene, std::vector<Observer*> ob
     return run_stages(simulation, observers);
 }
 
+TEST(Stages, SayWhatAStaticSolutionFoundAtTheirBeginning)
+{
+    CaseDef scene = scenes::joints(16.0, 16.0, 0.8, 2.0);
+    scene.joints[0].cohesion = 5e4;
+    scene.contact.method = Method::force;
+    scene.stages = {{.name = "settle", .cycles = 10}, {.name = "rest", .until_converged = true, .solver = RestSolver::statics}};
+    const std::vector<StageResult> results = run_all(scene);
+    EXPECT_FALSE(results[0].statics.has_value());
+    ASSERT_TRUE(results[1].statics.has_value());
+    EXPECT_EQ(results[1].statics->outcome, "balanced");
+    EXPECT_GT(results[1].statics->iterations, 0);
+    EXPECT_LT(results[1].statics->residual, 1e-5);
+}
+
 TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)
 {
     CaseDef scene = scenes::block_on_ground();
