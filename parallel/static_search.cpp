@@ -30,11 +30,12 @@ constexpr double settled =
     1e-3;  // a search that begins farther out of balance is not carried to the end: new features will change the forces again
 }  // namespace
 
-StaticSearch::StaticSearch(const Model& model, State& state, int threads, const StaticRule& rule)
+StaticSearch::StaticSearch(const Model& model, State& state, int threads, const StaticRule& rule, std::vector<Triple> given)
     : model_(model),
       state_(state),
       threads_(threads),
       rule_(rule),
+      given_(std::move(given)),
       moved_(3 * static_cast<std::size_t>(model.blocks())),
       step_(moved_.size()),
       is_held_(static_cast<std::size_t>(model.blocks()))
@@ -219,7 +220,7 @@ void StaticSearch::find_imbalance(bool frozen, bool along_step)
     imbalance_ = sum_pieces<Imbalance>(
         threads_, static_cast<Index>(unknowns_.block.size()),
         [&](IndexRange range)
-        { return net_forces(range, model_, state_, unknowns_, list_, loads_, along_step ? step_ : none, net_); });
+        { return net_forces(range, model_, state_, unknowns_, list_, loads_, given_, along_step ? step_ : none, net_); });
 }
 
 void StaticSearch::commit()

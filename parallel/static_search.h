@@ -22,7 +22,8 @@ class StaticSearch
         gave_up
     };
 
-    StaticSearch(const Model& model, State& state, int threads, const StaticRule& rule);
+    /// @param given  force and moment on each block besides its weight, or empty
+    StaticSearch(const Model& model, State& state, int threads, const StaticRule& rule, std::vector<Triple> given = {});
 
     /// Find contacts and features at the present places, and begin there.
     void find_contacts();
@@ -78,6 +79,7 @@ class StaticSearch
     State& state_;
     int threads_;
     StaticRule rule_;
+    std::vector<Triple> given_;
 
     ContactRebuild rebuild_;
     std::vector<BlockMotion> start_;     ///< places where the search began

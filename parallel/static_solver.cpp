@@ -18,10 +18,12 @@ namespace
 {
 constexpr int most_searches = 12;    // for contacts
 constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
+constexpr int release_parts = 8;     // in which forces of excavated blocks are taken off, where the stage takes them off over cycles
 constexpr Index large = 10'000;      // from zero stress Newton by itself takes longer than with cycles in turn
 
 /// Forces by the law of the cycles; the state must be as they would leave it.
-Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, std::vector<std::uint8_t> is_held)
+Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, const std::vector<Triple>& given,
+                                 std::vector<std::uint8_t> is_held)
 {
     ContactLoads loads;
     loads.resize(state.contacts.stale.size());
@@ -31,11 +33,11 @@ Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, std::vector<s
     state.ledger.contact_changes += sum(tally.changes);
     BlockContacts list;
     list_block_contacts(state.contacts, state.blocks.size(), list);
-    sum_forces({0, state.blocks.size()}, model, list, loads, {}, false, state.blocks);
+    sum_forces({0, state.blocks.size()}, model, list, loads, given, false, state.blocks);
     std::ranges::replace(is_held, std::uint8_t{frozen}, std::uint8_t{not_held});
     const Unknowns standing = number_unknowns(state, is_held);
     std::vector<double> net(3 * standing.block.size());
-    return net_forces({0, static_cast<Index>(standing.block.size())}, model, state, standing, list, loads.load, {}, net);
+    return net_forces({0, static_cast<Index>(standing.block.size())}, model, state, standing, list, loads.load, given, {}, net);
 }
 
 double weight_work(const Model& model, const State& before, const State& after)
@@ -49,9 +51,10 @@ double weight_work(const Model& model, const State& before, const State& after)
 }
 
 /// Search after search for contacts, from a trial state that is at rest. The trial is balanced if the outcome is.
-StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule)
+StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule,
+                             const std::vector<Triple>& given)
 {
-    StaticSearch search(model, trial, threads, rule);
+    StaticSearch search(model, trial, threads, rule, given);
     StaticOutcome outcome;
     while (outcome.searches < most_searches)
     {
@@ -72,7 +75,7 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
             break;
     }
     stop_all(trial.blocks);
-    outcome.residual = evaluate_as_in_a_cycle(model, trial, search.is_held()).ratio();
+    outcome.residual = evaluate_as_in_a_cycle(model, trial, given, search.is_held()).ratio();
     trial.ledger.friction += search.friction();
     if (outcome.residual <= rule.nearly)
         outcome.kind = outcome.residual <= 2.0 * rule.accepted ? StaticOutcome::Kind::balanced
@@ -80,9 +83,50 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
     return outcome;
 }
 
+/// A share of what excavated blocks have given to those that stay.
+std::vector<Triple> share_of_released(const State& state, double share)
+{
+    std::vector<Triple> given(static_cast<std::size_t>(state.blocks.size()));
+    for (const ReleasedForce& force : state.released)
+        given[force.block] = {share * force.x, share * force.y, share * force.moment};
+    return given;
+}
+
+double work_of(const std::vector<Triple>& given, const std::vector<BlockMotion>& from, const std::vector<BlockMotion>& to)
+{
+    double work = 0.0;
+    for (std::size_t b = 0; b < given.size(); ++b)
+        work += given[b].x * (to[b].x - from[b].x) + given[b].y * (to[b].y - from[b].y) +
+                given[b].w * (to[b].angle - from[b].angle);
+    return work;
+}
+
+/// In balance at each share of the forces of excavated blocks, the last of which is none.
+StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule)
+{
+    const int parts = trial.released.empty() ? 1 : release_parts;
+    StaticOutcome all;
+    for (int part = 1; part <= parts; ++part)
+    {
+        const std::vector<Triple> given = part == parts ? std::vector<Triple>()
+                                                        : share_of_released(trial, 1.0 - static_cast<double>(part) / parts);
+        const std::vector<BlockMotion> from = trial.blocks.motion;
+        StaticOutcome outcome = search_balance(model, trial, threads, rule, given);
+        trial.ledger.load_work += work_of(given, from, trial.blocks.motion);
+        outcome.iterations += all.iterations;
+        outcome.solves += all.solves;
+        outcome.searches += all.searches;
+        all = std::move(outcome);
+        if (!all.is_taken())
+            break;
+    }
+    return all;
+}
+
 /// The same after the rounds of an approach.
 StaticOutcome approach_and_search(const Model& model, State& trial, int threads, const StaticRule& rule)
 {
+    trial.released.clear();
     StaticOutcome approach;
     if (!approach_balance(model, trial, threads, rule, approach))
         return approach;
@@ -102,7 +146,6 @@ State at_rest(const State& state)
 {
     State trial = state;
     stop_all(trial.blocks);
-    trial.released.clear();
     return trial;
 }
 }  // namespace
@@ -154,6 +197,7 @@ StaticOutcome solve_statics(const Model& model, State& state, int threads, const
     }
     if (!outcome.is_taken())
         return outcome;
+    trial.released.clear();
     trial.ledger.gravity_work = state.ledger.gravity_work + weight_work(model, state, trial);
     trial.ledger.local_damping += residual(trial.ledger, stored_energy(model, trial)) -
                                   residual(state.ledger, stored_energy(model, state));

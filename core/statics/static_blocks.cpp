@@ -94,8 +94,8 @@ double unbalanced(const Model& model, Index block, const double* net)
 }
 
 Imbalance net_forces(IndexRange unknowns, const Model& model, const State& state, const Unknowns& numbers,
-                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<double>& step,
-                     std::vector<double>& net)
+                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<Triple>& given,
+                     const std::vector<double>& step, std::vector<double>& net)
 {
     Imbalance sums;
     for (Index u = unknowns.begin; u < unknowns.end; ++u)
@@ -103,6 +103,8 @@ Imbalance net_forces(IndexRange unknowns, const Model& model, const State& state
         const Index b = numbers.block[u];
         const Vec2 weight = model.mass[b] * model.gravity;
         std::array<double, 3> force = {weight.x(), weight.y(), 0.0};
+        if (!given.empty())
+            force = {force[0] + given[b].x, force[1] + given[b].y, given[b].w};
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
         {
             const BlockLoad& load = loads[list.entry[e]];

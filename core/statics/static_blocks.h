@@ -50,11 +50,12 @@ struct Imbalance
 /// (|F| + |M| / r) / mass of a block [m/s2].  net: its net force and moment.
 [[nodiscard]] double unbalanced(const Model& model, Index block, const double* net);
 
-/// Net forces, three per unknown: weight and the loads of the contacts in their order, 0 where the motion is prescribed.
-/// @param step  three per block of the model, or empty
+/// Net forces, three per unknown: weight, what is given, and the loads of the contacts in their order, 0 where the motion is prescribed.
+/// @param given  force and moment on each block of the model, or empty
+/// @param step   three per block of the model, or empty
 Imbalance net_forces(IndexRange unknowns, const Model& model, const State& state, const Unknowns& numbers,
-                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<double>& step,
-                     std::vector<double>& net);
+                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<Triple>& given,
+                     const std::vector<double>& step, std::vector<double>& net);
 
 /// Put blocks where they have moved to from `start`.
 /// @param moved  three per block of the model [m], [rad]

@@ -57,7 +57,7 @@ PointPlace place(const View& v, int k, const StaticPoint& point, double rest)
             .bears = v.touch.length > 0.0 && (closed || !point.is_parted)};
 }
 
-/// What has parted has lost its cohesion for the rest of the search, also where it closes again: its shear force then vanishes steadily as it opens.
+/// What has parted has no cohesion until it heals (see heal): its shear force then vanishes steadily as it opens.
 CoulombSlip joint_of(const View& v, const StaticPoint& point)
 {
     CoulombSlip joint = *v.joint;
@@ -73,6 +73,24 @@ void count_ways_anew(const View& v, int k, StaticPoint& point)
     point.q_x = v.turned_c * p.inc_t + v.turned_s * p.inc_m;
     point.q_y = v.turned_c * p.inc_m - v.turned_s * p.inc_t;
     point.start_t = v.t_of(point.q_x, point.q_y);
+}
+
+/// A point that closes again after it has parted has its cohesion back: it was thrown open on the way of the search, not on that of the blocks. It bears as if it had never
+/// parted, if it was closed when the search began. Once a search: a point at rest just where it closes would go on changing.
+bool heals(const PointReaction& r, StaticPoint& point)
+{
+    if (!point.is_parted || r.status == PointStatus::open || point.has_healed)
+        return false;
+    point.is_parted = false;
+    point.has_healed = true;
+    if (point.began_closed)
+    {
+        point.q_x = point.first_q_x;
+        point.q_y = point.first_q_y;
+        point.start_t = point.first_t;
+        point.start_shear = point.first_shear;
+    }
+    return true;
 }
 
 BlockLoad load_on(double e_x, double e_y, double f_t, double f_m, double moment)
@@ -133,6 +151,11 @@ void begin_points(IndexRange range, const Model& model, const State& state, std:
             const bool closed = is_closed(v.touch.length, v.touch.point[k].overlap, v.floor);
             point.is_parted = !closed;
             point.start_shear = closed ? state.contacts.shear_force(k, i) : 0.0;
+            point.began_closed = closed;
+            point.first_q_x = point.q_x;
+            point.first_q_y = point.q_y;
+            point.first_t = point.start_t;
+            point.first_shear = point.start_shear;
         }
     }
 }
@@ -202,6 +225,8 @@ PointTally renew_points(IndexRange range, const Model& model, const State& state
                 point.is_parted = true;
                 tally.newly_parted += std::abs(r.shear) > 0.0 ? 1 : 0;
             }
+            if (heals(r, point))
+                ++tally.newly_parted;
             if (r.status == PointStatus::open && point.is_parted)
             {
                 point.start_shear = 0.0;

@@ -19,9 +19,12 @@ struct StaticPoint
     double strength = 0.0;        ///< shear strength at the last iterate [N]
     double trust = 0.03;          ///< share of the elastic stiffness where the law has none, see renew_points [-]
     PointStatus status = PointStatus::open;
-    std::uint8_t iterations_open = 0;  ///< in a row
-    bool is_parted = false;            ///< open for good: cohesion is broken
-    bool holds_shear = false;          ///< along the edge its whole elastic stiffness acts
+    double first_q_x = 0.0, first_q_y = 0.0, first_t = 0.0, first_shear = 0.0;  ///< as the search began, where it was closed then
+    std::uint8_t iterations_open = 0;                                           ///< in a row
+    bool has_healed = false;                                                    ///< was parted in this search, and has closed again
+    bool began_closed = false;
+    bool is_parted = false;    ///< open: cohesion is broken
+    bool holds_shear = false;  ///< along the edge its whole elastic stiffness acts
 };
 
 /// Tangents of a contact's two points in the axes of its reference edge.

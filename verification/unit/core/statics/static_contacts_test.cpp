@@ -106,6 +106,29 @@ TEST(StaticContacts, TrustFollowsTheStatus)
     EXPECT_DOUBLE_EQ(point.trust, 0.16) << "it has begun to slip";
 }
 
+TEST(StaticContacts, APartedPointThatClosesAgainBearsAsIfItHadNotParted)
+{
+    TiltedContact c(1e-6);
+    const double a = radians(20.0);
+    const auto renew = [&](bool all) {
+        return renew_points({0, c.state.contacts.size()}, c.run.model(), c.state, {.part_all_open = all}, c.points, c.tangents);
+    };
+    const auto lift = [&](double by) { c.move("block", -by * std::sin(a), by * std::cos(a), 0.0); };
+    const Eigen::Matrix<double, 6, 1> before = loads_of(c.run.model(), c.state, c.points, c.contact);
+    lift(1e-3);
+    renew(true);
+    ASSERT_TRUE(c.points[2 * c.contact].is_parted);
+    lift(-1e-3);
+    EXPECT_EQ(renew(false).newly_parted, 2) << "the search is not at its end";
+    EXPECT_FALSE(c.points[2 * c.contact].is_parted);
+    EXPECT_LT((loads_of(c.run.model(), c.state, c.points, c.contact) - before).norm(), 1e-9 * before.norm());
+    lift(1e-3);
+    renew(true);
+    lift(-1e-3);
+    EXPECT_EQ(renew(false).newly_parted, 0) << "once a search";
+    EXPECT_TRUE(c.points[2 * c.contact].is_parted);
+}
+
 TEST(StaticContacts, AnOpenPointPartsAfterThreeIterationsOrWhenAllDo)
 {
     TiltedContact c(1e-3);
