@@ -18,8 +18,8 @@ namespace
 {
 constexpr int most_searches = 12;    // for contacts
 constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
-constexpr int release_parts = 8;     // in which forces of excavated blocks are taken off, where the stage takes them off over cycles
-constexpr Index large = 10'000;      // from zero stress Newton by itself takes longer than with cycles in turn
+constexpr int release_parts = 8;  // in which forces of excavated blocks are taken off, where the stage takes them off over cycles
+constexpr Index large = 10'000;   // from zero stress Newton by itself takes longer than with cycles in turn
 
 /// Forces by the law of the cycles; the state must be as they would leave it.
 Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, const std::vector<Triple>& given,
