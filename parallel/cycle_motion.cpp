@@ -1,0 +1,70 @@
+/// The second half of a cycle: velocities, impulses, positions.
+
+#include "core/contact/block_forces.h"
+#include "core/motion/flight.h"
+#include "core/motion/integrator.h"
+#include "core/motion/rest.h"
+#include "parallel/cycle.h"
+#include "parallel/impulse_sweeps.h"
+#include "parallel/openmp.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
+{
+    part.ledger = {};
+    part.rest_changed = false;
+    VelocityWorks works;
+    for (const IndexRange& range : part.active)
+        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
+                   state.blocks);  // Eqs. (7), (8)
+    if (rules_.rest.leaves_out)
+        for (const IndexRange& range : part.active)
+            part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed;
+    for (const IndexRange& range : part.active)
+        update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
+    works.add_to(part.ledger);
+}
+
+double CycleRunner::change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo)
+{
+    double way = 0.0;
+    for (const IndexRange& range : part.active)
+        way = std::max(way, update_positions(range, model, state.blocks, pseudo));
+    if (state.flies_ahead && !part.flying.empty())
+        way += fly_ahead(part.flying, rules_.step.loose_distance, model, state.blocks, part.ledger);
+    return way;
+}
+
+void CycleRunner::move(const Model& model, State& state, const Team& team, std::int64_t now)
+{
+    if (team.is_first())
+        add_up_contacts(state);
+    const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = mine.begin; i < mine.end; ++i)
+    {
+        BlockPart& part = partition_.blocks[i];
+        change_velocities(model, state, now, part);
+        part.way = change_positions(model, state, part, nullptr);
+    }
+}
+
+void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
+                                     StageClock& clock)
+{
+    const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = mine.begin; i < mine.end; ++i)
+        change_velocities(model, state, now, partition_.blocks[i]);
+    clock.lap(CycleStage::update);
+    team.barrier();
+    clock.lap(CycleStage::wait);
+    apply_impulses(model, rules_.islands, state, team, impulses, partition_, work_);
+    clock.lap(CycleStage::impulse);
+    if (team.is_first())
+        add_up_contacts(state);
+    for (Index i = mine.begin; i < mine.end; ++i)
+        partition_.blocks[i].way = change_positions(model, state, partition_.blocks[i], &work_.pseudo);
+}
+}  // namespace hdem
