@@ -156,9 +156,14 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
     }
 }
 
-/// Approaches up to this many times what weight gives in a cycle do not bounce: steps cannot follow such a bounce, and a block would hop from one cycle to the
-/// next for ever.
-constexpr double least_bounce = 2.0;
+/// Slower approaches do not bounce [m/s]. Weight gives g dt in a cycle; at twice of it steps cannot follow a bounce. And flights last whole cycles: a block that comes with
+/// v = g dt / (1 - R), loses g dt in the bounce, and has it back one cycle later, would hop for ever.
+double least_bounce(const ImpulsePoint& p)
+{
+    constexpr double least = 2.0, most = 20.0;
+    const double lost = 1.0 - p.restitution;
+    return p.weight_velocity * std::clamp(lost > 0.0 ? 1.2 / lost : most, least, most);
+}
 
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
 {
@@ -169,7 +174,7 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
         p.load_velocity = std::max(p.weight_velocity, pressed);
         if (p.approach <= 0.0)
             continue;
-        const bool bounces = p.approach > least_bounce * p.weight_velocity;
+        const bool bounces = p.approach > least_bounce(p);
         p.target = std::min(0.0, pressed - (bounces ? p.restitution * p.approach : 0.0));
         if (p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;

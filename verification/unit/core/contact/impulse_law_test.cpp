@@ -1,4 +1,5 @@
 #include "core/contact/impulse_law.h"
+#include "parallel/stages.h"
 #include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
 #include "verification/unit/core/contact/impulse_scenes.h"
@@ -199,6 +200,25 @@ TEST(ImpulseStack, LetsAHeavyBlockRestOnALightOne)
     run.advance(200000);
     EXPECT_LE(run.velocity("block2").y(), 30.0 * 9.81 * run.model().time_step) << "it was thrown up";
     EXPECT_LE(run.displacement("block2").y(), 1e-6);
+}
+
+/// It would hop from one cycle to the next at g dt / (1 + R) for ever.
+TEST(ImpulseStack, ABlockThatFallsOnAnotherComesToRest)
+{
+    for (const double restitution : {0.1, 0.5, 0.9})
+    {
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "ground", scenes::rectangle({-30, -9}, {30, 0}));
+        scenes::add_block(scene, "stands", scenes::rectangle({-4.6, 0.0}, {4.6, 5.9}));
+        scenes::add_block(scene, "falls", scenes::rectangle({-4.1, 6.5}, {4.1, 17.4}));
+        scene.contact.method = Method::impulse;
+        scene.contact.restitution = restitution;
+        scene.time.step = 3e-4;
+        scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 100'000}};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        EXPECT_TRUE(run_stages(simulation, {}).front().at_rest) << restitution;
+    }
 }
 
 TEST(ImpulseStack, GainsNoEnergyAfterAnImpact)

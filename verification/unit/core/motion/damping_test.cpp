@@ -80,6 +80,18 @@ TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
         EXPECT_NEAR(damped(reserve).y(), 1.0, 1e-12);
 }
 
+/// Else a block on a joint at its strength swings on its normal springs for ever.
+TEST(LocalDamping, OfSlowRotationsActsWhateverFrictionHasLeft)
+{
+    const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
+    const BlockDamping damping{.local = 0.8, .local_rotation = 0.1, .form = LocalDamping::along_joint, .settling = 0.02};
+    const auto damped = [&](double w, double radius)
+    { return damp_rotation(Acting{.moment = 10.0}, inertia, w, radius, 1e-3, damping); };
+    EXPECT_NEAR(damped(0.005, 2.0), 2.0, 1e-12) << "rim at 0.01 m/s";
+    EXPECT_NEAR(damped(0.02, 2.0), 9.0, 1e-12) << "rim at 0.04 m/s";
+    EXPECT_NEAR(damped(0.015, 2.0), 6.0, 1e-12) << "half-way between";
+}
+
 /// What can move along one axis only is damped along it.
 TEST(LocalDamping, LeavesAFixedComponentAlone)
 {
