@@ -14,7 +14,7 @@ ContactLaw law_of(Method method)
 
 /// While some blocks still move, others rest with less than a thousandth of their weight out of balance on average; in single cycles it is a few thousandths, where a
 /// corner rattles. They are woken by a hundredth, which presses less than 1e-7 m into their joints. When no block moves any more they settle together: a
-/// block rests with a hundredth of what the stage may end with, and is woken by half of that.
+/// block rests with a hundredth of what the stage may end with, and is woken by a half of what it may end with.
 RestRule rest_of(const StageSetting& s, double g)
 {
     const double at_end = std::min(s.convergence.block_unbalanced_ratio, s.convergence.unbalanced_force_ratio) * g;
