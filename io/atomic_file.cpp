@@ -1,6 +1,7 @@
 #include "io/atomic_file.h"
 
 #include "core/check.h"
+#include "io/fresh_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,10 +37,10 @@ const char* advice(int error)
 class Temporary
 {
   public:
-    Temporary(const std::filesystem::path& target, const std::filesystem::path& name)
+    explicit Temporary(const std::filesystem::path& target)
         : target_(target),
-          name_(name),
-          descriptor_(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+          name_(temporary_name(target)),
+          descriptor_(open_new(name_))
     {
         if (descriptor_ < 0)
             fail();
@@ -84,8 +85,7 @@ class Temporary
     /// A second name for the target, so that the first one never misses; some file systems have no second names.
     void keep_target_as(const std::filesystem::path& previous) const
     {
-        const std::string second = previous.string() + ".tmp";
-        ::unlink(second.c_str());
+        const std::filesystem::path second = temporary_name(previous);
         const bool linked = ::link(target_.c_str(), second.c_str()) == 0;
         if (!linked && errno == ENOENT)
             return;  // there is no target yet
@@ -124,9 +124,7 @@ void write_atomically(const std::filesystem::path& file, std::span<const std::by
     std::filesystem::create_directories(folder, error);
     if (error)
         throw RunError(fmt::format("{}: folder cannot be made ({}). {}", folder.string(), error.message(), advice(error.value())));
-    std::filesystem::path name = file;
-    name += ".tmp";
-    Temporary temporary(file, name);
+    Temporary temporary(file);
     temporary.write(bytes);
     temporary.rename(previous, flush);
     if (flush == Flush::now)

@@ -13,7 +13,7 @@ enum class Flush
     later  ///< whole under its name for every program, also after this one was killed; on the disk after flush_folder()
 };
 
-/// Write `bytes` to FILE.tmp, fsync, rename to FILE, fsync the folder: whoever opens FILE sees the old content or the new,
+/// Write `bytes` to a new file beside FILE (io/fresh_file.h), fsync, rename to FILE, fsync the folder: whoever opens FILE sees the old content or the new,
 /// never a part. Makes the folder when it is missing.
 /// With `previous`, an old FILE is kept under that name; one of the two is there at any moment.
 /// Throws RunError with the file, the system's reason (disk full, no permission) and what may help; FILE is then as it was.

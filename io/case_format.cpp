@@ -71,7 +71,7 @@ A case file says everything a run needs: the rock, its joints, the loads, the st
   stiffnesses are per metre out of plane.
 - Headers in single brackets, `[domain]`, occur once. Headers in double brackets, `[[joint_set]]`, occur as often as there are such
   things. In `[joint.NAME]` and `[material.NAME]` you choose the name: letters, digits, `_` and `-`.
-- A point or vector is `[x, y]`, a polygon `[[x, y], [x, y], [x, y], ...]`. Where a number is expected, `2` is as good as `2.0`;
+- A point or vector is `[x, y]`, a polygon `[[x, y], [x, y], [x, y], ...]` of 3 to 25 000 vertices. Where a number is expected, `2` is as good as `2.0`;
   where a whole number is expected, `1e6` is as good as `1000000`.
 - Unknown keys, wrong types and values out of range are refused, all at once, each with file, line and column.
   `hdem check CASE.toml` does only this.

@@ -58,6 +58,15 @@ bool is_of_interruption(const Model& model, const State& state)
 }
 }  // namespace
 
+void remove_frames(const std::filesystem::path& folder)
+{
+    remove_file(folder / "blocks.hdf.series");
+    remove_file(folder / "contacts.hdf.series");
+    for (const std::filesystem::path& file : files_in(folder / "frames"))
+        if (frame_number(file.filename().string()) >= 0)
+            remove_file(file);
+}
+
 std::string frame_file(const std::string& kind, int number)
 {
     return fmt::format("frames/{}_{:06d}.hdf", kind, number);
@@ -67,11 +76,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model)
     : folder_(std::move(folder)),
       contacts_(model.output.contacts)
 {
-    remove_file(folder_ / "blocks.hdf.series");  // first what names the others
-    remove_file(folder_ / "contacts.hdf.series");
-    for (const std::filesystem::path& file : files_in(folder_ / "frames"))
-        if (frame_number(file.filename().string()) >= 0)
-            remove_file(file);
+    remove_frames(folder_);
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const State& state)

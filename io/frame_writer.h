@@ -49,6 +49,9 @@ class FrameWriter
     std::vector<std::filesystem::path> younger_;  ///< files of frames that a restart does away with
 };
 
+/// Remove the frames in a folder, and first the series that name them.
+void remove_frames(const std::filesystem::path& folder);
+
 /// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks" or "contacts"
 std::string frame_file(const std::string& kind, int number);
 

@@ -125,6 +125,11 @@ bool ResultsWriter::is_due() const
     return Clock::now() >= next_write_;
 }
 
+bool ResultsWriter::is_due_after_stage() const
+{
+    return Clock::now() >= next_write_after_stage_;
+}
+
 void ResultsWriter::write(std::span<const Frame> frames, bool contact_frames)
 {
     const auto begin = Clock::now();
@@ -142,6 +147,7 @@ void ResultsWriter::write(std::span<const Frame> frames, bool contact_frames)
     flush_folder(file_.parent_path());  // what it links to is on the disk before it
     file.commit();
     const auto end = Clock::now();
-    next_write_ = end + std::max<Clock::duration>(least_interval, interval_in_writes * (end - begin));
+    next_write_after_stage_ = end + interval_in_writes * (end - begin);
+    next_write_ = std::max(end + least_interval, next_write_after_stage_);
 }
 }  // namespace hdem

@@ -40,6 +40,8 @@ class ResultsWriter
 
     /// Takes a part of the run's time that stays small: at most every ten seconds, more seldom when writing is slow.
     [[nodiscard]] bool is_due() const;
+    /// At the end of a stage too, unless stages are so short that writing would take more than a twentieth of the time.
+    [[nodiscard]] bool is_due_after_stage() const;
     void write(std::span<const Frame> frames, bool contact_frames);
 
     [[nodiscard]] Provenance& provenance() { return provenance_; }
@@ -50,5 +52,6 @@ class ResultsWriter
     Provenance provenance_;
     std::vector<Table> tables_;
     std::chrono::steady_clock::time_point next_write_;
+    std::chrono::steady_clock::time_point next_write_after_stage_;
 };
 }  // namespace hdem

@@ -1,8 +1,7 @@
 #include "io/run_recorder.h"
 
 #include "core/check.h"
-#include "core/energy_ledger.h"
-#include "core/motion/equilibrium.h"
+#include "io/energy_rows.h"
 
 #include <algorithm>
 
@@ -13,23 +12,9 @@ namespace
 /// Above, a copy takes much memory, and a frame is rarely worth more than a few cycles.
 constexpr Index most_blocks_copied = 20'000;
 
-Equilibrium equilibrium_of(const Model& model, const State& state)
-{
-    Equilibrium sums;
-    add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, sums);
-    return sums;
-}
-
-RunRecorder::Quantity points_in(Regime regime)
-{
-    return [regime](const Model&, const State& state)
-    {
-        std::int64_t points = 0;
-        for (const auto& end : state.contacts.regime)
-            points += std::count(end.begin(), end.end(), static_cast<std::uint8_t>(regime));
-        return static_cast<double>(points);
-    };
-}
+/// With more stages than this a frame at the end of a stage comes so many cycles after the last one at the earliest: it takes as long as fifty.
+constexpr std::size_t many_stages = 1000;
+constexpr std::int64_t cycles_a_frame = 100;
 }  // namespace
 
 RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance)
@@ -46,6 +31,8 @@ RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Prove
       take_over_(restart.cycle)
 {
     add_tables(model);
+    if (!frames_.frames().empty())
+        last_frame_cycle_ = frames_.frames().back().cycle;
     for (std::size_t i = 0; i < std::min(samplers_.size(), history_axes.size()); ++i)
         samplers_[i].set_axis(history_axes[i]);
 }
@@ -75,40 +62,7 @@ void RunRecorder::add_tables(const Model& model)
                                              "). Give each history a name of its own, without /."});
         table_of_sampler_.push_back(results_.add_table(path, samplers_.back().columns()));
     }
-    add_energy({"kinetic_energy", "J"}, [](const Model& m, const State& s) { return equilibrium_of(m, s).kinetic_energy; });
-    add_energy({"unbalanced_force_ratio", "1"},
-               [](const Model& m, const State& s) { return equilibrium_of(m, s).unbalanced_force_ratio(); });
-    add_energy({"greatest_speed", "m/s"}, [](const Model& m, const State& s) { return equilibrium_of(m, s).greatest_speed; });
-    add_energy({"stick_points", "1"}, points_in(Regime::stick));
-    add_energy({"slip_points", "1"}, points_in(Regime::slip));
-    add_energy({"impulse_points", "1"}, points_in(Regime::impulse));
-    add_ledger();
-}
-
-void RunRecorder::add_ledger()
-{
-    const auto term = [&](const char* name, double EnergyLedger::*field) {
-        add_energy({name, "J"}, [field](const Model&, const State& state) { return state.ledger.*field; });
-    };
-    term("initial", &EnergyLedger::initial);
-    term("gravity_work", &EnergyLedger::gravity_work);
-    term("load_work", &EnergyLedger::load_work);
-    term("position_correction", &EnergyLedger::position_correction);
-    term("friction", &EnergyLedger::friction);
-    term("local_damping", &EnergyLedger::local_damping);
-    term("global_damping", &EnergyLedger::global_damping);
-    term("impulse_loss", &EnergyLedger::impulse_loss);
-    term("contact_changes", &EnergyLedger::contact_changes);
-    term("removed", &EnergyLedger::removed);
-    add_energy({"elastic_normal", "J"}, [](const Model& m, const State& s) { return stored_energy(m, s).elastic_normal; });
-    add_energy({"elastic_shear", "J"}, [](const Model& m, const State& s) { return stored_energy(m, s).elastic_shear; });
-    add_energy({"residual", "J"}, [](const Model& m, const State& s) { return residual(s.ledger, stored_energy(m, s)); });
-}
-
-void RunRecorder::add_energy(Column column, Quantity quantity)
-{
-    energy_columns_.push_back(std::move(column));
-    energies_.push_back(std::move(quantity));
+    cycles_a_frame_ = model.stages.size() > many_stages ? cycles_a_frame : 0;
 }
 
 std::int64_t RunRecorder::next_cycle(std::int64_t now) const
@@ -121,7 +75,7 @@ std::int64_t RunRecorder::next_cycle(std::int64_t now) const
 
 void RunRecorder::begin_tables()
 {
-    energy_table_ = results_.add_table("/energy", energy_columns_);
+    energy_table_ = results_.add_table("/energy", energy_columns());
     has_tables_ = true;
     if (take_over_ < 0)
         return;
@@ -155,7 +109,7 @@ void RunRecorder::observe(const Model& model, const State& state)
         results_.add_row(table_of_sampler_[i], state.cycle, state.time, row_);
     }
     if (next_multiple(state.cycle - 1, energy_every_) == state.cycle)
-        sample_energies(model, state);
+        add_energy_row(model, state);
     if (next_multiple(state.cycle - 1, frame_every_) == state.cycle)
         write_frame(model, state);
     if (results_.is_due())
@@ -165,8 +119,10 @@ void RunRecorder::observe(const Model& model, const State& state)
 void RunRecorder::end_stage(const Model& model, const State& state)
 {
     sample_all(model, state);
-    write_frame(model, state);
-    write_results();
+    if (state.cycle - last_frame_cycle_ >= cycles_a_frame_)
+        write_frame(model, state);
+    if (results_.is_due_after_stage())
+        write_results();
 }
 
 void RunRecorder::sample_all(const Model& model, const State& state)
@@ -177,14 +133,12 @@ void RunRecorder::sample_all(const Model& model, const State& state)
         samplers_[i].sample(model, state, row_);
         results_.add_row(table_of_sampler_[i], state.cycle, state.time, row_);
     }
-    sample_energies(model, state);
+    add_energy_row(model, state);
 }
 
-void RunRecorder::sample_energies(const Model& model, const State& state)
+void RunRecorder::add_energy_row(const Model& model, const State& state)
 {
-    row_.clear();
-    for (const Quantity& quantity : energies_)
-        row_.push_back(quantity(model, state));
+    sample_energies(model, state, row_);
     results_.add_row(energy_table_, state.cycle, state.time, row_);
 }
 
@@ -193,6 +147,7 @@ void RunRecorder::write_frame(const Model& model, const State& state)
     await_frame();
     if (!frames_.frames().empty() && frames_.frames().back().cycle == state.cycle)
         return;
+    last_frame_cycle_ = state.cycle;
     if (model.blocks() > most_blocks_copied)
         frames_.write(model, state);
     else
@@ -210,6 +165,13 @@ void RunRecorder::write_results()
     await_frame();
     frames_.write_series();
     results_.write(frames_.frames(), frames_.has_contacts());
+}
+
+void RunRecorder::save()
+{
+    if (!has_tables_)
+        begin_tables();
+    write_results();
 }
 
 void RunRecorder::show_interruption(const Model& model, const State& state)

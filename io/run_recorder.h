@@ -5,7 +5,6 @@
 #include "io/results_writer.h"
 
 #include <filesystem>
-#include <functional>
 #include <future>
 #include <span>
 #include <vector>
@@ -22,17 +21,13 @@ class RunRecorder : public Observer
     RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance, const State& restart,
                 std::span<const Vec2> history_axes);
 
-    /// One more column of /energy; before the first cycle. Called once a row.
-    using Quantity = std::function<double(const Model&, const State&)>;
-    void add_energy(Column column, Quantity quantity);
-
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
     void begin_stage(const Model& model, const State& state) override;
     void observe(const Model& model, const State& state) override;
     void end_stage(const Model& model, const State& state) override;
 
     /// Rows that are still in memory go to the disk: what a checkpoint needs beside it.
-    void save() { write_results(); }
+    void save();
     /// What histories between two blocks remember, one for each history; for a checkpoint.
     [[nodiscard]] std::vector<Vec2> history_axes() const;
     /// A frame of this state, unless the last one shows the same cycle. Throws RunError, also of the frame before.
@@ -45,10 +40,9 @@ class RunRecorder : public Observer
 
   private:
     void add_tables(const Model& model);
-    void add_ledger();
     void begin_tables();
     void sample_all(const Model& model, const State& state);
-    void sample_energies(const Model& model, const State& state);
+    void add_energy_row(const Model& model, const State& state);
     void write_results();
     void await_frame();
 
@@ -56,10 +50,10 @@ class RunRecorder : public Observer
     ResultsWriter results_;
     std::int64_t frame_every_ = 0;
     std::int64_t energy_every_ = 0;
+    std::int64_t cycles_a_frame_ = 0;  ///< at least, to one at the end of a stage
+    std::int64_t last_frame_cycle_ = 0;
     std::vector<HistorySampler> samplers_;
     std::vector<std::size_t> table_of_sampler_;
-    std::vector<Column> energy_columns_;
-    std::vector<Quantity> energies_;
     std::size_t energy_table_ = 0;
     bool has_tables_ = false;
     std::int64_t take_over_ = -1;  ///< rows up to this cycle come from the file

@@ -102,6 +102,7 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::int32_t>("/state", "stage", state.stage);
     archive.template value<std::uint8_t>("/state", "stage_begun", state.stage_begun);
     archive.template value<std::int64_t>("/state", "stage_begin_cycle", state.stage_begin_cycle);
+    archive.template value<double>("/state", "default_step", state.default_step);
     archive.template value<double>("/state", "quiet_since", state.quiet_since);
     archive.template value<std::uint8_t>("/state", "method", state.method);
     archive.template value<std::uint8_t>("/state", "damping", state.damping);
@@ -112,6 +113,7 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::uint8_t>("/state", "rest_changed", state.rest_changed);
     archive.template value<std::uint8_t>("/state", "flies_ahead", state.flies_ahead);
     archive.template value<std::uint8_t>("/state", "is_calm", state.is_calm);
+    archive.template value<std::uint8_t>("/state", "statics_due", state.statics_due);
     archive.template value<std::uint8_t>("/state", "statics_taken", state.statics_taken);
     archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
                                         [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest); });

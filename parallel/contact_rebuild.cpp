@@ -38,7 +38,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
     };
     for_chunks({0, count}, [&](const Chunk& chunk) { compute_boxes(chunk.parts, model, state.blocks, boxes_); });
     team.alone([&] { cells_.build(boxes_); });
-    for_chunks({0, count}, [&](Chunk& chunk) { find_pairs(chunk); });
+    for_chunks({0, count}, [&](Chunk& chunk) { find_pairs(chunk, model.shapes); });
     for_chunks({0, count}, [&](Chunk& chunk) { sort_pairs(chunk); });
     for (Index i = 0; i < count; i += chunks_a_round)
     {
@@ -70,9 +70,11 @@ void ContactRebuild::begin(const Model& model)
         chunks_[i].parts = {i * parts_a_chunk, std::min(parts, (i + 1) * parts_a_chunk)};
 }
 
-void ContactRebuild::find_pairs(Chunk& chunk) const
+void ContactRebuild::find_pairs(Chunk& chunk, const Shapes& shapes) const
 {
     cells_.find_pairs(chunk.parts, chunk.pairs);
+    std::erase_if(chunk.pairs,
+                  [&](std::uint64_t pair) { return shapes.part_block[first_of(pair)] == shapes.part_block[second_of(pair)]; });
     const auto own = std::partition(chunk.pairs.begin(), chunk.pairs.end(),
                                     [&](std::uint64_t pair) { return holds(chunk.parts, first_of(pair)); });
     chunk.foreign.assign(own, chunk.pairs.end());

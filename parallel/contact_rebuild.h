@@ -29,7 +29,8 @@ class ContactRebuild
     };
 
     void begin(const Model& model);
-    void find_pairs(Chunk& chunk) const;
+    /// Not those of two parts of one block.
+    void find_pairs(Chunk& chunk, const Shapes& shapes) const;
     void sort_pairs(Chunk& chunk) const;
     void place(IndexRange chunks);
     void finish(State& state);

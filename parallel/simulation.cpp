@@ -39,8 +39,32 @@ Simulation::Simulation(Model model, State state, int threads)
     if (state_.contacts_outdated)
         renew_contacts();
     if (fresh)
+    {
         state_.ledger.initial = stored_energy(model_, state_).total();
+        find_default_step();
+    }
+    else if (state_.default_step > 0.0)
+        model_.time_step = model_.default_time_step = state_.default_step;
     runner_.forget_times();
+}
+
+void Simulation::find_default_step()
+{
+    constexpr double share = 0.5;  // of the limit of the present contacts: others will come
+    const double limit = critical_step();
+    if (model_.default_time_step <= limit || !needs_stable_step())
+        return;
+    model_.default_time_step = share * limit;
+    if (model_.has_step)
+        return;
+    state_.default_step = model_.time_step = model_.default_time_step;
+    state_.blocks.step = {model_.time_step, model_.time_step};
+}
+
+bool Simulation::needs_stable_step() const
+{
+    const StageRules rules = resolve_rules(model_, state_);
+    return rules.contact.law != ContactLaw::impulses && rules.step.needs_stable_step();
 }
 
 std::vector<Problem> Simulation::find_problems()
@@ -52,8 +76,7 @@ std::vector<Problem> Simulation::find_problems()
                          " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a "
                          "step."}};
     const double limit = critical_step();
-    const StageRules rules = resolve_rules(model_, state_);
-    if (model_.time_step > limit && rules.contact.law != ContactLaw::impulses && rules.step.needs_stable_step())
+    if (model_.time_step > limit && needs_stable_step())
         problems.push_back({.key = "time.step",
                             .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                                     " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
@@ -107,6 +130,23 @@ void Simulation::excavate(const std::string& name)
     state_.excavation_cycle = state_.cycle;
 }
 
+void Simulation::change_blocks(const StageDef& stage)
+{
+    const double stored = stored_energy(model_, state_).total();
+    const double changes = state_.ledger.contact_changes;
+    for (const std::string& name : stage.excavate)
+        excavate(name);
+    for (const std::string& name : stage.fix)
+        set_mobility(model_, model_.find_block(name), false, state_.blocks);
+    for (const std::string& name : stage.free)
+        set_mobility(model_, model_.find_block(name), true, state_.blocks);
+    if (!stage.fix.empty() || !stage.free.empty())
+        state_.contacts_outdated = true;
+    if (state_.contacts_outdated)
+        renew_contacts();
+    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
+}
+
 void Simulation::begin_stage(Index stage)
 {
     const StageDef& def = model_.stages[stage];
@@ -117,22 +157,12 @@ void Simulation::begin_stage(Index stage)
     state_.released.clear();
     state_.is_calm = false;
     state_.flies_ahead = false;
+    state_.statics_due = false;
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
-    const double stored = stored_energy(model_, state_).total();
-    const double changes = state_.ledger.contact_changes;
-    for (const std::string& name : def.excavate)
-        excavate(name);
-    for (const std::string& name : def.fix)
-        set_mobility(model_, model_.find_block(name), false, state_.blocks);
-    for (const std::string& name : def.free)
-        set_mobility(model_, model_.find_block(name), true, state_.blocks);
-    if (!def.fix.empty() || !def.free.empty())
-        state_.contacts_outdated = true;
-    if (state_.contacts_outdated)
-        renew_contacts();
-    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
+    if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty())
+        change_blocks(def);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);
     for (Index i = 0; i < model_.blocks(); ++i)
@@ -141,13 +171,23 @@ void Simulation::begin_stage(Index stage)
         state_.blocks.reference_angle[i] = state_.blocks.motion[i].angle;
     }
     statics_.reset();
-    if (resolve_rules(model_, state_).tries_statics && can_solve_statics(model_, state_))
+    state_.statics_due = resolve_rules(model_, state_).tries_statics && can_solve_statics(model_, state_);
+    solve_due_statics();
+}
+
+void Simulation::solve_due_statics()
+{
+    if (state_.statics_due)
         solve_statics();
 }
 
 void Simulation::solve_statics()
 {
-    statics_ = hdem::solve_statics(model_, state_, threads_, static_rule(model_));
+    StaticRule rule = static_rule(model_);
+    rule.is_to_stop = is_to_stop_;
+    state_.statics_due = true;
+    statics_ = hdem::solve_statics(model_, state_, threads_, rule);
+    state_.statics_due = false;
     if (!statics_->is_taken())
         return;
     state_.statics_taken = true;
@@ -162,6 +202,7 @@ void Simulation::finish_by_statics()
         !can_solve_statics(model_, state_) || equilibrium().fastest.value >= model_.convergence.mean_speed)
         return;
     State before = state_;
+    before.statics_due = false;
     solve_statics();
     if (statics_->is_taken() && !statics_->loose.empty())
     {

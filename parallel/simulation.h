@@ -40,6 +40,10 @@ class Simulation
     /// Free blocks that have left the model are held where they are; their kinetic energy is removed.
     void hold_lost_blocks();
     void find_calm(const Equilibrium& now);
+    /// Asked now and then within a static solution, from this thread: true breaks it off, and BrokenOff leaves the function that sought it.
+    void ask_in_statics(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }
+    /// The static solution at the beginning of a stage, where the state comes from a run that was broken off within it.
+    void solve_due_statics();
     /// The same later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where a block comes away.
     void finish_by_statics();
     /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.
@@ -64,6 +68,11 @@ class Simulation
     [[nodiscard]] std::vector<StageTimes> stage_times() const { return runner_.stage_times(); }
 
   private:
+    /// The step of a case that gives none: Eq. (32) of the lightest block, or less where a block has so many neighbours that this is not stable.
+    void find_default_step();
+    [[nodiscard]] bool needs_stable_step() const;
+    /// What the stage excavates, fixes and frees.
+    void change_blocks(const StageDef& stage);
     void excavate(const std::string& name);
     void renew_contacts();
     void solve_statics();
@@ -74,5 +83,6 @@ class Simulation
     LedgerWatch watch_;
     int threads_ = 1;
     std::optional<StaticOutcome> statics_;
+    std::function<bool()> is_to_stop_;
 };
 }  // namespace hdem

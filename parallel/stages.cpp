@@ -11,7 +11,8 @@ namespace hdem
 namespace
 {
 constexpr std::int64_t check_every = 1000;
-constexpr std::int64_t finish_every = 10'000;  ///< cycles between static solutions in a stage whose blocks are all slow
+constexpr std::int64_t least_between_checks = 20;  ///< cycles; stages may be as short as one
+constexpr std::int64_t finish_every = 10'000;      ///< cycles between static solutions in a stage whose blocks are all slow
 
 void show(Simulation& simulation, std::span<Observer* const> observers, bool all)
 {
@@ -71,16 +72,8 @@ class StageRunner
         result.at_rest = is_at_rest();
         while (state.cycle < end_ && !result.at_rest && !broken_off_)
         {
-            const std::int64_t now = state.cycle;
-            simulation_.advance(next_stop(now) - now);
-            pace_.took(state.cycle - now);
-            if (state.cycle % check_every == 0 || state.cycle == end_)
-            {
-                simulation_.check_state();
-                if (result.sought_rest)
-                    simulation_.hold_lost_blocks();
-            }
-            result.at_rest = is_at_rest();
+            if (!state.statics_due)  // else the run was broken off below
+                result.at_rest = advance();
             if (!result.at_rest && state.cycle % finish_every == 0)
                 simulation_.finish_by_statics();
             show(simulation_, observers_, state.cycle == end_ || result.at_rest);
@@ -90,7 +83,8 @@ class StageRunner
         result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (broken_off_)
             return result;
-        simulation_.check_state();
+        if (state.cycle - last_check_ >= least_between_checks || def_ == &simulation_.model().stages.back())
+            check_state();
         if (result.sought_rest && !result.at_rest)
             result.not_at_rest = moving_blocks();
         for (Observer* const observer : observers_)
@@ -100,7 +94,39 @@ class StageRunner
 
     [[nodiscard]] bool broken_off() const { return broken_off_; }
 
+    /// Within the static solution of a stage: the run is left where that began.
+    StageResult leave()
+    {
+        broken_off_ = true;
+        static_cast<void>(keeper_->keep(simulation_));
+        const State& state = simulation_.state();
+        return {.name = simulation_.model().stages[state.stage].name,
+                .first_cycle = state.stage_begin_cycle,
+                .cycles = state.cycle - state.stage_begin_cycle};
+    }
+
   private:
+    /// To the next cycle that somebody wants to see. Is the rock at rest there?
+    bool advance()
+    {
+        const State& state = simulation_.state();
+        const std::int64_t now = state.cycle;
+        simulation_.advance(next_stop(now) - now);
+        pace_.took(state.cycle - now);
+        const bool looks = state.cycle % check_every == 0;
+        if (looks)
+            check_state();
+        if (ends_at_rest(*def_) && (looks || state.cycle == end_))
+            simulation_.hold_lost_blocks();
+        return is_at_rest();
+    }
+
+    void check_state()
+    {
+        simulation_.check_state();
+        last_check_ = simulation_.state().cycle;
+    }
+
     /// Looks at the rock if this is a cycle for it. The criterion every_block must have held for some time.
     bool is_at_rest()
     {
@@ -148,6 +174,7 @@ class StageRunner
     const StageDef* def_ = nullptr;
     std::int64_t begin_ = 0;
     std::int64_t end_ = 0;
+    std::int64_t last_check_ = -check_every;
     bool broken_off_ = false;
 };
 
@@ -189,15 +216,26 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
         show(simulation, observers, true);
     StageRunner runner(simulation, observers, keeper);
     const auto stages = static_cast<Index>(simulation.model().stages.size());
+    if (keeper != nullptr)
+        simulation.ask_in_statics([keeper] { return keeper->is_to_stop(); });
     for (Index i = state.stage; i < stages && !runner.broken_off(); ++i)
     {
         const auto begun = std::chrono::steady_clock::now();
-        if (!goes_on)
-            simulation.begin_stage(i);
-        goes_on = false;
-        for (Observer* const observer : observers)
-            observer->begin_stage(simulation.model(), state);
-        results.push_back(runner.run(begun));
+        try
+        {
+            if (!goes_on)
+                simulation.begin_stage(i);
+            else if (state.cycle == state.stage_begin_cycle)
+                simulation.solve_due_statics();
+            goes_on = false;
+            for (Observer* const observer : observers)
+                observer->begin_stage(simulation.model(), state);
+            results.push_back(runner.run(begun));
+        }
+        catch (const BrokenOff&)
+        {
+            results.push_back(runner.leave());
+        }
         if (i + 1 < stages && !runner.broken_off())
             simulation.note_outcome(results.back().at_rest);
     }

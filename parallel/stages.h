@@ -24,6 +24,8 @@ class Keeper
     [[nodiscard]] virtual std::int64_t next_cycle(std::int64_t now) const = 0;
     /// After a cycle that the observers have seen if they asked for it. True: go on; false: leave the run here.
     [[nodiscard]] virtual bool keep(const Simulation& simulation) = 0;
+    /// Within a static solution, which may take long: is the run to be left? keep() comes after it.
+    [[nodiscard]] virtual bool is_to_stop() { return false; }
 };
 
 struct StageResult

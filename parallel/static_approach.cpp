@@ -17,10 +17,11 @@ namespace
 constexpr int most_rounds = 30;
 constexpr int iterations_a_round = 5;
 constexpr std::int64_t cycles_a_round = 500;
-constexpr double near_balance = 1e-3;  // unbalanced ratio after the cycles of a round
-constexpr double passable = 1e-2;      // the same, where rounds bring nothing any more: few blocks that still fall may be held
-constexpr int looks_back = 4;          // rounds in which it must have fallen
-constexpr double enough_gain = 0.7;    // to this
+constexpr std::int64_t cycles_unasked = 50;  // in which nobody is asked whether to stop
+constexpr double near_balance = 1e-3;        // unbalanced ratio after the cycles of a round
+constexpr double passable = 1e-2;    // the same, where rounds bring nothing any more: few blocks that still fall may be held
+constexpr int looks_back = 4;        // rounds in which it must have fallen
+constexpr double enough_gain = 0.7;  // to this
 
 /// What cycles change besides places and forces.
 struct Clock
@@ -32,7 +33,7 @@ struct Clock
 
 /// Damped cycles by springs, from rest to rest. The clock of the run stands still.
 /// @return  unbalanced ratio of the last cycle; infinite if a block has gone too deep, or the step was too great for a spring
-double run_cycles(const Model& model, State& state, int threads, CycleRunner& runner)
+double run_cycles(const Model& model, State& state, int threads, const StaticRule& rule, CycleRunner& runner)
 {
     const Clock before{state.cycle, state.time, state.blocks.step};
     const std::int64_t end = state.cycle + cycles_a_round;
@@ -41,7 +42,9 @@ double run_cycles(const Model& model, State& state, int threads, CycleRunner& ru
     {
         if (state.contacts_outdated)
             runner.renew_contacts(model, state, threads);
-        if (runner.run(model, state, end - state.cycle, threads) != no_index || runner.found_deep_overlap())
+        stop_if_asked(rule);
+        if (runner.run(model, state, std::min(end - state.cycle, cycles_unasked), threads) != no_index ||
+            runner.found_deep_overlap())
             return std::numeric_limits<double>::infinity();
     }
     Equilibrium now;
@@ -86,7 +89,7 @@ bool approach_balance(const Model& model, State& state, int threads, const Stati
         stop_all(state.blocks);
         if (search.ratio() < near_balance)
             return true;
-        const double ratio = run_cycles(model, state, threads, runner);
+        const double ratio = run_cycles(model, state, threads, rule, runner);
         if (!std::isfinite(ratio))
             return false;
         if (ratio < near_balance)

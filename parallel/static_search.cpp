@@ -161,6 +161,7 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
     StaticRule goal = rule_;
     for (int i = 0;; ++i, ++since_best)
     {
+        stop_if_asked(rule_);
         find_imbalance(false, false);
         const PointRule rule{.part_all_open = imbalance_.ratio() < parts_below, .is_first = i == 0};
         tally_ = sum_pieces<PointTally>(threads_, state_.contacts.size(),

@@ -158,6 +158,12 @@ StaticRule static_rule(const Model& model)
             .acceleration = 0.1 * convergence.block_unbalanced_ratio * model.gravity.norm()};
 }
 
+void stop_if_asked(const StaticRule& rule)
+{
+    if (rule.is_to_stop && rule.is_to_stop())
+        throw BrokenOff{};
+}
+
 const char* name_of(StaticOutcome::Kind kind)
 {
     constexpr std::array names = {"balanced", "nearly_balanced", "no_equilibrium", "not_converged"};

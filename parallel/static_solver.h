@@ -4,6 +4,8 @@
 #include "core/model/model.h"
 #include "core/state/state.h"
 
+#include <functional>
+
 namespace hdem
 {
 /// What a static solution has to reach.
@@ -16,7 +18,16 @@ struct StaticRule
     double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
     int stagnation = 50;         ///< iterations without a tenth less out of balance after which a search is given up
     int most_iterations = 350;
+    std::function<bool()> is_to_stop{};  ///< asked in every iteration; true: BrokenOff is thrown
 };
+
+/// Thrown within a static solution that is to end early; the state is as before it.
+struct BrokenOff
+{
+};
+
+/// Throws BrokenOff when the rule says that the solution is to end early.
+void stop_if_asked(const StaticRule& rule);
 
 /// A tenth of what the convergence criteria of the model ask for; just that is accepted.
 [[nodiscard]] StaticRule static_rule(const Model& model);

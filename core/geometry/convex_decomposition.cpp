@@ -1,166 +1,33 @@
 #include "core/geometry/convex_decomposition.h"
 
+#include "core/geometry/ear_cutting.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <optional>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace hdem
 {
 namespace
 {
-/// Sine of an angle below which a vertex counts as straight: round-off of a vertex put on an edge.
-constexpr double straight = 1e-12;
+/// From vertex to vertex, both by their coordinates.
+using Ends = std::array<double, 4>;
 
-// ---- ears -----------------------------------------------------------------------------------------------------------
-
-/// What is left of a polygon while its ears are cut off.
-struct Remainder
+struct HashOfEnds
 {
-    const Polygon& points;
-    std::vector<std::size_t> vertex;  // positions in points, in order
-    std::vector<EdgeTag> edges;       // edge k runs from vertex[k] to vertex[k+1]
-
-    [[nodiscard]] const Vec2& at(std::size_t k) const { return points[vertex[k]]; }
-
-    [[nodiscard]] double turn_at(std::size_t k) const
+    std::size_t operator()(const Ends& ends) const
     {
-        const Vec2 in = at(k) - at(previous(k, vertex.size()));
-        const Vec2 out = at(next(k, vertex.size())) - at(k);
-        return cross(in, out) / (in.norm() * out.norm());
+        std::size_t hash = 0;
+        for (const double x : ends)
+            hash = (hash ^ std::hash<double>()(x)) * 0x9e3779b97f4a7c15ULL;  // +0 and -0 have one hash
+        return hash ^ (hash >> 32U);
     }
 };
-
-/// No other vertex lies in the closed triangle that cutting off k would take. Only vertices that do not turn left can.
-bool is_ear(const Remainder& rest, const std::vector<double>& turns, std::size_t k)
-{
-    const std::size_t n = rest.vertex.size();
-    if (turns[k] <= straight)
-    {
-        return false;
-    }
-    const std::array<Vec2, 3> corner = {rest.at(previous(k, n)), rest.at(k), rest.at(next(k, n))};
-    for (std::size_t m = 0; m < n; ++m)
-    {
-        if (m == k || m == previous(k, n) || m == next(k, n) || turns[m] > straight)
-        {
-            continue;
-        }
-        bool inside = true;
-        for (std::size_t c = 0; c < 3 && inside; ++c)
-        {
-            const Vec2 edge = corner[(c + 1) % 3] - corner[c];
-            inside = cross(edge, rest.at(m) - corner[c]) >= -straight * edge.squaredNorm();
-        }
-        if (inside)
-        {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// The ear whose new edge is shortest; in a polygon without one (round-off) the sharpest left turn.
-std::size_t best_ear(const Remainder& rest)
-{
-    const std::size_t n = rest.vertex.size();
-    std::vector<double> turns(n);
-    for (std::size_t k = 0; k < n; ++k)
-    {
-        turns[k] = rest.turn_at(k);
-    }
-    std::optional<std::size_t> best;
-    double least = 0.0;
-    for (std::size_t k = 0; k < n; ++k)
-    {
-        const double length = (rest.at(next(k, n)) - rest.at(previous(k, n))).squaredNorm();
-        if ((!best || length < least) && is_ear(rest, turns, k))
-        {
-            best = k;
-            least = length;
-        }
-    }
-    const auto sharpest = std::max_element(turns.begin(), turns.end());
-    return best ? *best : static_cast<std::size_t>(sharpest - turns.begin());
-}
-
-std::vector<CutPolygon> triangles(const CutPolygon& polygon)
-{
-    Remainder rest = {polygon.vertices, std::vector<std::size_t>(polygon.vertices.size()), polygon.edges};
-    std::iota(rest.vertex.begin(), rest.vertex.end(), std::size_t{0});
-    std::vector<CutPolygon> out;
-    while (rest.vertex.size() > 3)
-    {
-        const std::size_t n = rest.vertex.size();
-        const std::size_t k = best_ear(rest);
-        CutPolygon ear;
-        ear.add(rest.at(previous(k, n)), rest.edges[previous(k, n)]);
-        ear.add(rest.at(k), rest.edges[k]);
-        ear.add(rest.at(next(k, n)), {edge_internal, no_index});
-        out.push_back(std::move(ear));
-        rest.edges[previous(k, n)] = {edge_internal, no_index};
-        rest.vertex.erase(rest.vertex.begin() + static_cast<std::ptrdiff_t>(k));
-        rest.edges.erase(rest.edges.begin() + static_cast<std::ptrdiff_t>(k));
-    }
-    out.push_back({{rest.at(0), rest.at(1), rest.at(2)}, rest.edges});
-    return out;
-}
-
-// ---- merging --------------------------------------------------------------------------------------------------------
-
-/// Edge i of part a and edge j of part b have the same two ends.
-struct Seam
-{
-    std::size_t a;
-    std::size_t i;
-    std::size_t b;
-    std::size_t j;
-    double length2;
-};
-
-std::vector<Seam> find_seams(const std::vector<CutPolygon>& parts)
-{
-    std::map<std::array<double, 4>, std::array<std::size_t, 2>> seen;
-    std::vector<Seam> seams;
-    for (std::size_t p = 0; p < parts.size(); ++p)
-    {
-        for (std::size_t i = 0; i < parts[p].edges.size(); ++i)
-        {
-            if (parts[p].edges[i].source != edge_internal)
-            {
-                continue;
-            }
-            const Vec2& u = parts[p].vertices[i];
-            const Vec2& v = parts[p].vertices[next(i, parts[p].vertices.size())];
-            const auto opposite = seen.find({v.x(), v.y(), u.x(), u.y()});
-            if (opposite != seen.end())
-            {
-                seams.push_back({opposite->second[0], opposite->second[1], p, i, (v - u).squaredNorm()});
-            }
-            seen[{u.x(), u.y(), v.x(), v.y()}] = {p, i};
-        }
-    }
-    std::stable_sort(seams.begin(), seams.end(), [](const Seam& s, const Seam& t) { return s.length2 > t.length2; });
-    return seams;
-}
-
-bool is_seam(const CutPolygon& a, std::size_t i, const CutPolygon& b, std::size_t j)
-{
-    return a.edges[i].source == edge_internal && b.edges[j].source == edge_internal &&
-           a.vertices[i] == b.vertices[next(j, b.vertices.size())] && a.vertices[next(i, a.vertices.size())] == b.vertices[j];
-}
-
-/// May the boundary go on from the edge that ends in vertex k of `in` to the edge that begins in vertex m of `out`?
-bool turns_left_or_straight(const CutPolygon& in, std::size_t k, const CutPolygon& out, std::size_t m)
-{
-    const Vec2 before = in.vertices[k] - in.vertices[previous(k, in.vertices.size())];
-    const Vec2 after = out.vertices[next(m, out.vertices.size())] - out.vertices[m];
-    const double sine = cross(before, after) / (before.norm() * after.norm());
-    return sine > straight || (sine >= -straight && before.dot(after) > 0.0);
-}
 
 void drop_straight_vertices(CutPolygon& polygon)
 {
@@ -169,7 +36,7 @@ void drop_straight_vertices(CutPolygon& polygon)
         const EdgeTag& before = polygon.edges[previous(i, polygon.edges.size())];
         const EdgeTag& after = polygon.edges[i];
         if (before == after && after.chord != no_index && after.source != edge_internal &&
-            std::abs(turn(polygon.vertices, i)) <= straight)
+            std::abs(turn(polygon.vertices, i)) <= straight_sine)
         {
             polygon.vertices.erase(polygon.vertices.begin() + static_cast<std::ptrdiff_t>(i));
             polygon.edges.erase(polygon.edges.begin() + static_cast<std::ptrdiff_t>(i));
@@ -177,84 +44,225 @@ void drop_straight_vertices(CutPolygon& polygon)
     }
 }
 
-/// Union of two parts across a seam, if it is convex.
-std::optional<CutPolygon> joined(const CutPolygon& a, std::size_t i, const CutPolygon& b, std::size_t j)
+/// Parts as rings of half-edges, which grow together across seams: internal edges that two parts share end to end.
+class Merger
 {
-    const std::size_t na = a.vertices.size();
-    const std::size_t nb = b.vertices.size();
-    // The seam may consist of several edges: [first, last] in a, [b_last, b_first] in b.
-    std::size_t first = i;
-    std::size_t b_first = j;
-    std::size_t last = i;
-    std::size_t b_last = j;
-    std::size_t edges = 1;
-    while (edges + 1 < std::min(na, nb) && is_seam(a, previous(first, na), b, next(b_first, nb)))
+  public:
+    explicit Merger(const std::vector<CutPolygon>& parts) : part_(parts.size())
     {
-        first = previous(first, na);
-        b_first = next(b_first, nb);
-        ++edges;
+        for (const CutPolygon& part : parts)
+            add(part);
+        for (std::size_t h = 0; h < half_.size(); ++h)
+            if (half_[h].twin == none || half_[h].twin < h)  // once a seam
+                offer(h);
     }
-    while (edges + 1 < std::min(na, nb) && is_seam(a, next(last, na), b, previous(b_last, nb)))
-    {
-        last = next(last, na);
-        b_last = previous(b_last, nb);
-        ++edges;
-    }
-    const std::size_t begin_b = next(b_first, nb);
-    const std::size_t begin_a = next(last, na);
-    if (!turns_left_or_straight(a, first, b, begin_b) || !turns_left_or_straight(b, b_last, a, begin_a))
-    {
-        return std::nullopt;
-    }
-    CutPolygon out;
-    for (std::size_t k = begin_a; k != first; k = next(k, na))
-    {
-        out.add(a.vertices[k], a.edges[k]);
-    }
-    for (std::size_t k = begin_b; k != b_last; k = next(k, nb))
-    {
-        out.add(b.vertices[k], b.edges[k]);
-    }
-    drop_straight_vertices(out);
-    return out;
-}
 
-bool merge_one(std::vector<CutPolygon>& parts)
-{
-    for (const Seam& seam : find_seams(parts))
+    std::vector<CutPolygon> run()
     {
-        if (seam.a == seam.b)
+        while (!seams_.empty())
         {
-            continue;
+            const std::size_t half = seams_.top().half;
+            seams_.pop();
+            merge_across(half);  // one that fails is tried again when an end of it has changed
         }
-        if (auto both = joined(parts[seam.a], seam.i, parts[seam.b], seam.j))
+        std::vector<CutPolygon> merged;
+        for (std::size_t p = 0; p < part_.size(); ++p)
+            if (part_[p].joined == none)
+                merged.push_back(ring(part_[p]));
+        return merged;
+    }
+
+  private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    /// An edge as one part has it, from `at` to the next one's.
+    struct Half
+    {
+        Vec2 at;
+        EdgeTag edge;
+        std::size_t before;
+        std::size_t after;
+        std::size_t part;         ///< the first one that it belonged to
+        std::size_t twin = none;  ///< the same edge in the other part
+    };
+
+    struct Part
+    {
+        std::size_t start = none;  ///< a half-edge of its ring
+        std::size_t edges = 0;
+        std::size_t joined = none;  ///< the part that it has become one with
+        bool is_union = false;
+    };
+
+    /// The longest goes first, of equal ones the first that was found.
+    struct Seam
+    {
+        double length2;
+        std::size_t half;  ///< that of the later part
+
+        friend bool operator<(const Seam& s, const Seam& t)
         {
-            const auto [low, high] = std::minmax(seam.a, seam.b);
-            parts[low] = std::move(*both);
-            parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(high));
-            return true;
+            return s.length2 != t.length2 ? s.length2 < t.length2 : s.half > t.half;
+        }
+    };
+
+    /// Edges of one part that are edges of another one too, one behind the other.
+    struct Chain
+    {
+        std::size_t first, last;      ///< in part a
+        std::size_t b_last, b_first;  ///< the same in b, which runs against it
+        std::size_t edges;
+    };
+
+    void add(const CutPolygon& polygon)
+    {
+        const std::size_t begin = half_.size();
+        const std::size_t n = polygon.vertices.size();
+        const std::size_t p = begin == 0 ? 0 : half_.back().part + 1;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            half_.push_back({polygon.vertices[i], polygon.edges[i], begin + previous(i, n), begin + next(i, n), p});
+            if (polygon.edges[i].source == edge_internal)
+                find_twin(begin + i, polygon.vertices[next(i, n)]);
+        }
+        part_[p] = {.start = begin, .edges = n};
+    }
+
+    void find_twin(std::size_t h, const Vec2& end)
+    {
+        const Vec2& begin = half_[h].at;
+        const auto opposite = open_.find({end.x(), end.y(), begin.x(), begin.y()});
+        open_[{begin.x(), begin.y(), end.x(), end.y()}] = h;
+        if (opposite == open_.end() || half_[opposite->second].twin != none)
+            return;
+        half_[h].twin = opposite->second;
+        half_[opposite->second].twin = h;
+    }
+
+    [[nodiscard]] const Vec2& end(std::size_t h) const { return half_[half_[h].after].at; }
+
+    /// An edge that is shared.
+    void offer(std::size_t h)
+    {
+        if (half_[h].twin != none)
+            seams_.push({(end(h) - half_[h].at).squaredNorm(), std::max(h, half_[h].twin)});
+    }
+
+    std::size_t part_of(std::size_t h)
+    {
+        std::size_t p = half_[h].part;
+        while (part_[p].joined != none)
+        {
+            std::size_t& up = part_[p].joined;
+            if (part_[up].joined != none)
+                up = part_[up].joined;  // a shorter way next time
+            p = up;
+        }
+        half_[h].part = p;
+        return p;
+    }
+
+    /// May the boundary go on from one edge to the other?
+    [[nodiscard]] bool turns_left_or_straight(std::size_t in, std::size_t out) const
+    {
+        const Vec2 before = end(in) - half_[in].at;
+        const Vec2 after = end(out) - half_[out].at;
+        const double sine = cross(before, after) / (before.norm() * after.norm());
+        return sine > straight_sine || (sine >= -straight_sine && before.dot(after) > 0.0);
+    }
+
+    [[nodiscard]] Chain chain_at(std::size_t h, std::size_t most) const
+    {
+        Chain c{h, h, half_[h].twin, half_[h].twin, 1};
+        while (c.edges < most && half_[half_[c.first].before].twin == half_[c.b_first].after)
+        {
+            c.first = half_[c.first].before;
+            c.b_first = half_[c.b_first].after;
+            ++c.edges;
+        }
+        while (c.edges < most && half_[half_[c.last].after].twin == half_[c.b_last].before)
+        {
+            c.last = half_[c.last].after;
+            c.b_last = half_[c.b_last].before;
+            ++c.edges;
+        }
+        return c;
+    }
+
+    /// If the union is convex.
+    void merge_across(std::size_t half)
+    {
+        if (half_[half].twin == none)
+            return;  // the parts are one by now
+        std::size_t a = part_of(half);
+        std::size_t b = part_of(half_[half].twin);
+        std::size_t h = half;
+        if (a > b)
+        {
+            std::swap(a, b);
+            h = half_[half].twin;
+        }
+        if (a == b)
+            return;
+        const Chain chain = chain_at(h, std::min(part_[a].edges, part_[b].edges) - 1);
+        const std::size_t begin_a = half_[chain.last].after;
+        const std::size_t end_a = half_[chain.first].before;
+        const std::size_t begin_b = half_[chain.b_first].after;
+        const std::size_t end_b = half_[chain.b_last].before;
+        if (!turns_left_or_straight(end_a, begin_b) || !turns_left_or_straight(end_b, begin_a))
+            return;
+        for (std::size_t gone = chain.first; gone != begin_a; gone = half_[gone].after)
+            half_[gone].twin = half_[half_[gone].twin].twin = none;
+        link(end_a, begin_b);
+        link(end_b, begin_a);
+        part_[a] = {.start = begin_a, .edges = part_[a].edges + part_[b].edges - 2 * chain.edges, .is_union = true};
+        part_[b].joined = a;
+        for (const std::size_t joint : {begin_b, begin_a})
+        {
+            offer(half_[joint].before);
+            offer(joint);
         }
     }
-    return false;
-}
+
+    void link(std::size_t before, std::size_t after)
+    {
+        half_[before].after = after;
+        half_[after].before = before;
+    }
+
+    [[nodiscard]] CutPolygon ring(const Part& part) const
+    {
+        CutPolygon out;
+        std::size_t h = part.start;
+        for (std::size_t i = 0; i < part.edges; ++i, h = half_[h].after)
+            out.add(half_[h].at, half_[h].edge);
+        if (part.is_union)
+            drop_straight_vertices(out);
+        return out;
+    }
+
+    std::vector<Half> half_;
+    std::vector<Part> part_;
+    std::unordered_map<Ends, std::size_t, HashOfEnds> open_;  ///< half-edges by their ends
+    std::priority_queue<Seam> seams_;
+};
 }  // namespace
 
 std::vector<CutPolygon> convex_parts(const CutPolygon& polygon)
 {
-    if (is_convex(polygon.vertices, straight))
+    if (is_convex(polygon.vertices, straight_sine))
     {
         return {polygon};
     }
-    std::vector<CutPolygon> parts = triangles(polygon);
+    std::vector<CutPolygon> parts = cut_ears(polygon);
     merge_convex_parts(parts);
     return parts;
 }
 
 void merge_convex_parts(std::vector<CutPolygon>& parts)
 {
-    while (parts.size() > 1 && merge_one(parts))
-    {
-    }
+    if (parts.size() > 1)
+        parts = Merger(parts).run();
 }
 
 double overlap_area(const Polygon& a, const Polygon& b)

@@ -27,6 +27,11 @@ std::string polygon_error(const Polygon& polygon)
     {
         return "vertices = " + std::to_string(polygon.size()) + " (at least 3 enclose an area). Add vertices.";
     }
+    if (polygon.size() > most_vertices)
+    {
+        return "vertices = " + std::to_string(polygon.size()) + " (at most " + std::to_string(most_vertices) +
+               "). Leave out those that do not change the shape, or cut it into blocks.";
+    }
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
         if (!polygon[i].allFinite())

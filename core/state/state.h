@@ -48,9 +48,11 @@ struct State
     std::int64_t broad_phase_runs = 0;
     std::int64_t feature_searches = 0;
     bool contacts_outdated = true;  ///< broad phase must run before the next cycle
+    double default_step = 0.0;      ///< of a case without time.step whose model gives one that its contacts do not bear; else 0 [s]
     bool flies_ahead = false;       ///< blocks in flight take longer steps than the others
     bool is_calm = false;           ///< no block moves any more; what is out of balance still keeps the running stage from ending
-    bool statics_taken = false;     ///< the running stage has been brought to rest, or near it, by a static solution
-    bool rest_changed = false;      ///< blocks have been stopped or woken in the last cycle
+    bool statics_due = false;    ///< a static solution is to be sought before the next cycle; it was broken off, or is being sought
+    bool statics_taken = false;  ///< the running stage has been brought to rest, or near it, by a static solution
+    bool rest_changed = false;   ///< blocks have been stopped or woken in the last cycle
 };
 }  // namespace hdem

@@ -87,7 +87,8 @@ std::uint64_t model_hash(const Model& model)
     }
     for (const CoulombSlip& law : model.joints.laws)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
-    add({model.time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
+    // A step that the case does not give may have been lowered for its contacts since the model was made.
+    add({model.has_step ? model.time_step : model.paper_time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

@@ -3,6 +3,7 @@
 #include "io/load_case.h"
 #include "io/polygons.h"
 #include "parallel/simulation.h"
+#include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
 
 #include <fmt/format.h>
@@ -16,15 +17,14 @@ namespace
 {
 void list_blocks(const Model& model, const State& state)
 {
-    fmt::print("{:<12} {:<12} {:>12} {:>12} {:>12} {:>12}  mobility\n", "name", "material", "area [m2]", "mass [kg]", "x [m]",
-               "y [m]");
+    say("{:<12} {:<12} {:>12} {:>12} {:>12} {:>12}  mobility\n", "name", "material", "area [m2]", "mass [kg]", "x [m]", "y [m]");
     for (const Index i : model.slot_of_user)
     {
         const BlockMotion& at = state.blocks.motion[i];
-        fmt::print("{:<12} {:<12} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}  {}{}\n", model.name[i],
-                   model.material_names[model.material[i]], model.area[i], model.mass[i], at.x + model.origin.x(),
-                   at.y + model.origin.y(), state.blocks.is_free(i) ? "free" : "fixed",
-                   model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
+        say("{:<12} {:<12} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}  {}{}\n", model.name[i], model.material_names[model.material[i]],
+            model.area[i], model.mass[i], at.x + model.origin.x(), at.y + model.origin.y(),
+            state.blocks.is_free(i) ? "free" : "fixed",
+            model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
     }
 }
 }  // namespace
@@ -51,18 +51,18 @@ int check_command(const CheckOptions& options)
             smallest = std::min(smallest, model.mass[i]);
         }
     const RockMass& rock = loaded.setup.rock;
-    fmt::print("blocks            {} ({} free)\n", model.blocks(), free);
-    fmt::print("smallest free     {:.6g} kg\n", smallest);
+    say("blocks            {} ({} free)\n", model.blocks(), free);
+    say("smallest free     {:.6g} kg\n", smallest);
     if (rock.joints > 0)
-        fmt::print("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers "
-                   "merged\n",
-                   rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
-    fmt::print("time step         {:.6g} s\n", model.time_step);
-    fmt::print("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
-    fmt::print("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());
-    fmt::print("threshold scale   {:.6g}\n", model.threshold_scale);
+        say("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers "
+            "merged\n",
+            rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
+    say("time step         {:.6g} s\n", model.time_step);
+    say("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
+    say("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());
+    say("threshold scale   {:.6g}\n", model.threshold_scale);
     for (const Problem& warning : loaded.warnings)
-        fmt::print("{}\n", warning.text);
+        say("{}\n", warning.text);
     if (!problems.empty())
         throw InputError(loaded.file.source.located(problems));
     return exit_done;

@@ -5,6 +5,7 @@
 #include "io/case_format.h"
 #include "io/describe_file.h"
 #include "parallel/simulation.h"
+#include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
 #include "tools/hdem/script.h"
 
@@ -109,7 +110,7 @@ int dispatch(int argc, char** argv)
     }
     if (*info)
     {
-        fmt::print("{}", describe_file(file));
+        say("{}", describe_file(file));
         return exit_done;
     }
     if (*plot)
@@ -123,6 +124,7 @@ int dispatch(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    hdem::prepare_console();
     try
     {
         return hdem::dispatch(argc, argv);
@@ -130,20 +132,19 @@ int main(int argc, char** argv)
     catch (const hdem::InputError& error)
     {
         for (const hdem::Problem& problem : error.problems())
-            fmt::print(stderr, "error: {}\n", problem.text);
+            hdem::complain("error: {}\n", problem.text);
         return hdem::exit_bad_input;
     }
     catch (const std::bad_alloc&)
     {
-        fmt::print(
-            stderr,
+        hdem::complain(
             "error: the memory is too small for this model. Give fewer blocks: greater spacings of the joint sets, or a smaller "
             "domain.\n");
         return hdem::exit_run_failed;
     }
     catch (const std::exception& error)
     {
-        fmt::print(stderr, "error: {}\n", error.what());
+        hdem::complain("error: {}\n", error.what());
         return hdem::exit_run_failed;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/run_recorder.h"
+#include "tools/hdem/patience.h"
 #include "tools/hdem/run_keeper.h"
 #include "tools/hdem/run_report.h"
 #include "tools/hdem/signals.h"
@@ -16,15 +17,6 @@ namespace hdem
 namespace
 {
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder)
-{
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed)
-        throw RunError(
-            fmt::format("{}: the folder cannot be made ({}). Give another one with -o.", folder.string(), failed.message()));
-}
 
 std::unique_ptr<RunRecorder> make_recorder(const RunStart& start, const RunOptions& options, const Simulation& simulation)
 {
@@ -63,6 +55,10 @@ int run_command(const RunOptions& options)
 {
     const RunKeeper::Clock::time_point begin = RunKeeper::Clock::now();
     catch_checkpoint_requests();
+    std::optional<Patience> patience(std::in_place, Patience::Settings{.work = "the case is read and its model built",
+                                                                       .begin = begin,
+                                                                       .max_wall = options.max_wall,
+                                                                       .quiet = options.quiet});
     RunStart start = start_run(options);
     const fs::path& folder = start.folder;
     Setup& setup = start.loaded.setup;
@@ -70,10 +66,9 @@ int run_command(const RunOptions& options)
     const std::vector<Problem> problems = start.restarted ? std::vector<Problem>{} : simulation.find_problems();
     if (!problems.empty())
         throw InputError(start.loaded.file.source.located(problems));
+    patience.reset();
 
-    make_folder(folder);
-    if (!start.restarted)
-        clear_for_new_run(folder, options.overwrite);
+    clear_for_run(start, options.overwrite);
     remove_file(folder / "summary.json");  // that of an older run, or not yet the outcome
     Log log(folder / "run.log", options.quiet, start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
     print_banner(log, start, options, simulation);

@@ -46,7 +46,7 @@ bool RunKeeper::keep(const Simulation& simulation)
     const bool asked = checkpoint_requested();
     const bool due = (every > 0 && cycle % every == 0) || (minutes > 0.0 && since(last_save_) >= 60.0 * minutes);
     const int signal = interrupt();
-    const bool late = settings_.max_wall && since(settings_.begin) + save_seconds_ >= *settings_.max_wall;
+    const bool late = is_late();
     if (!asked && !due && signal == 0 && !late)
         return true;
     save(simulation);
@@ -58,6 +58,16 @@ bool RunKeeper::keep(const Simulation& simulation)
     const char* const why = signal == SIGINT ? "SIGINT" : (signal == SIGTERM ? "SIGTERM" : "--max-wall");
     log_.line(fmt::format("{}: stopped after cycle {}. Go on with: hdem run --restart {}", why, cycle, settings_.folder.string()));
     return false;
+}
+
+bool RunKeeper::is_to_stop()
+{
+    return interrupt() != 0 || is_late();
+}
+
+bool RunKeeper::is_late() const
+{
+    return settings_.max_wall && since(settings_.begin) + save_seconds_ >= *settings_.max_wall;
 }
 
 void RunKeeper::finish(const Simulation& simulation)

@@ -30,6 +30,7 @@ class RunKeeper : public Keeper
 
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
     [[nodiscard]] bool keep(const Simulation& simulation) override;
+    [[nodiscard]] bool is_to_stop() override;
 
     /// The run has come to its end.
     void finish(const Simulation& simulation);
@@ -41,6 +42,7 @@ class RunKeeper : public Keeper
 
   private:
     void save(const Simulation& simulation);
+    [[nodiscard]] bool is_late() const;
 
     Settings settings_;
     RunRecord record_;

@@ -1,6 +1,7 @@
 #include "tools/hdem/run_start.h"
 
 #include "io/atomic_file.h"
+#include "io/frame_writer.h"
 #include "io/provenance.h"
 #include "io/text_file.h"
 
@@ -41,14 +42,23 @@ std::vector<std::string> overrides_of(const RunOptions& options)
 RunStart start_anew(const RunOptions& options)
 {
     RunStart start;
+    start.folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem()) : fs::path(options.folder);
     start.record.overrides = overrides_of(options);
+    start.lock = std::make_unique<RunLock>(start.folder);
     start.loaded = load_case(options.case_file, parsed(start.record.overrides));
     start.record.case_file = options.case_file;
     start.record.case_text = start.loaded.file.source.text();
     start.record.files = start.loaded.file.files;
     start.record.begin = timestamp();
-    start.folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem()) : fs::path(options.folder);
     return start;
+}
+
+/// That a checkpoint lies in, or the folder given itself.
+fs::path folder_of(const fs::path& given)
+{
+    if (fs::is_directory(given))
+        return given;
+    return given.has_parent_path() ? given.parent_path() : fs::path(".");
 }
 
 struct Found
@@ -58,14 +68,11 @@ struct Found
 };
 
 /// The checkpoint itself, or the last one of a folder that can be read.
-Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
+/// @param ours  the run goes on in that folder: a damaged checkpoint is put aside, else it would soon take the place of the sound one
+Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>& notes)
 {
     if (!fs::is_directory(given))
-    {
-        if (!fs::exists(given))
-            refuse(fmt::format("--restart {}: (does not exist). Give a checkpoint, or the folder of a run.", given.string()));
         return {given, CheckpointReader(given)};
-    }
     const fs::path last = checkpoint_file(given);
     const fs::path previous = previous_checkpoint_file(given);
     if (!fs::exists(last) && !fs::exists(previous))
@@ -80,9 +87,13 @@ Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
     {
         if (!fs::exists(previous))
             throw;
-        const fs::path aside = last.string() + ".damaged";  // else it would soon take the place of the sound one
-        fs::rename(last, aside);
-        notes.push_back(fmt::format("warning: {} It is now called {}.", error.what(), aside.string()));
+        notes.push_back(fmt::format("warning: {}", error.what()));
+        if (ours)
+        {
+            const fs::path aside = last.string() + ".damaged";
+            fs::rename(last, aside);
+            notes.back() += fmt::format(" It is now called {}.", aside.string());
+        }
     }
     notes.push_back(fmt::format("warning: {} cannot be used: going on from {}", last.string(), previous.string()));
     return {previous, CheckpointReader(previous)};
@@ -128,9 +139,16 @@ void check_same_case(const RunOptions& options, const RunRecord& record)
 
 RunStart start_again(const RunOptions& options)
 {
+    const fs::path given = options.restart;
+    if (!fs::exists(given))
+        refuse(fmt::format("--restart {}: (does not exist). Give a checkpoint, or the folder of a run.", given.string()));
+    const fs::path home = folder_of(given);
     RunStart start;
     start.restarted = true;
-    const Found found = find_checkpoint(options.restart, start.notes);
+    start.folder = options.folder.empty() ? home : fs::path(options.folder);
+    start.moved = !fs::exists(start.folder) || !fs::equivalent(start.folder, home);
+    start.lock = std::make_unique<RunLock>(start.folder);
+    const Found found = find_checkpoint(given, !start.moved, start.notes);
     start.record = found.reader.record();
     RunRecord& record = start.record;
     check_same_case(options, record);
@@ -138,9 +156,6 @@ RunStart start_again(const RunOptions& options)
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
     record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
-    start.folder = options.folder;
-    if (options.folder.empty())
-        start.folder = found.file.has_parent_path() ? found.file.parent_path() : fs::path(".");
     start.notes.push_back(
         fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));
     return start;
@@ -152,8 +167,11 @@ RunStart start_run(const RunOptions& options)
     return options.restart.empty() ? start_anew(options) : start_again(options);
 }
 
-void clear_for_new_run(const fs::path& folder, bool overwrite)
+void clear_for_run(const RunStart& start, bool overwrite)
 {
+    if (start.restarted && !start.moved)
+        return;
+    const fs::path& folder = start.folder;
     const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
     if (!overwrite && fs::exists(checkpoints[0]))
     {
@@ -176,5 +194,6 @@ void clear_for_new_run(const fs::path& folder, bool overwrite)
     for (const fs::path& checkpoint : checkpoints)
         remove_file(checkpoint);
     remove_file(folder / "results.h5");  // it names frames that are about to go
+    remove_frames(folder);
 }
 }  // namespace hdem

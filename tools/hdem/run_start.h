@@ -3,9 +3,11 @@
 
 #include "io/checkpoint.h"
 #include "io/load_case.h"
+#include "io/run_lock.h"
 #include "tools/hdem/options.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,15 +17,17 @@ struct RunStart
 {
     LoadedCase loaded;  ///< its state is the first one, or the checkpoint's
     RunRecord record;
-    std::filesystem::path folder;  ///< of the results
+    std::filesystem::path folder;   ///< of the results
+    std::unique_ptr<RunLock> lock;  ///< on that folder
     bool restarted = false;
+    bool moved = false;              ///< restarted from a checkpoint of another folder
     std::vector<std::string> notes;  ///< for the user
 };
 
-/// Throws InputError for what the user must change.
+/// Throws InputError for what the user must change, also when another run is in the folder.
 RunStart start_run(const RunOptions& options);
 
-/// Throws InputError when the folder holds a run that was cut short and nothing says that it may go. Removes checkpoints and results of an
-/// older run: they must not be taken for those of this one.
-void clear_for_new_run(const std::filesystem::path& folder, bool overwrite);
+/// Throws InputError when the folder holds another run that was cut short and nothing says that it may go. Removes checkpoints and results of
+/// an older run: they must not be taken for those of this one. A run that goes on in its folder finds it as it left it.
+void clear_for_run(const RunStart& start, bool overwrite);
 }  // namespace hdem

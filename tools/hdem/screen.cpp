@@ -2,19 +2,26 @@
 
 #include "core/check.h"
 #include "core/stage/rules.h"
+#include "io/fresh_file.h"
+#include "io/printable.h"
+#include "tools/hdem/console.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+
 namespace hdem
 {
 Log::Log(const std::filesystem::path& file, bool quiet, Begin begin)
-    : file_(std::fopen(file.c_str(), begin == Begin::anew ? "w" : "a")),
+    : file_(open_log(file, begin == Begin::behind_the_last_run)),
       quiet_(quiet),
       interactive_(!quiet && isatty(STDERR_FILENO) != 0)
 {
     if (file_ == nullptr)
-        throw RunError(fmt::format("{}: cannot be written (is the folder writable?). Give another folder with -o.", file.string()));
+        throw RunError(
+            fmt::format("{}: cannot be written ({}). Give another folder with -o.", file.string(), std::strerror(errno)));
 }
 
 Log::~Log()
@@ -31,7 +38,7 @@ void Log::line(const std::string& text)
     progress_shown_ = false;
     if (!quiet_)
     {
-        fmt::print("{}\n", text);
+        say("{}\n", text);
         std::fflush(stdout);
     }
     to_file(text);
@@ -39,7 +46,7 @@ void Log::line(const std::string& text)
 
 void Log::to_file(const std::string& text)
 {
-    fmt::print(file_, "{}\n", text);
+    fmt::print(file_, "{}\n", printable(text));
     std::fflush(file_);
 }
 
@@ -47,7 +54,8 @@ void Log::progress(const std::string& text)
 {
     if (!interactive_)
         return;
-    fmt::print(stderr, "\r\033[K{}", text);
+    std::fputs("\r\033[K", stderr);
+    complain_text(text);
     std::fflush(stderr);
     progress_shown_ = true;
 }

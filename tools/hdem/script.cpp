@@ -1,6 +1,7 @@
 #include "tools/hdem/script.h"
 
-#include <fmt/format.h>
+#include "tools/hdem/console.h"
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -29,8 +30,8 @@ int run_script(const std::string& command, const std::string& script, const std:
     const std::string file = (shared_folder() / script).string();
     if (::access(file.c_str(), R_OK) != 0)
     {
-        fmt::print(stderr, "error: hdem {}: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n",
-                   command, file);
+        complain("error: hdem {}: {} is missing (it belongs to hdem's installation). Install or build hdem again.\n", command,
+                 file);
         return 1;
     }
     std::vector<std::string> words = {python, file};
@@ -41,8 +42,8 @@ int run_script(const std::string& command, const std::string& script, const std:
     argv.push_back(nullptr);
     std::fflush(nullptr);
     ::execv(python, argv.data());
-    fmt::print(stderr, "error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command,
-               python, std::strerror(errno));
+    complain("error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command, python,
+             std::strerror(errno));
     return 1;
 }
 }  // namespace hdem

@@ -51,6 +51,7 @@ class TimedKeeper : public Keeper
         const ScopedTime time(seconds_);
         return inner_.keep(simulation);
     }
+    [[nodiscard]] bool is_to_stop() override { return inner_.is_to_stop(); }
 
   private:
     Keeper& inner_;

@@ -5,6 +5,7 @@
 """
 import json
 import os
+import random
 import re
 import subprocess
 import sys
@@ -93,6 +94,40 @@ class TheStart(unittest.TestCase):
         self.assertNotRegex(self.said(until=until, case=CASE.replace("step = 1e-4", "fraction = 0.1")), note, "loads are laid down in cycles")
         driven = self.said(until=until, case=free.replace("fixed = true", "fixed = true\nvelocity = [0.1, 0]"))
         self.assertNotIn("note: ", driven, "prescribed motions are those of the clock")
+
+
+class ManyOfAKind(unittest.TestCase):
+    def run_in(self, folder, name, text):
+        (Path(folder) / f"{name}.toml").write_text(text, encoding="utf-8")
+        done = subprocess.run([HDEM, "run", f"{name}.toml", "-o", name], cwd=folder, check=False, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((Path(folder) / name / "summary.json").read_text(encoding="utf-8"))
+
+    def test_stages_of_one_cycle_do_not_each_have_a_frame(self):
+        """A frame takes as long as fifty cycles of this model, and a stage is to cost no more than one or two."""
+        base = CASE[:CASE.index("[[stage]]")]
+        with tempfile.TemporaryDirectory() as folder:
+            whole = self.run_in(folder, "whole", base + "[[stage]]\ncycles = 1500\n")
+            many = self.run_in(folder, "many", base + "[[stage]]\ncycles = 1\n" * 1500)
+            few = self.run_in(folder, "few", base + "[[stage]]\ncycles = 1\n" * 30)
+            self.assertEqual(many["state_hash"], whole["state_hash"])
+            self.assertEqual((len(many["stages"]), len(few["stages"])), (1500, 30))
+            frames = {name: len(list((Path(folder) / name / "frames").glob("blocks_*"))) for name in ("whole", "many", "few")}
+            self.assertEqual(frames, {"whole": 2, "many": 16, "few": 31})
+
+    def test_blocks_with_very_many_neighbours_have_a_default_step_that_they_bear(self):
+        """Eq. (32) of the lightest block is above the stable limit here: no advice in circles."""
+        chance = random.Random(1)
+        sets = "".join(f"[[joint_set]]\ndip_deg = {chance.uniform(-90, 90):.3f}\nspacing = {chance.uniform(3, 30):.2f}\n" for _ in range(300))
+        text = '[domain]\nwidth = 20.0\nheight = 20.0\nfixed = ["left", "right", "bottom"]\n[generator]\nsmallest_block_area = 0.5\n' + small_case.ROCK + sets
+        with tempfile.TemporaryDirectory() as folder:
+            summary = self.run_in(folder, "sets", text + "[[stage]]\ncycles = 40\n[output]\ncheckpoint_every = 20\n")
+            self.assertLess(summary["time_step"], summary["paper_time_step"])
+            (Path(folder) / "sets/checkpoint.h5").unlink()    # goes on from the one before
+            again = subprocess.run([HDEM, "run", "--restart", "sets"], cwd=folder, check=False, capture_output=True, text=True)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            repeated = json.loads((Path(folder) / "sets/summary.json").read_text(encoding="utf-8"))
+            self.assertEqual((repeated["state_hash"], repeated["time_step"]), (summary["state_hash"], summary["time_step"]))
 
 
 class TheEnd(unittest.TestCase):

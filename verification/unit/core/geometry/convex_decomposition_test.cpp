@@ -113,6 +113,28 @@ TEST(ConvexParts, OfACombAreSound)
     expect_sound(comb, convex_parts(tagged(comb)));
 }
 
+/// Polygons of which a way that looks at all vertices for each takes hours.
+TEST(ConvexParts, OfManyVerticesAreAsManyAsTheyMustBe)
+{
+    constexpr int teeth = 50'000;
+    Polygon comb = {{0.0, -1.0}, {2.0 * teeth, -1.0}};
+    for (int i = teeth - 1; i >= 0; --i)
+        for (const Vec2& p : {Vec2(1.5, 0.0), Vec2(1.2, 5.0), Vec2(0.8, 5.0), Vec2(0.5, 0.0)})
+            comb.push_back(p + Vec2(2.0 * i, 0.0));
+    Polygon star;
+    for (int i = 0; i < 2 * teeth; ++i)
+        star.push_back((i % 2 == 0 ? 1.0 : 0.4) * unit_direction(180.0 * i / teeth));
+    for (const Polygon& polygon : {comb, star})
+    {
+        const auto parts = convex_parts(tagged(polygon));
+        EXPECT_EQ(parts.size(), teeth + 1u) << "the body and its teeth";
+        double area = 0.0;
+        for (const CutPolygon& part : parts)
+            area += signed_area(part.vertices);
+        EXPECT_NEAR(area, signed_area(polygon), 1e-9 * area);
+    }
+}
+
 TEST(ConvexParts, OfRandomSimplePolygonsAreSound)
 {
     std::mt19937 engine(20240607);

@@ -71,6 +71,8 @@ TEST(RockChecks, RefusePolygonsWithoutArea)
     BlockDef block = square("a", {0, 0});
     block.polygon.resize(2);
     expect_problem(blocks_case({block}), "block[0].polygon", "vertices = 2");
+    block.polygon.resize(25'001);
+    expect_problem(blocks_case({block}), "block[0].polygon", "vertices = 25001 (at most 25000)");
     block.polygon = {{0, 0}, {1, 1}, {2, 2}};
     expect_problem(blocks_case({block}), "block[0].polygon", "area = 0");
     block.polygon = {{0, 0}, {1, 0}, {std::nan(""), 1}};

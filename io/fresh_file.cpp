@@ -1,0 +1,73 @@
+#include "io/fresh_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace hdem
+{
+namespace
+{
+constexpr std::size_t digits = 12;
+constexpr mode_t rights = 0666;  // less what umask takes away
+
+bool is_temporary(const std::string& name)
+{
+    constexpr std::string_view ending = ".tmp";
+    if (name.size() < digits + ending.size() + 2 || !name.ends_with(ending))
+        return false;
+    const std::string random = name.substr(name.size() - ending.size() - digits, digits);
+    return name[name.size() - ending.size() - digits - 1] == '.' &&
+           random.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+int open_for_appending(const std::filesystem::path& file)
+{
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC,
+                                  rights);  // a pipe does not block
+    struct stat found = {};
+    if (descriptor < 0 || (::fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode)))
+        return descriptor;
+    ::close(descriptor);
+    errno = EINVAL;
+    return -1;
+}
+}  // namespace
+
+std::filesystem::path temporary_name(const std::filesystem::path& file)
+{
+    std::random_device device;  // the system's random numbers
+    const std::uint64_t number = (std::uint64_t{device()} << 32U) | device();
+    std::filesystem::path name = file;
+    name += fmt::format(".{:012x}.tmp", number & 0xffff'ffff'ffffULL);
+    return name;
+}
+
+int open_new(const std::filesystem::path& file)
+{
+    return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights);
+}
+
+std::FILE* open_log(const std::filesystem::path& file, bool append)
+{
+    if (!append && ::unlink(file.c_str()) != 0 && errno != ENOENT)
+        return nullptr;
+    const int descriptor = append ? open_for_appending(file) : open_new(file);
+    return descriptor < 0 ? nullptr : ::fdopen(descriptor, append ? "a" : "w");
+}
+
+void remove_leftovers(const std::filesystem::path& folder)
+{
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+        if (is_temporary(entry.path().filename().string()))
+            ::unlink(entry.path().c_str());
+}
+}  // namespace hdem
