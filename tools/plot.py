@@ -19,6 +19,7 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
     from hdem_io import ResultError, open_run, read_blocks, tell
+    from plain_text import add_legend, as_file_name, literal
 except ImportError as missing:
     sys.exit(f"error: hdem plot: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
 
@@ -213,10 +214,10 @@ def draw_frame(run, options):
     info = blocks["info"]
     title = options.title if options.title is not None else info["title"]
     when = f"cycle {info['cycle']}, {info['time']:.6g} s"
-    axes.set_title("\n".join(filter(None, [title, f"stage \"{info['stage']}\", {when}" if info["stage"] else when])), loc="left")
+    literal(axes.set_title("\n".join(filter(None, [title, f"stage \"{info['stage']}\", {when}" if info["stage"] else when])), loc="left"))
     if handles:
-        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.42 / axes_height(figure, axes)), ncol=2 if len(handles) > 1 else 1,
-                    frameon=False, borderaxespad=0.0, handlelength=1.8, columnspacing=1.5)
+        add_legend(axes, handles, loc="upper left", bbox_to_anchor=(0.0, -0.42 / axes_height(figure, axes)), ncol=2 if len(handles) > 1 else 1,
+                   frameon=False, borderaxespad=0.0, handlelength=1.8, columnspacing=1.5)
     return figure
 
 
@@ -254,11 +255,11 @@ def draw_history(run, options):
             values = np.where(table[name] > 0.0, table[name], np.nan) if log else table[name]    # a logarithm knows no zero
             axes.plot(table["time"], values / factor, color=colour, linewidth=0.9, label=name.replace("_", " "))
         axes.set_yscale("log" if log else "linear")
-        axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]")
+        literal(axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]"))
         axes.grid(linewidth=0.3, color="#cccccc")
-        axes.legend(frameon=False, loc="best", ncol=len(same))
+        add_legend(axes, axes.lines, frameon=False, loc="best", ncol=len(same))
     grid[-1, 0].set_xlabel("time [s]")
-    grid[0, 0].set_title(options.title if options.title is not None else options.history, loc="left")
+    literal(grid[0, 0].set_title(options.title if options.title is not None else options.history, loc="left"))
     return figure
 
 
@@ -271,7 +272,7 @@ def make_picture(options):
     if output is None:
         folder = options.result if options.result.is_dir() else options.result.parent
         name = options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
-        output = folder / f"{name}.png"
+        output = folder / f"{as_file_name(name)}.png"
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
     return output

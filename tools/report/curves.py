@@ -11,6 +11,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from plain_text import literal
+
 # placeholder -> variable of style.css
 INK, FAINT, PAPER, GROUND = "#010203", "#010204", "#010205", "#010206"
 SERIES = [f"#0103{i:02x}" for i in range(10)]
@@ -116,9 +118,9 @@ def draw_panel(axes, panel, looks):
         axes.plot(series["x"], [float("nan") if y is None else y for y in series["y"]], **lines[series["name"]])
     for mark in panel["marks"]:
         axes.axvline(mark["x"], zorder=2, **looks.marks[mark["name"]])
-    axes.set_title(panel["title"], loc="left")
-    axes.set_xlabel(panel["x_label"])
-    axes.set_ylabel(panel["y_label"])
+    literal(axes.set_title(panel["title"], loc="left"))
+    literal(axes.set_xlabel(panel["x_label"]))
+    literal(axes.set_ylabel(panel["y_label"]))
     axes.grid(True)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
@@ -181,5 +183,6 @@ def draw(figure):
         plt.close(picture)
     svg = tidy(file.getvalue(), figure["id"])
     label = escape(figure["title"], quote=True)
-    return re.sub(r"^<svg[^>]*viewBox=\"([^\"]+)\"[^>]*>",
-                  rf'<svg class="curves" xmlns="http://www.w3.org/2000/svg" viewBox="\1" role="img" aria-label="{label}">', svg), looks.legend()
+    return re.sub(r"^<svg[^>]*viewBox=\"([^\"]+)\"[^>]*>",    # the title is no template of the expression
+                  lambda head: f'<svg class="curves" xmlns="http://www.w3.org/2000/svg" viewBox="{head[1]}" role="img" aria-label="{label}">',
+                  svg), looks.legend()

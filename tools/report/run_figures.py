@@ -24,7 +24,7 @@ def figure(name, body, caption):
 
 def picture(run, colour, caption, arguments):
     """One frame as `hdem plot` draws it."""
-    options = plot.parse([str(run.folder), "--colour", colour, "--title", "", *arguments])
+    options = plot.parse(["--colour", colour, "--title", "", *arguments, "--", str(run.folder)])
     with matplotlib.rc_context(plot.STYLE | {"svg.fonttype": "path"}):
         drawn = plot.draw_frame(run, options)
         file = io.BytesIO()
@@ -73,11 +73,12 @@ def panel(run, table, names, title, unit, log=False):
             "series": series, "marks": begins_of_stages(run)}
 
 
-def drawn(name, panels, caption):
+def drawn(name, panels, caption, title=None):
+    """`name` is that of the place in the page, unlike all others; `title` what it is called."""
     panels = [p for p in panels if p]
     if not panels:
         return ""
-    svg, legend = curves.draw({"id": anchor(name), "title": name, "columns": min(len(panels), 2), "panels": panels})
+    svg, legend = curves.draw({"id": anchor(name), "title": title or name, "columns": min(len(panels), 2), "panels": panels})
     return figure(f"curves {name}", f'{legend}<div class="wide">{svg}</div>', caption)
 
 
@@ -107,4 +108,4 @@ def history(run, name):
         kinds.setdefault(plot.panel_of(column, table.unit[column]), []).append(column)
     panels = [panel(run, table, same, kind if kind == "points" else ", ".join(column.replace("_", " ") for column in same), table.unit[same[0]])
               for kind, same in kinds.items()]
-    return drawn(f"history {name}", panels, f"<b>History \"{escape(name)}\".</b> {len(table['time'])} samples.")
+    return drawn(f"history {run.histories.index(name) + 1}", panels, f"<b>History \"{escape(name)}\".</b> {len(table['time'])} samples.", f"history {name}")

@@ -1,0 +1,35 @@
+"""Names and titles are texts wherever they are shown: no formula, no part of a path, no command of the screen."""
+LONGEST_FILE_NAME = 200    # bytes, of the 255 that a file system takes
+
+
+def printable(text, kept=""):
+    """Without what would steer a screen or break a line; characters of `kept` stay."""
+    return "".join(c if c.isprintable() or c in kept else "\N{REPLACEMENT CHARACTER}" for c in str(text))
+
+
+def one_line(text):
+    return printable(" ".join(str(text).split()))
+
+
+def as_file_name(text):
+    """A name without a folder, neither hidden nor too long, for what is written beside a run."""
+    name = printable(text).replace("/", "_")
+    if name.startswith("."):
+        name = "_" + name[1:]
+    return name.encode(errors="replace")[:LONGEST_FILE_NAME].decode(errors="ignore") or "_"
+
+
+def literal(artist):
+    """A text of matplotlib, drawn as it is: $, ^ and \\ are characters."""
+    artist.set_text(printable(artist.get_text(), kept="\n"))
+    artist.set_parse_math(False)
+    return artist
+
+
+def add_legend(axes, handles, **how):
+    """Of all handles, also of those whose label begins with _, which matplotlib leaves out."""
+    legend = axes.legend(handles, ["-"] * len(handles), **how)
+    for text, handle in zip(legend.get_texts(), handles):
+        text.set_text(handle.get_label())
+        literal(text)
+    return legend
