@@ -12,11 +12,10 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-try:
-    import ezdxf
-    import ezdxf.path
-except ImportError as missing:
-    sys.exit(f"error: import_dxf: {missing}. Install python3-ezdxf (tools/setup does).")
+from needed_modules import need
+need("ezdxf")
+import ezdxf    # noqa: E402
+import ezdxf.path    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 

@@ -8,12 +8,14 @@ Shows how hdem_io.py gives frames and histories as numpy arrays; copy it and cha
 import argparse
 from pathlib import Path
 
-import matplotlib
+from needed_modules import need
+need("h5py", "matplotlib", "numpy")    # says in one line which are missing; leave it out in a figure of your own
+import matplotlib    # noqa: E402
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
+import matplotlib.pyplot as plt    # noqa: E402
+import numpy as np    # noqa: E402
 
-from hdem_io import open_run
+from hdem_io import open_run    # noqa: E402
 
 SECTORS = 36
 

@@ -13,9 +13,13 @@ import argparse
 import os
 import sys
 
-import numpy as np
-from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
+try:
+    import numpy as np
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+except ImportError as missing:
+    print(f"error: needs the Python module {missing.name}: run it with pvbatch, pvpython or paraview (tools/setup --paraview)", file=sys.stderr)
+    sys.exit(2)
 
 MOTION = ("displacement", "velocity", "speed", "rotation")    # a falling block has far more of it than the others
 BLOCKS, CONTACTS = "blocks.hdf.series", "contacts.hdf.series"

@@ -9,19 +9,19 @@ import math
 import sys
 from pathlib import Path
 
-try:
-    import numpy as np
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    from matplotlib.collections import LineCollection, PolyCollection
-    from matplotlib.colors import ListedColormap
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-    from hdem_io import ResultError, open_run, read_blocks, tell
-    from plain_text import add_legend, as_file_name, literal
-except ImportError as missing:
-    sys.exit(f"error: hdem plot: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
+from needed_modules import need
+need("h5py", "matplotlib", "numpy")
+import matplotlib    # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt    # noqa: E402
+import numpy as np    # noqa: E402
+from matplotlib.collections import LineCollection, PolyCollection    # noqa: E402
+from matplotlib.colors import ListedColormap    # noqa: E402
+from matplotlib.lines import Line2D    # noqa: E402
+from matplotlib.patches import Patch    # noqa: E402
+
+from hdem_io import ResultError, open_run, read_blocks, tell    # noqa: E402
+from plain_text import add_legend, as_file_name, literal    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"

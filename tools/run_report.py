@@ -8,12 +8,11 @@ import json
 import sys
 from pathlib import Path
 
+from needed_modules import need
+need("h5py", "matplotlib", "numpy")
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
-try:
-    import run_page
-    from hdem_io import ResultError, open_run, tell
-except ImportError as missing:
-    sys.exit(f"error: hdem report: {missing}. Install python3-h5py and python3-matplotlib (tools/setup does).")
+import run_page    # noqa: E402
+from hdem_io import ResultError, open_run, tell    # noqa: E402
 
 
 def parse(arguments):
