@@ -2,14 +2,18 @@
 """Turns a DXF drawing into files for hdem: closed polylines into blocks, open lines into joint traces.
 
     tools/import_dxf.py DRAWING.dxf --traces traces.wkt [--layer JOINTS]... [--scale 0.001]
-    tools/import_dxf.py DRAWING.dxf --blocks blocks.wkt [--arc 0.01]
+    tools/import_dxf.py DRAWING.dxf --blocks blocks.csv [--material SANDSTONE=rock]... [--fixed GROUND]... [--arc 0.01]
 
-Reads LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and SPLINE in the model space, also inside block references; curves become
-straight stretches. What is left out is counted. hdem wants metres: --scale is what one unit of the drawing is in metres.
+The ending of a file says what is written: .wkt or .csv, both are read by hdem. Blocks, and traces in a .csv, are called LAYER_1, LAYER_2, ...
+--material gives the blocks of a layer a material of the case, --fixed fixes them. Traces carry no properties in hdem.
+
+Reads LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and SPLINE in the model space, also inside block references, whose layer counts for
+what lies on layer 0 in them; curves become straight stretches. What is left out is counted. hdem wants metres: --scale is what one unit of the drawing is in metres.
 """
 import argparse
+import math
 import sys
-from collections import Counter
+from collections import Counter, namedtuple
 from pathlib import Path
 
 from needed_modules import need
@@ -17,33 +21,56 @@ need("ezdxf")
 import ezdxf    # noqa: E402
 import ezdxf.path    # noqa: E402
 
+from plain_text import one_line, printable    # noqa: E402
+
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
+LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
+Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
+
+
+class DrawingError(Exception):
+    """Told to the user in one line."""
 
 
 def parse(arguments):
     parser = argparse.ArgumentParser(prog="import_dxf.py", description="A DXF drawing as blocks and joint traces for hdem.")
     parser.add_argument("drawing", type=Path)
-    parser.add_argument("--blocks", type=Path, metavar="FILE", help="write closed polylines there, for blocks_file")
-    parser.add_argument("--traces", type=Path, metavar="FILE", help="write open lines there, for domain.traces_file")
+    parser.add_argument("--blocks", type=Path, metavar="FILE", help="write closed polylines there, for blocks_file: .wkt or .csv")
+    parser.add_argument("--traces", type=Path, metavar="FILE", help="write open lines there, for domain.traces_file: .wkt or .csv")
     parser.add_argument("--layer", action="append", default=[], help="only what lies on this layer; repeatable (default: all)")
+    parser.add_argument("--material", action="append", default=[], metavar="LAYER=NAME", help="material of the blocks of this layer; repeatable")
+    parser.add_argument("--fixed", action="append", default=[], metavar="LAYER", help="blocks of this layer are fixed; repeatable")
     parser.add_argument("--scale", type=float, default=1.0, help="metres in one unit of the drawing (default: 1)")
     parser.add_argument("--arc", type=float, default=0.01, help="greatest distance of a curve from its stretches [m] (default: 0.01)")
     options = parser.parse_args(arguments)
     if not (options.blocks or options.traces):
         parser.error("give --blocks or --traces, or both")
+    for name in ("blocks", "traces"):
+        file = getattr(options, name)
+        if file and file.suffix not in (".wkt", ".csv"):
+            parser.error(f"argument --{name}: {file}: ends in neither .wkt nor .csv. Give it one of these endings: hdem reads the file by it.")
+    if (options.material or options.fixed) and not options.blocks:
+        parser.error("--material and --fixed are of blocks: give --blocks too")
+    for text in options.material:
+        layer, equals, material = text.partition("=")
+        if not (layer and equals and material) or not all(c.isascii() and (c.isalnum() or c in "_-") for c in material):
+            parser.error(f"argument --material: {text}: not LAYER=NAME. A material's name has letters, digits, _ and -.")
     for name in ("scale", "arc"):
         if not 0.0 < getattr(options, name) < float("inf"):
             parser.error(f"argument --{name}: must be positive")
+    options.material = {layer.lower(): material for layer, _, material in (text.partition("=") for text in options.material)}
+    options.fixed = {layer.lower() for layer in options.fixed}
     return options
 
 
-def entities_of(space):
-    """All that is drawn, block references taken apart."""
+def entities_of(space, outer=None):
+    """All that is drawn, block references taken apart, with its layer: on layer 0 of a block that of the reference."""
     for entity in space:
+        layer = outer if outer is not None and entity.dxf.layer == "0" else entity.dxf.layer
         if entity.dxftype() == "INSERT":
-            yield from entities_of(entity.virtual_entities())
+            yield from entities_of(entity.virtual_entities(), layer)
         else:
-            yield entity
+            yield entity, layer
 
 
 def points_of(entity, scale, arc):
@@ -52,55 +79,114 @@ def points_of(entity, scale, arc):
     points = []
     for vertex in path.flattening(arc / scale):
         point = (scale * vertex.x, scale * vertex.y)
+        if not all(map(math.isfinite, point)):
+            raise ValueError("not finite")
         if not points or point != points[-1]:
             points.append(point)
     closed = path.is_closed and len(points) > 3
     return (points[:-1] if closed and points[0] == points[-1] else points), closed
 
 
+def name_of(layer):
+    """What hdem takes as a part of a name: no ; , / and nothing that would make the line a comment."""
+    return "".join("_" if c in ";,/#*" or not c.isprintable() else c for c in layer).strip()[:LONGEST_LAYER] or "layer"
+
+
+def read(options):
+    """Blocks, traces, and what was left out."""
+    blocks, traces, left_out, numbers = [], [], Counter(), Counter()
+    layers = {layer.lower() for layer in options.layer}
+
+    def add(lines, layer, points):
+        name = name_of(layer)
+        numbers[name, lines is blocks] += 1
+        lines.append(Line(f"{name}_{numbers[name, lines is blocks]}", layer.lower(), points))
+    for entity, layer in entities_of(ezdxf.readfile(options.drawing).modelspace()):
+        if layers and layer.lower() not in layers:
+            left_out["on other layers"] += 1
+            continue
+        if entity.dxftype() not in DRAWN:
+            left_out[entity.dxftype()] += 1
+            continue
+        try:
+            points, closed = points_of(entity, options.scale, options.arc)
+        except (TypeError, ValueError, ArithmeticError):
+            left_out[f"{entity.dxftype()} that is no line in a plane"] += 1
+            continue
+        if len(points) < 2:
+            left_out["without length"] += 1
+        elif closed and options.blocks:
+            add(blocks, layer, points)
+        elif options.traces:
+            add(traces, layer, points + points[:1] if closed else points)
+        else:
+            left_out["open lines"] += 1
+    return blocks, traces, left_out
+
+
 def wkt(points):
     return ", ".join(f"{x:.17g} {y:.17g}" for x, y in points)
 
 
-def read(options):
-    """Lines of text for blocks and for traces, and what was left out."""
-    blocks, traces, left_out = [], [], Counter()
-    layers = {layer.lower() for layer in options.layer}
-    for entity in entities_of(ezdxf.readfile(options.drawing).modelspace()):
-        if layers and entity.dxf.layer.lower() not in layers:
-            left_out["on other layers"] += 1
-        elif entity.dxftype() not in DRAWN:
-            left_out[entity.dxftype()] += 1
+def text_of_blocks(lines, options, is_csv):
+    """Name, material and what is fixed behind each polygon, or in its first row."""
+    rows = ["name,x,y,material,fixed"] if is_csv else []
+    for line in lines:
+        material, fixed = options.material.get(line.layer, ""), "fixed" if line.layer in options.fixed else ""
+        if is_csv:
+            more = f",{material},{fixed}"
+            rows += [f"{line.name},{x:.17g},{y:.17g}{'' if i else more}" for i, (x, y) in enumerate(line.points)]
         else:
-            points, closed = points_of(entity, options.scale, options.arc)
-            if len(points) < 2:
-                left_out["without length"] += 1
-            elif closed and options.blocks:
-                blocks.append(f"POLYGON(({wkt(points + points[:1])}))")
-            elif options.traces:
-                traces.append(f"LINESTRING({wkt(points + points[:1] if closed else points)})")
-            else:
-                left_out["open lines"] += 1
-    return blocks, traces, left_out
+            rows.append(f"POLYGON(({wkt(line.points + line.points[:1])})); {line.name}; {material}; {fixed}".rstrip("; "))
+    return rows
+
+
+def text_of_traces(lines, is_csv):
+    if is_csv:
+        return ["name,x,y"] + [f"{line.name},{x:.17g},{y:.17g}" for line in lines for x, y in line.points]
+    return [f"LINESTRING({wkt(line.points)})" for line in lines]
+
+
+def check_layers(options, blocks):
+    """What is said of a layer without blocks would be lost without a word."""
+    there = {line.layer for line in blocks}
+    for key, layers in (("--material", options.material), ("--fixed", options.fixed)):
+        for layer in layers:
+            if layer not in there:
+                raise DrawingError(f"{options.drawing}: {key} {layer}: no block lies on this layer. Layers with blocks are {', '.join(sorted(there))}.")
+
+
+def convert(options):
+    """Writes the files; what was left out."""
+    try:
+        blocks, traces, left_out = read(options)
+    except (OSError, ValueError, ezdxf.DXFError) as error:
+        raise DrawingError(f"{options.drawing}: cannot be read ({error}). Give a DXF file.") from None
+    for file, lines, what in ((options.blocks, blocks, "blocks"), (options.traces, traces, "traces")):
+        if file and not lines:
+            raise DrawingError(f"{options.drawing}: no {what} found (left out: {dict(left_out) or 'nothing'}). Check --layer.")
+    if options.blocks:
+        check_layers(options, blocks)
+        write(options.blocks, options.drawing, text_of_blocks(blocks, options, options.blocks.suffix == ".csv"), f"{len(blocks)} blocks")
+    if options.traces:
+        write(options.traces, options.drawing, text_of_traces(traces, options.traces.suffix == ".csv"), f"{len(traces)} traces")
+    return left_out
+
+
+def write(file, drawing, rows, what):
+    file.write_text(f"# {one_line(drawing.name)}\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    print(f"{file}: {what}")
 
 
 def main(arguments):
     options = parse(arguments)
     try:
-        blocks, traces, left_out = read(options)
-        for file, lines, what in ((options.blocks, blocks, "blocks"), (options.traces, traces, "traces")):
-            if file is None:
-                continue
-            if not lines:
-                print(f"error: import_dxf: {options.drawing}: no {what} found (left out: {dict(left_out) or 'nothing'}). Check --layer.", file=sys.stderr)
-                return 1
-            file.write_text(f"# {options.drawing.name}\n" + "\n".join(lines) + "\n", encoding="utf-8")
-            print(f"{file}: {len(lines)} {what}")
-    except (OSError, ezdxf.DXFError) as error:
-        print(f"error: import_dxf: {options.drawing}: cannot be read ({error}). Give a DXF file.", file=sys.stderr)
-        return 1
+        left_out = convert(options)
+    except (DrawingError, OSError) as error:
+        print(f"error: import_dxf: {one_line(error)}", file=sys.stderr)
+        return 2 if isinstance(error, DrawingError) else 1
     for what, count in left_out.items():
-        print(f"left out: {count} {what}")
+        print(f"left out: {count} {printable(what)}")
     return 0
 
 

@@ -3,7 +3,7 @@
 
     import_dxf_test.py HDEM TOOLS    the program, and the folder of its scripts
 
-Exit code 77 (skipped) without ezdxf.
+Exit code 77 (skipped) without ezdxf or h5py.
 """
 import re
 import subprocess
@@ -14,12 +14,16 @@ from pathlib import Path
 
 try:
     import ezdxf
+    import h5py    # noqa: F401
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 import small_case
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(TOOLS))
+import hdem_io    # noqa: E402
+
 REST = small_case.ROCK + """
 [[stage]]
 cycles = 10
@@ -67,19 +71,54 @@ class Drawing(unittest.TestCase):
         code, said = self.convert("--blocks", self.folder / "b.wkt", "--scale", "0.001", "--arc", "0.01")
         self.assertEqual(code, 0, said)
         lines = (self.folder / "b.wkt").read_text().splitlines()[1:]
-        self.assertEqual(lines[0], "POLYGON((0 0, 2 0, 2 1, 0 1, 0 0))")
+        self.assertEqual(lines[0], "POLYGON((0 0, 2 0, 2 1, 0 1, 0 0)); BLOCKS_1")
         self.assertGreater(lines[1].count(","), 16, "a circle of 1 m within 10 mm")
         self.assertRegex(self.check('blocks_file = "b.wkt"\n'), r"blocks +2 ")
 
+    def test_endings_decide_what_is_written(self):
+        for ending in ("wkt", "csv"):
+            code, said = self.convert("--blocks", self.folder / f"b.{ending}", "--traces", self.folder / f"t.{ending}", "--scale", "0.001")
+            self.assertEqual(code, 0, said)
+            self.assertRegex(self.check(f'blocks_file = "b.{ending}"\n'), r"blocks +2 ")
+            said = self.check(f'[domain]\nwidth = 10.0\nheight = 10.0\ntraces_file = "t.{ending}"\n')
+            self.assertIn("3 traces, 1 dead ends dropped", said)
+
+    def test_layers_become_names_materials_and_what_is_fixed(self):
+        drawing = ezdxf.readfile(self.folder / "map.dxf")
+        space, block = drawing.modelspace(), drawing.blocks.new("STONE")
+        block.add_lwpolyline([(0, 0), (1000, 0), (1000, 1000), (0, 1000)], close=True, dxfattribs={"layer": "0"})
+        for x in (0, 2000):
+            space.add_blockref("STONE", (x, 8000), dxfattribs={"layer": "Sand, wet 1"})
+        drawing.saveas(self.folder / "map.dxf")
+        for ending in ("wkt", "csv"):
+            (self.folder / "case.toml").write_text(f'blocks_file = "b.{ending}"\n' + REST.replace("[joint", "[material.sand]\ndensity = 1000.0\n[joint")
+                                                   + '[[block]]\npolygon = [[20, 0], [21, 0], [21, 1]]\nmaterial = "rock"\n', encoding="utf-8")
+            code, said = self.convert("--blocks", self.folder / f"b.{ending}", "--scale", "0.001", "--material", "Sand, wet 1=sand", "--material", "blocks=rock",
+                                      "--fixed", "BLOCKS")
+            self.assertEqual(code, 0, said)
+            subprocess.run([HDEM, "run", self.folder / "case.toml", "-o", self.folder / "out", "--overwrite", "--quiet"], check=True)
+            blocks = hdem_io.open_run(self.folder / "out").blocks("last")
+            materials = [blocks["material_names"][number] for number in blocks["material"]]
+            self.assertEqual(list(zip(blocks["name"], materials, blocks["fixed"]))[1:],
+                             [("BLOCKS_1", "rock", 1), ("BLOCKS_2", "rock", 1), ("Sand_ wet 1_1", "sand", 0), ("Sand_ wet 1_2", "sand", 0)])
+
     def test_errors_say_what_is_wrong(self):
-        for arguments, expected, words in (([], 2, "give --blocks or --traces"), (["--traces", "t", "--scale", "0"], 2, "must be positive"),
-                                           (["--traces", self.folder / "t", "--layer", "none"], 1, "no traces found")):
+        blocks, traces = self.folder / "b.csv", self.folder / "t.wkt"
+        for arguments, expected, words in (([], 2, "give --blocks or --traces"), (["--traces", traces, "--scale", "0"], 2, "must be positive"),
+                                           (["--traces", traces, "--layer", "none"], 2, "no traces found"),
+                                           (["--traces", self.folder / "t.txt"], 2, "neither .wkt nor .csv"), (["--blocks", "B.CSV"], 2, "neither .wkt nor .csv"),
+                                           (["--blocks", blocks, "--material", "BLOCKS"], 2, "not LAYER=NAME"),
+                                           (["--blocks", blocks, "--material", "BLOCKS=a b"], 2, "not LAYER=NAME"),
+                                           (["--blocks", blocks, "--fixed", "JOINTS"], 2, "Layers with blocks are blocks"),
+                                           (["--traces", traces, "--fixed", "BLOCKS"], 2, "give --blocks too"),
+                                           (["--traces", self.folder / "none/t.wkt"], 1, "No such file")):
             code, said = self.convert(*arguments)
             self.assertEqual(code, expected, said)
             self.assertIn(words, said)
+            self.assertFalse(blocks.exists())
         (self.folder / "map.dxf").write_text("not a drawing")
-        code, said = self.convert("--traces", self.folder / "t")
-        self.assertEqual(code, 1)
+        code, said = self.convert("--traces", traces)
+        self.assertEqual(code, 2)
         self.assertIn("cannot be read", said)
         self.assertNotIn("Traceback", said)
 
