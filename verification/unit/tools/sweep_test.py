@@ -4,6 +4,7 @@
     sweep_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
 import csv
+import fcntl
 import json
 import subprocess
 import sys
@@ -57,10 +58,10 @@ class Sweep(unittest.TestCase):
 
     def test_outcomes_are_collected(self):
         self.plan("joint.default.friction_angle_deg=5,30")
-        self.assertEqual(self.sweep("run", "s", 2, "--program", HDEM, "--", "--quiet"), (0, ""))
+        self.assertEqual(self.sweep("run", "s", 2, "--program", HDEM, "--", "--quiet"), (0, "run 2: done\n"))
         (self.folder / "s/run_000001").mkdir()
         code, said = self.sweep("collect", "s")
-        self.assertEqual((code, said.strip()), (1, "s/table.csv: 1 of 2 runs done"))
+        self.assertEqual((code, said.strip()), (1, "s/table.csv: 1 of 2 runs done, 1 cut short"))
         first, second = self.table()
         self.assertEqual((first["state"], second["state"]), ("cut short", "done"))
         self.assertEqual(second["joint.default.friction_angle_deg"], "30")
@@ -86,21 +87,59 @@ class Sweep(unittest.TestCase):
         self.assertEqual(self.sweep("run", "s", 1, "--program", program)[0], 0)
         self.assertFalse((self.folder / "words").exists())
 
-    def test_exit_codes_of_failures_are_passed_on(self):
+    def test_exit_code_says_how_the_run_ended(self):
         self.plan("generator.seed=1")
         program = self.recorder()
-        for code, expected in ((1, 1), (2, 2), (4, 0), (143, 143)):
+        for code, words in ((0, "done"), (1, "failed"), (2, "failed"), (4, "not converged"), (5, "interrupted"), (143, "interrupted")):
             program.write_text(f"#!/bin/bash\nexit {code}\n")
-            self.assertEqual(self.sweep("run", "s", 1, "--program", program)[0], expected)
+            self.assertEqual(self.sweep("run", "s", 1, "--program", program), (code, f"run 1: {words}\n"))
+
+    def test_of_several_runs_the_worst_counts(self):
+        self.plan("generator.seed=1:4")
+        program = self.recorder()
+        program.write_text('#!/bin/bash\ncase "$*" in *seed=1*) exit 4;; *seed=2*) exit 0;; *seed=3*) exit "${CODE:-0}";; esac\n')
+        self.assertEqual(self.sweep("run", "s", 1, 2, 3, 4, "--program", program), (4, "4 runs: 1 not converged, 3 done\n"))
+        for code, words in ((1, "1 not converged, 2 done, 1 failed"), (143, "1 not converged, 1 done, 1 interrupted, 1 not begun")):
+            program.write_text(program.read_text().replace('"${CODE:-0}"', str(code)).replace("exit 1;;", f"exit {code};;"))
+            self.assertEqual(self.sweep("run", "s", 1, 2, 3, 4, "--program", program), (code, f"4 runs: {words}\n"))
+
+    def test_not_converged_is_said_of_a_run_that_was_done_before(self):
+        case = small_case.CASE.replace("cycles = 1500", 'until = "converged"\nmax_cycles = 100')
+        (self.folder / "small.toml").write_text(case, encoding="utf-8")
+        self.plan("joint.default.friction_angle_deg=30")
+        for _ in range(2):
+            self.assertEqual(self.sweep("run", "s", 1, "--program", HDEM, "--", "--quiet")[0], 4)
+        self.assertEqual(self.sweep("collect", "s"), (0, "s/table.csv: 1 of 1 runs done, 1 of them not converged\n"))
+        self.assertEqual((self.table()[0]["state"], self.table()[0]["converged"]), ("done", "False"))
+
+    def test_running_is_told_from_cut_short(self):
+        self.plan("generator.seed=1:4")
+        for number in (1, 2):
+            (self.folder / f"s/run_00000{number}").mkdir()
+            (self.folder / f"s/run_00000{number}/.lock").write_text("{}")
+        (self.folder / "s/run_000003").mkdir()
+        (self.folder / "s/run_000003/summary.json").write_text('{"interrupted": true}')
+        with open(self.folder / "s/run_000001/.lock", "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            code, said = self.sweep("collect", "s")
+        self.assertEqual((code, said), (1, "s/table.csv: 0 of 4 runs done, 1 running, 2 cut short, 1 missing\n"))
+        self.assertEqual([row["state"] for row in self.table()], ["running", "cut short", "cut short", "missing"])
+        self.sweep("collect", "s")
+        self.assertEqual(self.table()[0]["state"], "cut short", "nobody holds the lock any more")
 
     def test_errors_say_what_is_wrong(self):
+        self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
         self.plan("generator.seed=1")
-        for arguments, words in ((["plan", "small.toml", "-o", "s", "--vary", "a=1"], "there is a plan already"),
+        (self.folder / "broken").mkdir()
+        (self.folder / "broken/plan.json").write_text("[1]")
+        (self.folder / "s/run_000001").mkdir()
+        (self.folder / "s/run_000001/summary.json").write_text("{")
+        for arguments, words in ((["collect", "broken"], "cannot be read"), (["run", "s", "1"], "summary.json: damaged"), (["plan", "small.toml", "-o", "s", "--vary", "a=1"], "there is a plan already"),
                                  (["plan", "small.toml", "-o", "t"], "nothing varies"), (["plan", "none.toml", "-o", "t", "--vary", "a=1"], "no such file"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:x"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:0"], "not a range"),
                                  (["run", "s", "2"], "not in the plan"), (["collect", "u"], "cannot be read"),
-                                 (["run", "s", "1", "--program", "nowhere"], "cannot be run")):
+                                 (["run", "u/t", "1", "--program", "nowhere"], "cannot be run")):
             code, said = self.sweep(*arguments)
             self.assertEqual(code, 2, said)
             self.assertIn(words, said)
