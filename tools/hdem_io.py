@@ -16,6 +16,7 @@
 Every number is in SI units; io/hdf5_format.md says what each array means. Files are opened, read and closed at once: a run may
 still be going on. Needs h5py and numpy.
 """
+import json
 import sys
 import warnings
 from collections import namedtuple
@@ -25,6 +26,7 @@ import h5py
 import numpy as np
 
 from plain_text import one_line
+from run_lock import is_interrupted, is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
 FORMAT_MAJOR = 1
@@ -166,6 +168,43 @@ class Run:
             self.frames = [Frame(int(n), int(cycle), float(time), stage) for n, cycle, time, stage in
                            zip(frames["number"], frames["cycle"], frames["time"], _texts(frames["stage"]))]
             self.histories = sorted(results["history"])
+            self.has_ended = bool(_attributes(results["provenance"]).get("end"))
+        if not self.has_ended:
+            self.frames += self._younger_frames()
+
+    def _younger_frames(self):
+        """Written since results.h5 was, which follows every ten seconds only: the last of them is where a run was broken off."""
+        last = self.frames[-1].number if self.frames else -1
+        found = []
+        for file in sorted((self.folder / "frames").glob("blocks_" + "[0-9]" * 6 + ".hdf")):
+            if int(file.stem[-6:]) <= last:
+                continue
+            try:
+                with _open(file, "hdem-blocks", "hdem") as opened:
+                    info = _attributes(opened["hdem"])
+                found.append(Frame(int(file.stem[-6:]), int(info["cycle"]), float(info["time"]), info["stage"]))
+            except ResultError:    # was on its way to the disk when the power failed
+                break
+        return found
+
+    def summary(self):
+        """summary.json as a dict; empty before the end of the run."""
+        file = self.folder / "summary.json"
+        try:
+            found = json.loads(file.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return {}
+        except ValueError as error:
+            raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from None
+        if not isinstance(found, dict):
+            raise ResultError(f"{file}: not a summary of a run. Remove it, or run the case again.")
+        return found
+
+    def state(self):
+        """"done", "running", or "interrupted": broken off by a signal or a limit of time, or killed."""
+        if is_interrupted(self.summary()):
+            return "interrupted"
+        return "done" if self.has_ended else "running" if is_running(self.folder) else "interrupted"
 
     def _results(self):
         return _open(self.file, "hdem-results", "/")

@@ -20,8 +20,9 @@ from matplotlib.colors import ListedColormap    # noqa: E402
 from matplotlib.lines import Line2D    # noqa: E402
 from matplotlib.patches import Patch    # noqa: E402
 
-from hdem_io import ResultError, open_run, read_blocks, tell    # noqa: E402
-from plain_text import add_legend, as_file_name, literal    # noqa: E402
+from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E402
+from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
+from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
@@ -45,8 +46,6 @@ FIELDS = {
 }
 CLASSES = ("regime", "material", "none")
 MOTION = ("displacement", "displacement_x", "displacement_y", "rotation", "velocity")    # a falling block has far more of it than the others
-PREFIXES = {"m": [(1, "m"), (1e-3, "mm"), (1e-6, "µm")], "m/s": [(1, "m/s"), (1e-3, "mm/s"), (1e-6, "µm/s")],
-            "Pa": [(1e6, "MPa"), (1e3, "kPa"), (1, "Pa")], "N": [(1e6, "MN"), (1e3, "kN"), (1, "N")]}
 
 
 def parse(arguments):
@@ -70,14 +69,6 @@ def parse(arguments):
         if not low <= getattr(options, name) <= 5000.0:
             parser.error(f"argument --{name}: {low:g} to 5000")
     return options
-
-
-def scaled_unit(unit, greatest):
-    """Factor and name of the unit in which the greatest value reads best."""
-    for factor, name in PREFIXES.get(unit, []):
-        if greatest >= factor:
-            return factor, name
-    return PREFIXES.get(unit, [(1, unit)])[-1]
 
 
 def colour_range(values, signed):
@@ -213,8 +204,8 @@ def draw_frame(run, options):
     axes.ticklabel_format(useOffset=False, style="plain")
     info = blocks["info"]
     title = options.title if options.title is not None else info["title"]
-    when = f"cycle {info['cycle']}, {info['time']:.6g} s"
-    literal(axes.set_title("\n".join(filter(None, [title, f"stage \"{info['stage']}\", {when}" if info["stage"] else when])), loc="left"))
+    frame = run.frame(options.frame) if run else Frame(None, info["cycle"], info["time"], info["stage"])
+    literal(axes.set_title("\n".join(filter(None, [title, moment_of(run, frame)])), loc="left"))
     if handles:
         add_legend(axes, handles, loc="upper left", bbox_to_anchor=(0.0, -0.42 / axes_height(figure, axes)), ncol=2 if len(handles) > 1 else 1,
                    frameon=False, borderaxespad=0.0, handlelength=1.8, columnspacing=1.5)
@@ -232,37 +223,6 @@ def visible(blocks, view):
     return np.count_nonzero((x >= view[0]) & (x <= view[2]) & (y >= view[1]) & (y <= view[3]))
 
 
-def panel_of(name, unit):
-    """What is drawn in one panel: quantities of one unit; without a unit, counts of points."""
-    return unit if unit != "1" else "points" if name.endswith("_points") else name.replace("_", " ")
-
-
-def draw_history(run, options):
-    table = run.energy() if options.history == "energy" else run.history(options.history)
-    names = [name for name in table if name not in ("cycle", "time")]
-    panels = sorted({panel_of(name, table.unit[name]) for name in names}, key=lambda panel: (panel != "J", panel))
-    if not len(table["time"]):
-        raise ResultError(f"history {options.history} holds no rows yet")
-    width = options.width / 25.4
-    figure, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, figsize=(width, 0.9 + 1.5 * len(panels)), dpi=options.dpi, layout="constrained")
-    for axes, panel in zip(grid[:, 0], panels):
-        same = [name for name in names if panel_of(name, table.unit[name]) == panel]
-        unit = table.unit[same[0]]
-        factor, shown = scaled_unit(unit, max(np.nanmax(np.abs(table[name])) for name in same))
-        positive = np.concatenate([table[name][table[name] > 0.0] for name in same])
-        log = options.history == "energy" and panel != "points" and len(positive) and positive.max() > 1e3 * positive.min()
-        for name, colour in zip(same, ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"] * len(same)):
-            values = np.where(table[name] > 0.0, table[name], np.nan) if log else table[name]    # a logarithm knows no zero
-            axes.plot(table["time"], values / factor, color=colour, linewidth=0.9, label=name.replace("_", " "))
-        axes.set_yscale("log" if log else "linear")
-        literal(axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]"))
-        axes.grid(linewidth=0.3, color="#cccccc")
-        add_legend(axes, axes.lines, frameon=False, loc="best", ncol=len(same))
-    grid[-1, 0].set_xlabel("time [s]")
-    literal(grid[0, 0].set_title(options.title if options.title is not None else options.history, loc="left"))
-    return figure
-
-
 def make_picture(options):
     """The file it is in."""
     single = options.result.suffix == ".hdf"
@@ -275,6 +235,8 @@ def make_picture(options):
         output = folder / f"{as_file_name(name)}.png"
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
+    if run and not options.history and state_of(run):
+        print(f"the picture shows {one_line(moment_of(run, run.frame(options.frame)))}", file=sys.stderr)
     return output
 
 

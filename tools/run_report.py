@@ -4,7 +4,6 @@
 The page is one file that asks the network for nothing. A run that goes on, or was killed, gives a page of what there is by then.
 """
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from needed_modules import need
 need("h5py", "matplotlib", "numpy")
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
 import run_page    # noqa: E402
-from hdem_io import ResultError, open_run, tell    # noqa: E402
+from hdem_io import open_run, tell    # noqa: E402
 
 
 def parse(arguments):
@@ -22,20 +21,11 @@ def parse(arguments):
     return parser.parse_args(arguments)
 
 
-def read_summary(file):
-    if not file.exists():
-        return {}
-    try:
-        return json.loads(file.read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from error
-
-
 def make_page(options):
     """The file it is in."""
     run = open_run(options.result)
     log = run.folder / "run.log"
-    text = run_page.build(run, read_summary(run.folder / "summary.json"), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
+    text = run_page.build(run, run.summary(), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
     output = options.output or run.folder / "report.html"
     output.parent.mkdir(parents=True, exist_ok=True)
     output.write_text(text, encoding="utf-8")

@@ -9,6 +9,7 @@ import numpy as np
 
 import curves
 import plot
+from plot_history import panel_of
 from shell import anchor
 
 MANY_BLOCKS = 4000      # from here on a picture is made of dots, which is smaller then
@@ -105,7 +106,7 @@ def history(run, name):
     names = [column for column in table if column not in ("cycle", "time")]
     kinds = {}
     for column in names:
-        kinds.setdefault(plot.panel_of(column, table.unit[column]), []).append(column)
+        kinds.setdefault(panel_of(column, table.unit[column]), []).append(column)
     panels = [panel(run, table, same, kind if kind == "points" else ", ".join(column.replace("_", " ") for column in same), table.unit[same[0]])
               for kind, same in kinds.items()]
     return drawn(f"history {run.histories.index(name) + 1}", panels, f"<b>History \"{escape(name)}\".</b> {len(table['time'])} samples.", f"history {name}")

@@ -45,9 +45,9 @@ def section(title, body):
     return f'<section id="{anchor(title)}"><h2>{escape(title)}</h2>{body}</section>' if body else ""
 
 
-def outcome_card(summary):
-    if not summary:
-        return card("open", "has not ended", "missed")
+def outcome_card(summary, state):
+    if state != "done" or not summary:
+        return card("open", {"running": "goes on", "interrupted": "was interrupted"}.get(state, "has not ended"), "missed")
     if not any(stage["until_converged"] for stage in summary["stages"]):
         return card("done", "as many cycles as asked for", "met")
     return card("converged", "every stage that should", "met") if summary["converged"] else card("not converged", "within its limit of cycles", "missed")
@@ -65,11 +65,13 @@ def metres(value):
 def head(run, summary, last):
     title = last["info"]["title"] or run.provenance()["case_file"]
     where = run.provenance()
-    cards = outcome_card(summary) + card(len(last["id"]), "blocks") + card(f'{last["info"]["cycle"]:,}'.replace(",", "\u202f"), "cycles")
+    cards = outcome_card(summary, run.state()) + card(len(last["id"]), "blocks") + card(f'{last["info"]["cycle"]:,}'.replace(",", "\u202f"), "cycles")
     cards += card(int(np.count_nonzero(last["detached"])), "detached blocks")
     if summary:
         cards += card(metres(summary["max_displacement"]), "greatest displacement of what stands") + card(duration(summary["wall_seconds"]), "wall time")
-    note = "" if summary else '<p class="note">summary.json is missing: the run goes on, or was killed. The page shows what there is.</p>'
+    note = {"running": "The run goes on.", "interrupted": "The run was interrupted; <code>hdem run --restart</code> goes on with it."}.get(
+        run.state(), "" if summary else "summary.json is missing.")
+    note = f'<p class="note">{note} The page shows what there is.</p>' if note else ""
     return (f'<header id="top"><h1>{escape(title)}</h1><p class="note">{escape(where["case_file"])}, hdem {escape(where["hdem_version"])}, '
             f'{escape(where["begin"])}</p>{note}<div class="cards">{cards}</div></header>')
 

@@ -5,9 +5,13 @@
 
 Exit code 77 (skipped) without h5py or matplotlib.
 """
+import fcntl
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 from pathlib import Path
@@ -15,7 +19,7 @@ from pathlib import Path
 try:
     import numpy as np
     import matplotlib.image
-    import h5py    # noqa: F401
+    import h5py
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -119,6 +123,77 @@ class SmallRun(unittest.TestCase):
             self.assertEqual(code, expected, said)
             self.assertIn(words, said)
             self.assertNotIn("Traceback", said)
+
+
+class InterruptedRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_plot_test_")
+        case, cls.folder = Path(cls.scratch.name, "long.toml"), Path(cls.scratch.name, "out")
+        case.write_text(small_case.CASE.replace("cycles = 1500", "cycles = 100000000"), encoding="utf-8")
+        process = subprocess.Popen([HDEM, "run", case, "-o", cls.folder, "--quiet"])
+        limit = time.monotonic() + 60.0
+        while not (cls.folder / "frames/blocks_000001.hdf").exists() and time.monotonic() < limit:
+            time.sleep(0.05)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        if process.wait(60) != 130:
+            raise RuntimeError("the run was not interrupted")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def drawn(self, *arguments):
+        """Texts of the picture, and what was said besides its name."""
+        picture = self.folder / "a.svg"
+        done = subprocess.run([HDEM, "plot", self.folder, "-o", picture, *arguments], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.strip(), str(picture))
+        return ["".join(text.itertext()) for text in xml.etree.ElementTree.parse(picture).iter("{http://www.w3.org/2000/svg}text")], done.stderr
+
+    def test_picture_is_of_the_interruption_and_says_so(self):
+        run = hdem_io.open_run(self.folder)
+        last = run.frames[-1]
+        self.assertEqual(run.state(), "interrupted")
+        self.assertGreater(last.cycle, 200)
+        moment = f'stage "fall", cycle {last.cycle}, {last.time:.6g} s, interrupted'
+        texts, said = self.drawn()
+        self.assertIn(moment, texts)
+        self.assertEqual(said, f"the picture shows {moment}\n")
+        texts, said = self.drawn("--frame", "1")
+        self.assertIn('stage "settle", cycle 200, 0.02 s', texts)
+        texts, said = self.drawn("--history", "ball")
+        self.assertTrue(any(text.startswith("to cycle ") and text.endswith(", interrupted") for text in texts), texts)
+
+    def test_running_is_told_from_interrupted(self):
+        with open(self.folder / ".lock", "a+b") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            texts, said = self.drawn()
+        self.assertTrue(said.endswith(" s, the run goes on\n"), said)
+        self.assertEqual(hdem_io.open_run(self.folder).state(), "interrupted")
+
+    def test_frames_that_the_results_do_not_know_yet_are_shown(self):
+        folder = Path(self.scratch.name, "killed")
+        shutil.copytree(self.folder, folder)
+        frames = hdem_io.open_run(folder).frames
+        with h5py.File(folder / "results.h5", "r+") as opened:
+            for name in ("number", "cycle", "time", "stage"):
+                kept = opened["frames"][name][:1]
+                del opened["frames"][name]
+                opened["frames"][name] = kept
+        self.assertEqual(hdem_io.open_run(folder).frames, frames)
+        last = folder / f"frames/blocks_{frames[-1].number:06d}.hdf"
+        last.write_bytes(last.read_bytes()[:1000])    # the power failed
+        self.assertEqual(hdem_io.open_run(folder).frames, frames[:-1])
+
+    def test_summary_may_say_that_a_run_was_interrupted(self):
+        folder = Path(self.scratch.name, "told")
+        shutil.copytree(self.folder, folder)
+        with h5py.File(folder / "results.h5", "r+") as opened:
+            opened["provenance"].attrs["end"] = np.bytes_("2026-01-01")
+        self.assertEqual(hdem_io.open_run(folder).state(), "done")
+        (folder / "summary.json").write_text('{"interrupted": true}')
+        self.assertEqual(hdem_io.open_run(folder).state(), "interrupted")
 
 
 class ColourRange(unittest.TestCase):

@@ -6,6 +6,7 @@
 Exit code 77 (skipped) without h5py or matplotlib.
 """
 import base64
+import fcntl
 import html
 import json
 import re
@@ -20,7 +21,7 @@ from pathlib import Path
 try:
     import numpy as np
     import matplotlib    # noqa: F401
-    import h5py    # noqa: F401
+    import h5py
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -108,6 +109,19 @@ class PageOfARun(unittest.TestCase):
         page = self.page_of(folder)
         self.assertIn("has not ended", page)
         self.assertNotIn("wall time", page)
+
+    def test_interrupted_run_is_said_to_be_so(self):
+        folder = self.copy("interrupted")
+        (folder / "summary.json").unlink()
+        with h5py.File(folder / "results.h5", "r+") as opened:
+            opened["provenance"].attrs["end"] = np.bytes_("")
+        self.assertIn("was interrupted", self.page_of(folder))
+        (folder / ".lock").touch()
+        with open(folder / ".lock", "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            page = self.page_of(folder)
+        self.assertIn("goes on", page)
+        self.assertNotIn("was interrupted", page)
 
     def test_run_without_contact_frames_has_a_page(self):
         folder = self.copy("no_contacts")
