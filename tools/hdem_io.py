@@ -22,18 +22,19 @@ import warnings
 from collections import namedtuple
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+from checked_hdf5 import ANY, ResultError, open_checked
+from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_contacts
 from plain_text import one_line
 from run_lock import is_interrupted, is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
-FORMAT_MAJOR = 1
-
-
-class ResultError(Exception):
-    """A file that is missing, damaged, or not written by hdem."""
+PROVENANCE = {"hdem_version": "text", "git_commit": "text", "git_dirty": "u1", "compiler": "text", "flags": "text", "build_type": "text", "cpu": "text",
+              "hostname": "text", "threads": "i8", "seed": "u8", "begin": "text", "end": "text", "case_file": "text", "case_sha256": "text"}
+PROVENANCE_LISTS = ("overrides", "command_line", "environment")
+ENERGIES = ("kinetic_energy", "unbalanced_force_ratio", "greatest_speed", "residual")    # all others may be missing in older files
+LARGEST_SUMMARY = 1 << 26    # bytes
 
 
 def tell(command, result, make):
@@ -47,10 +48,10 @@ def tell(command, result, make):
         return 0
     except (ResultError, ValueError) as error:
         why, code = error, 2
-    except KeyError as error:
-        why, code = f"{result}: {error.args[0]}: a file is damaged. Run the case again.", 2
     except OSError as error:
         why, code = error, 1
+    except MemoryError:
+        why, code = f"{result}: there is not enough memory for it. Free some, or look at it on another machine.", 1
     print(f"error: hdem {command}: {one_line(why)}", file=sys.stderr)
     return code
 
@@ -63,99 +64,6 @@ class Table(dict):
         self.unit = unit
 
 
-def _texts(array):
-    return [text.decode("utf-8", "replace") for text in np.asarray(array)]
-
-
-def _attributes(holder):
-    return {name: value.decode("utf-8", "replace") if isinstance(value, bytes) else value for name, value in holder.attrs.items()}
-
-
-def _open(file, filetype, holder):
-    """Opened for reading; refuses what hdem did not write, or writes in another way by now."""
-    if not Path(file).is_file():
-        raise ResultError(f"{file}: no such file. Give the folder of a run, or a file of its results.")
-    try:
-        opened = h5py.File(file, "r")
-    except OSError as error:
-        raise ResultError(f"{file}: cannot be read ({error})") from None
-    head = _attributes(opened[holder]) if holder in opened else {}
-    if head.get("filetype") != filetype:
-        opened.close()
-        raise ResultError(f"{file}: not a file of type {filetype}")
-    if head["version"][0] != FORMAT_MAJOR:
-        opened.close()
-        raise ResultError(f"{file}: written in version {head['version'][0]} of its format; this program knows version {FORMAT_MAJOR}")
-    return opened
-
-
-def read_blocks(file):
-    """One block frame as a dict of arrays, one entry per block; `polygon` and `part_...` lists see Run.blocks."""
-    with _open(file, "hdem-blocks", "hdem") as opened:
-        grid, extra = opened["VTKHDF"], opened["hdem"]
-        cells = {name: data[...] for name, data in grid["CellData"].items()}
-        points = grid["Points"][:, :2]
-        offsets = grid["Offsets"][...]
-        first = np.unique(cells["id"], return_index=True)[1]    # a block's first part; ids ascend
-        names = np.array(_texts(extra["names"]), dtype=object)
-        blocks = {name: data[first] for name, data in cells.items()}
-        for name in ("displacement", "velocity"):
-            blocks[name] = blocks[name][:, :2]
-        blocks["name"] = names[blocks["id"]]
-        blocks["position"] = extra["block_position"][...]
-        blocks["area"] = extra["block_area"][...]
-        blocks["mass"] = extra["block_mass"][...]
-        parts = [points[begin:end] for begin, end in zip(offsets, offsets[1:])]
-        blocks["part_polygon"] = parts
-        blocks["part_block"] = np.searchsorted(blocks["id"], cells["id"])
-        outer = extra["outer_edge"][...].astype(bool)
-        following = np.arange(1, len(points) + 1)
-        following[offsets[1:] - 1] = offsets[:-1]
-        blocks["edges"] = np.stack([points[outer], points[following[outer]]], axis=1) if len(points) else np.empty((0, 2, 2))
-        block_of_vertex = np.repeat(blocks["part_block"], np.diff(offsets))
-        blocks["edge_block"] = block_of_vertex[outer]
-        blocks["polygon"] = _polygons(parts, blocks["part_block"], len(first), blocks["edges"], blocks["edge_block"])
-        blocks["material_names"] = _texts(extra["material_names"])
-        blocks["outline"] = extra["outline_segments"][...]
-        blocks["outline_excavation"] = extra["outline_excavation"][...]
-        blocks["excavation_names"] = _texts(extra["excavation_names"])
-        blocks["info"] = _attributes(extra)
-        return blocks
-
-
-def _polygons(parts, part_block, blocks, edges, edge_block):
-    """Outline of each block: its only part, or its outer edges joined end to end."""
-    counts = np.bincount(part_block, minlength=blocks)
-    polygons = [None] * blocks
-    for part, block in zip(parts, part_block):
-        polygons[block] = part
-    for block in np.flatnonzero(counts > 1):
-        polygons[block] = _joined(edges[edge_block == block])
-    return polygons
-
-
-def _joined(edges):
-    """Ends of edges that meet were computed from the same corner, so they differ by rounding only."""
-    left = list(range(1, len(edges)))
-    ring = [edges[0][0], edges[0][1]]
-    while left:
-        nearest = min(left, key=lambda i: np.sum((edges[i][0] - ring[-1]) ** 2))
-        left.remove(nearest)
-        ring.append(edges[nearest][1])
-    return np.array(ring[:-1])
-
-
-def read_contacts(file):
-    """One contact frame as a dict of arrays, one entry per contact; see Run.contacts."""
-    with _open(file, "hdem-contacts", "hdem") as opened:
-        grid = opened["VTKHDF"]
-        contacts = {name: data[...] for name, data in grid["CellData"].items()}
-        contacts["normal"] = contacts["normal"][:, :2]
-        contacts["points"] = grid["Points"][:, :2].reshape(-1, 2, 2)
-        contacts["info"] = _attributes(opened["hdem"])
-        return contacts
-
-
 class Run:
     """A run's folder; see the module's text."""
 
@@ -164,13 +72,21 @@ class Run:
         self.file = path / "results.h5" if path.is_dir() else path
         self.folder = self.file.parent
         with self._results() as results:
-            frames = results["frames"]
-            self.frames = [Frame(int(n), int(cycle), float(time), stage) for n, cycle, time, stage in
-                           zip(frames["number"], frames["cycle"], frames["time"], _texts(frames["stage"]))]
-            self.histories = sorted(results["history"])
-            self.has_ended = bool(_attributes(results["provenance"]).get("end"))
+            self.frames = self._frames(results)
+            self.histories = results.children("history") if results.has("history") else []
+            self.has_ended = bool(results.attributes("provenance", {"end": "text"})["end"])
         if not self.has_ended:
             self.frames += self._younger_frames()
+
+    @staticmethod
+    def _frames(results):
+        number = results.array("frames/number", "i4", (ANY,))
+        cycle, time = (results.array(f"frames/{name}", kind, number.shape) for name, kind in (("cycle", "i8"), ("time", "f8")))
+        if np.any(number < 0) or np.any(np.diff(number) <= 0):
+            results.fail("frames/number", "not in ascending order")
+        if not np.all(np.isfinite(time)):
+            results.fail("frames/time", "not a finite number")
+        return [Frame(*row) for row in zip(number.tolist(), cycle.tolist(), time.tolist(), results.texts("frames/stage", len(number)))]
 
     def _younger_frames(self):
         """Written since results.h5 was, which follows every ten seconds only: the last of them is where a run was broken off."""
@@ -180,8 +96,7 @@ class Run:
             if int(file.stem[-6:]) <= last:
                 continue
             try:
-                with _open(file, "hdem-blocks", "hdem") as opened:
-                    info = _attributes(opened["hdem"])
+                info = head_of(file)
                 found.append(Frame(int(file.stem[-6:]), int(info["cycle"]), float(info["time"]), info["stage"]))
             except ResultError:    # was on its way to the disk when the power failed
                 break
@@ -191,10 +106,12 @@ class Run:
         """summary.json as a dict; empty before the end of the run."""
         file = self.folder / "summary.json"
         try:
+            if file.stat().st_size > LARGEST_SUMMARY:
+                raise ValueError("too large")
             found = json.loads(file.read_text(encoding="utf-8"))
         except FileNotFoundError:
             return {}
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from None
         if not isinstance(found, dict):
             raise ResultError(f"{file}: not a summary of a run. Remove it, or run the case again.")
@@ -207,7 +124,7 @@ class Run:
         return "done" if self.has_ended else "running" if is_running(self.folder) else "interrupted"
 
     def _results(self):
-        return _open(self.file, "hdem-results", "/")
+        return open_checked(self.file, "hdem-results", "/", FORMAT_MAJOR)
 
     def frame(self, which="last"):
         """The frame with this number, or the last one."""
@@ -241,27 +158,32 @@ class Run:
     def _file(self, kind, frame):
         return self.folder / "frames" / f"{kind}_{self.frame(frame).number:06d}.hdf"
 
-    def _table(self, path):
+    def _table(self, path, known=()):
+        """Columns of float64 besides the cycle; as many rows in each."""
         with self._results() as results:
-            if path not in results:
+            if not results.has(path):
                 raise ResultError(f"{self.file}: has no {path}; histories are {', '.join(self.histories) or 'none'}")
-            group = results[path]
-            return Table({name: data[...] for name, data in group.items()},
-                         {name: _attributes(data).get("unit", "1") for name, data in group.items()})
+            rows = results.array(f"{path}/cycle", "i8", (ANY,)).shape
+            names = sorted({"cycle", "time", *known, *results.children(path)})
+            columns = {name: results.array(f"{path}/{name}", "i8" if name == "cycle" else "f8", rows) for name in names}
+            if not np.all(np.isfinite(columns["time"])):
+                results.fail(f"{path}/time", "not a finite number")
+            return Table(columns, {name: results.attributes(f"{path}/{name}", {"unit": "text"})["unit"] for name in names})
 
     def history(self, name):
         return self._table(f"history/{name}")
 
     def energy(self):
-        return self._table("energy")
+        return self._table("energy", ENERGIES)
 
     def provenance(self):
         """Program, machine, case and command as a dict; case_text is the whole case file."""
         with self._results() as results:
-            group = results["provenance"]
-            found = _attributes(group)
-            found.update({name: _texts(data) for name, data in group.items()})
-            found["case_text"] = "".join(found["case_text"])
+            found = results.attributes("provenance", PROVENANCE)
+            found.update({name: results.texts(f"provenance/{name}") for name in PROVENANCE_LISTS})
+            if results.has("provenance/restarts"):
+                found["restarts"] = results.texts("provenance/restarts")
+            found["case_text"] = "".join(results.texts("provenance/case_text"))
             return found
 
 

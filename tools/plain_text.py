@@ -1,5 +1,6 @@
 """Names and titles are texts wherever they are shown: no formula, no part of a path, no command of the screen."""
 LONGEST_FILE_NAME = 200    # bytes, of the 255 that a file system takes
+LONGEST_LINE = 250         # characters in a picture: a name has at most 200, a title as many as it likes
 
 
 def printable(text, kept=""):
@@ -21,7 +22,8 @@ def as_file_name(text):
 
 def literal(artist):
     """A text of matplotlib, drawn as it is: $, ^ and \\ are characters."""
-    artist.set_text(printable(artist.get_text(), kept="\n"))
+    lines = printable(artist.get_text(), kept="\n").split("\n")
+    artist.set_text("\n".join(line if len(line) <= LONGEST_LINE else line[:LONGEST_LINE - 1] + "…" for line in lines))
     artist.set_parse_math(False)
     return artist
 

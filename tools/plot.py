@@ -132,9 +132,11 @@ def draw_classes(axes, blocks, options):
 
 def draw_contacts(axes, blocks, contacts, width_mm):
     """From centroid to contact to centroid, as wide as the normal force is great."""
-    force = contacts["normal_force"].astype(float)
+    force = np.nan_to_num(contacts["normal_force"].astype(float), nan=0.0, posinf=0.0, neginf=0.0)    # of a run that blew up
     if not len(force) or not force.max() > 0.0:
         return []
+    if not np.all(np.isin(contacts["blocks"], blocks["id"])):
+        raise ResultError("contacts name blocks that this frame does not have: its two files are of different runs, or damaged. Run the case again.")
     position = blocks["position"][np.searchsorted(blocks["id"], contacts["blocks"])]
     lines = np.stack([position[:, 0], contacts["points"].mean(axis=1), position[:, 1]], axis=1)
     widest = max(0.5, width_mm / 65.0)    # points
@@ -154,6 +156,8 @@ def view_of(blocks, options):
     """x0, y0, x1, y1 [m]"""
     if options.window:
         x0, y0, x1, y1 = options.window
+        if not (math.isfinite(x1 - x0) and math.isfinite(y1 - y0)) or x0 == x1 or y0 == y1:
+            raise ResultError("--window: has no area. Give two opposite corners.")
         return min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
     points = np.concatenate(blocks["part_polygon"] + [blocks["outline"].reshape(-1, 2)])
     margin = 0.02
@@ -162,6 +166,8 @@ def view_of(blocks, options):
             raise ResultError("this case has no excavation to look at; leave out --excavation")
         points, margin = blocks["outline"].reshape(-1, 2), 0.6
     low, high = points.min(axis=0), points.max(axis=0)
+    if not np.all(high - low > 1e-12 * np.maximum(np.abs(low), np.abs(high))):
+        raise ResultError("what is to be drawn has no extent: the frame is damaged. Run the case again.")
     margin *= max(high - low)
     return (*(low - margin), *(high + margin))
 

@@ -40,7 +40,7 @@ def draw_history(run, options):
     table = run.energy() if options.history == "energy" else run.history(options.history)
     names = [name for name in table if name not in ("cycle", "time")]
     panels = sorted({panel_of(name, table.unit[name]) for name in names}, key=lambda panel: (panel != "J", panel))
-    if not len(table["time"]):
+    if not len(table["time"]) or not names:
         raise ResultError(f"history {options.history} holds no rows yet")
     width = options.width / 25.4
     figure, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, figsize=(width, 0.9 + 1.5 * len(panels)), dpi=options.dpi, layout="constrained")

@@ -1,4 +1,5 @@
 """The page of one run: summary, pictures, histories, energies, timing, provenance as one HTML file."""
+import math
 from html import escape
 
 import numpy as np
@@ -21,7 +22,26 @@ LEDGER = {"initial": ("stored at the start", 1), "gravity_work": ("work of gravi
           "local_damping": ("spent by local damping", -1), "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),
           "contact_changes": ("taken by changes of contacts", -1), "removed": ("gone with removed blocks", -1), "kinetic_energy": ("kinetic", 0),
           "elastic_normal": ("in normal springs", 0), "elastic_shear": ("in shear springs", 0)}
+# what else the page takes from summary.json, and its kind
+SUMMARY = {"stages": list, "warnings": list, "converged": bool, "max_displacement": float, "wall_seconds": float, "cycles": float,
+           "contact_point_updates_per_second": float}
+STAGE = {"name": str, "cycles": float, "until_converged": bool, "converged": bool}
 BALANCE = {1: "put in", -1: "taken out", 0: "stored at the end"}
+
+
+def check_summary(summary):
+    """An empty one is that of a run which has not ended."""
+    wanted = [("", summary, SUMMARY if summary else {})]
+    wanted += [("stages: ", stage, STAGE) for stage in (summary.get("stages") if isinstance(summary.get("stages"), list) else [])]
+    for where, found, kinds in wanted:
+        for key, kind in kinds.items():
+            value = found.get(key) if isinstance(found, dict) else None
+            is_right = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value) if kind is float else isinstance(value, kind)
+            if not is_right:
+                raise ResultError(f"summary.json: {where}{key} = {str(value)[:50]} is not what a run writes. Remove the file, or run the case again.")
+    for key, _, unit in OUTCOME:
+        if summary and unit and summary.get(key) is not None and not (isinstance(summary[key], (int, float)) and math.isfinite(summary[key])):
+            raise ResultError(f"summary.json: {key} = {str(summary[key])[:50]} is not a number. Remove the file, or run the case again.")
 
 
 def cell(value):
@@ -88,7 +108,7 @@ def summary_section(summary, last):
     detached = [("detached blocks", ", ".join(names[:60]) + (" ..." if len(names) > 60 else "") or "none", "")]
     if not summary:
         return facts(detached)
-    warnings = "".join(f'<p class="missed">{escape(text)}</p>' for text in summary["warnings"])
+    warnings = "".join(f'<p class="missed">{escape(str(text))}</p>' for text in summary["warnings"])
     rows = [(what, metres(summary[key]) if unit == "m" else summary[key], "" if unit == "m" else unit)
             for key, what, unit in OUTCOME if summary.get(key) is not None]
     return warnings + stages(summary) + facts(rows + detached)
@@ -145,6 +165,7 @@ def build(run, summary, log):
     """HTML of a run (hdem_io.Run); summary.json as dict and run.log as text, {} and "" where they are missing."""
     if not run.frames:
         raise ResultError(f"{run.folder}: holds no frames yet")
+    check_summary(summary)
     last, where = run.blocks("last"), run.provenance()
     first = str(run.frames[0].number)
     parts = {"Summary": summary_section(summary, last),

@@ -124,6 +124,14 @@ class HostileTexts(unittest.TestCase):
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertNotIn("\x1b", done.stderr)
 
+    def test_long_title_is_cut(self):
+        (self.folder / "case.toml").write_text(case_of("name").replace('title = "name"', f'title = "{"long " * 6000}"'), encoding="utf-8")
+        self.hdem("run", "case.toml", "-o", "out", "--quiet")
+        self.hdem("plot", "out", "-o", "a.png")
+        self.hdem("plot", "out", "-o", "a.svg")
+        self.assertTrue(any(line.startswith("long long") and line.endswith("…") for line in lines_of(self.folder / "a.svg")))
+        self.hdem("report", "out")
+
     def test_folder_may_be_called_like_an_option(self):
         self.run_of("x").rename(self.folder / "-x")
         self.hdem("report", "./-x")

@@ -5,7 +5,6 @@
 
 Exit code 77 (skipped) without ezdxf or h5py.
 """
-import re
 import subprocess
 import sys
 import tempfile

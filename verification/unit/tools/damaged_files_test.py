@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""Damaged results and frames are refused in one line, and soon, and without reading anything but the file.
+
+    damaged_files_test.py HDEM TOOLS    the program, and the folder of its scripts
+
+Exit code 77 (skipped) without h5py or matplotlib. verification/fuzz/damaged_results.py tries many more.
+"""
+import json
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import h5py
+    import matplotlib    # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+import small_case
+
+HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+FUZZ = Path(__file__).resolve().parents[2] / "fuzz"
+sys.path.insert(0, str(TOOLS))
+import hdem_io    # noqa: E402
+
+FRAME = "frames/blocks_000002.hdf"
+
+
+class DamagedFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_damaged_test_")
+        cls.whole = small_case.run(HDEM, Path(cls.scratch.name))
+        (cls.whole / "secret").write_bytes(b"\x01" * 4096)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def setUp(self):
+        self.folder = Path(self.scratch.name) / "copy"
+        shutil.copytree(self.whole, self.folder)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def changed(self, file, change):
+        """The file with a change made by h5py."""
+        with h5py.File(self.folder / file, "r+") as opened:
+            change(opened)
+        return self.folder / file
+
+    def refused(self, read, *words):
+        with self.assertRaises(hdem_io.ResultError) as caught:
+            read()
+        said = str(caught.exception)
+        self.assertNotIn("\n", said)
+        for word in words:
+            self.assertIn(word, said)
+
+    def replaced(self, name, *arguments, **how):
+        def change(opened):
+            del opened[name]
+            opened.create_dataset(name, *arguments, **how)
+        return change
+
+    def linked(self, name, link):
+        def change(opened):
+            del opened[name]
+            opened[name] = link
+        return change
+
+    def test_small_file_that_claims_much_takes_no_memory(self):
+        for how in ({"chunks": (1 << 16,)}, {"chunks": (1 << 16,), "compression": 1}, {}):
+            file = self.changed(FRAME, self.replaced("hdem/block_area", (1 << 29,), "f8", **how))
+            self.assertLess(file.stat().st_size, 1 << 16)
+            reads = f"import sys; sys.path.insert(0, {str(TOOLS)!r}); import hdem_frames; hdem_frames.read_blocks({str(file)!r})"
+            done = subprocess.run([sys.executable, "-c", reads], capture_output=True, text=True, check=False,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30)))
+            self.assertRegex(done.stderr.splitlines()[-1], "ResultError: .*block_area: shape ")
+            shutil.copy(self.whole / FRAME, file)
+        file = self.changed(FRAME, self.replaced("hdem/names", (3,), "S2000000000", chunks=(1,)))
+        self.refused(lambda: hdem_io.read_blocks(file), "hdem/names", "too large")
+
+    def test_packed_elements_may_not_be_out_of_proportion(self):
+        for name in ("lzf", "gzip"):
+            file = self.changed(FRAME, self.replaced("hdem/block_area", data=np.zeros(1 << 20), chunks=True, compression=name))
+            self.refused(lambda: hdem_io.read_blocks(file), "hdem/block_area")    # noqa: B023
+            shutil.copy(self.whole / FRAME, file)
+
+    def test_nothing_is_read_but_the_file_itself(self):
+        layout = h5py.VirtualLayout((3,), "f8")
+        layout[...] = h5py.VirtualSource(str(self.folder / "frames/blocks_000000.hdf"), "hdem/block_area", (3,))
+        for what, change in (("external link", self.linked("hdem/block_area", h5py.ExternalLink("blocks_000000.hdf", "/hdem/block_area"))),
+                             ("soft link", self.linked("hdem/block_area", h5py.SoftLink("/hdem/block_mass"))),
+                             ("external group", self.linked("hdem", h5py.ExternalLink("blocks_000000.hdf", "/hdem"))),
+                             ("virtual", lambda opened: (opened.__delitem__("hdem/block_area"), opened.create_virtual_dataset("hdem/block_area", layout))),
+                             ("elsewhere", self.replaced("hdem/block_area", (3,), "f8", external=[(str(self.folder / "secret"), 0, h5py.h5f.UNLIMITED)]))):
+            with self.subTest(what):
+                file = self.changed(FRAME, change)
+                self.refused(lambda: hdem_io.read_blocks(file), str(file))    # noqa: B023
+                shutil.copy(self.whole / FRAME, file)
+        self.changed("results.h5", self.linked("history", h5py.ExternalLink(str(self.whole / "results.h5"), "/history")))
+        self.assertEqual(hdem_io.open_run(self.folder).histories, [], "those of another file")
+
+    def test_every_wrong_object_of_a_frame_is_named(self):
+        with h5py.File(self.whole / FRAME) as opened:
+            ids, points, names = opened["VTKHDF/CellData/id"][...], opened["VTKHDF/Points"][...], len(opened["hdem/names"])
+            offsets = opened["VTKHDF/Offsets"][...]
+        far, lost = points.copy(), points.copy()
+        far[0, 0], lost[1, 1] = 1e300, np.nan
+        for name, values in (("hdem/names", np.zeros(2, "S1")), ("VTKHDF/CellData/id", np.where(ids == ids[-1], names, ids)), ("VTKHDF/CellData/id", ids[::-1].copy()),
+                             ("VTKHDF/CellData/material", ids + 1), ("VTKHDF/CellData/regime", np.full(len(ids), 9, "u1")), ("VTKHDF/Points", far),
+                             ("VTKHDF/Points", lost), ("VTKHDF/Points", points[:, :2]), ("VTKHDF/Offsets", offsets + 1), ("VTKHDF/Offsets", offsets[:-1]),
+                             ("VTKHDF/CellData/stress_xx", np.zeros(len(ids))), ("hdem/block_position", np.zeros((1, 2))), ("hdem/outline_segments", np.zeros((2, 2, 3))),
+                             ("hdem/outline_excavation", np.full(4, 7, "i4")), ("hdem/outer_edge", np.zeros(len(points), "u1"))):
+            with self.subTest(name):
+                file = self.changed(FRAME, self.replaced(name, data=values))
+                self.refused(lambda: hdem_io.read_blocks(file), str(file), name if name != "hdem/names" else "id")    # noqa: B023
+                shutil.copy(self.whole / FRAME, file)
+
+    def test_wrong_attributes_are_named(self):
+        for name, value in (("cycle", 1.5), ("time", np.nan), ("title", "of variable length"), ("detached_distance", None), ("stage", np.zeros(3)), ("version", 1)):
+            def change(opened):
+                del opened["hdem"].attrs[name]    # noqa: B023
+                if value is not None:    # noqa: B023
+                    opened["hdem"].attrs[name] = value    # noqa: B023
+            file = self.changed(FRAME, change)
+            self.refused(lambda: hdem_io.read_blocks(file), f"hdem@{name}")    # noqa: B023
+            shutil.copy(self.whole / FRAME, file)
+
+    def test_programs_end_with_2_and_one_line(self):
+        cut = (self.whole / "results.h5").read_bytes()
+        frame = (self.whole / FRAME).read_bytes()
+        foreign = (self.whole / "frames/contacts_000000.hdf").read_bytes()
+        for file, content in (("results.h5", cut[:len(cut) // 2]), ("results.h5", b""), (FRAME, frame[:5000]), (FRAME, foreign), ("summary.json", b"[]"),
+                              ("summary.json", b"{\"stages\": 3}"), ("summary.json", b"[" * 100000), ("summary.json", None)):
+            with self.subTest(file):
+                (self.folder / file).write_bytes(content if content is not None else json.dumps(
+                    json.loads((self.whole / file).read_text()) | {"wall_seconds": float("nan")}).encode())
+                for command in ("report",) if file == "summary.json" and content != b"[]" else ("plot", "report"):
+                    done = subprocess.run([HDEM, command, self.folder], capture_output=True, text=True, check=False)
+                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                    self.assertTrue(done.stderr.startswith(f"error: hdem {command}: "), done.stderr)
+                    self.assertIn(file.split("/")[-1], done.stderr)
+                shutil.copy(self.whole / file, self.folder / file)
+
+    def test_contacts_of_other_blocks_are_refused(self):
+        shutil.copy(self.whole / "frames/blocks_000002.hdf", self.folder / "frames/blocks_000001.hdf")    # without the prop
+        done = subprocess.run([HDEM, "plot", self.folder, "--frame", "1", "--contacts"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("blocks that this frame does not have", done.stderr)
+
+    def test_many_damaged_files(self):
+        done = subprocess.run([FUZZ / "damaged_results.py", HDEM, TOOLS, "--results", "150", "--frames", "400", "--draw-every", "40"], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        counts = [tuple(map(int, row)) for row in re.findall(r"(?m)^\w+: (\d+) files, (\d+) refused, (\d+) read$", done.stdout)]
+        self.assertEqual([row[0] for row in counts], [150, 200, 200])
+        for _, refused, read in counts:
+            self.assertGreater(min(refused, read), 10)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
