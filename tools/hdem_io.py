@@ -38,7 +38,7 @@ LARGEST_SUMMARY = 1 << 26    # bytes
 
 
 def tell(command, result, make):
-    """Makes a file of a run's results for `hdem COMMAND`: prints its path, or why there is none. The exit code."""
+    """Makes a file of a run's results for a command, "hdem plot": prints its path, or why there is none. The exit code."""
     try:
         if not result.exists():
             raise ResultError(f"{result}: no such file or folder")
@@ -52,7 +52,7 @@ def tell(command, result, make):
         why, code = error, 1
     except MemoryError:
         why, code = f"{result}: there is not enough memory for it. Free some, or look at it on another machine.", 1
-    print(f"error: hdem {command}: {one_line(why)}", file=sys.stderr)
+    print(f"error: {command}: {one_line(why)}", file=sys.stderr)
     return code
 
 

@@ -6,6 +6,7 @@
 Shows how hdem_io.py gives frames and histories as numpy arrays; copy it and change what is drawn.
 """
 import argparse
+import sys
 from pathlib import Path
 
 from needed_modules import need
@@ -15,7 +16,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 import numpy as np    # noqa: E402
 
-from hdem_io import open_run    # noqa: E402
+from hdem_io import ResultError, open_run, tell    # noqa: E402
 
 SECTORS = 36
 
@@ -28,14 +29,12 @@ def force_rose(contacts):
     return np.histogram(both, bins=SECTORS, range=(0.0, 2.0 * np.pi), weights=force)[0]
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Directions of contact forces in the first frame with contacts and in the last.")
-    parser.add_argument("folder", type=Path, help="of a run")
-    parser.add_argument("-o", "--output", type=Path, default=Path("own_figure.png"))
-    options = parser.parse_args()
-
+def draw(options):
+    """The file it is in."""
     run = open_run(options.folder)
-    loaded = [frame for frame in run.frames if len(run.contacts(frame.number)["length"])]
+    loaded = [frame for frame in run.frames if run.has_contacts(frame.number) and len(run.contacts(frame.number)["length"])]
+    if not loaded:
+        raise ResultError(f"{options.folder}: has no frame with contacts")
     figure, (rose, energy) = plt.subplots(1, 2, figsize=(8.0, 3.6), layout="constrained")
     rose.remove()
     rose = figure.add_subplot(1, 2, 1, projection="polar")
@@ -52,8 +51,16 @@ def main():
     energy.set_xlabel("time [s]")
     energy.set_ylabel(f"kinetic energy [{table.unit['kinetic_energy']}]")
     figure.savefig(options.output, dpi=150)
-    print(options.output)
+    return options.output
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description="Directions of contact forces in the first frame with contacts and in the last.")
+    parser.add_argument("folder", type=Path, help="of a run")
+    parser.add_argument("-o", "--output", type=Path, default=Path("own_figure.png"))
+    options = parser.parse_args(arguments)
+    return tell("own_figure", options.folder, lambda: draw(options))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main(sys.argv[1:]))

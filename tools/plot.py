@@ -249,7 +249,7 @@ def make_picture(options):
 def main(arguments):
     options = parse(arguments)
     plt.rcParams.update(STYLE)
-    return tell("plot", options.result, lambda: make_picture(options))
+    return tell("hdem plot", options.result, lambda: make_picture(options))
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ def make_page(options):
 
 def main(arguments):
     options = parse(arguments)
-    return tell("report", options.result, lambda: make_page(options))
+    return tell("hdem report", options.result, lambda: make_page(options))
 
 
 if __name__ == "__main__":

@@ -94,6 +94,10 @@ class Info(unittest.TestCase):
         done = subprocess.run([TOOLS / "own_figure.py", self.folder, "-o", picture], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(matplotlib.image.imread(picture)[..., :3].std(), 0.01, "not a blank page")
+        empty = Path(self.scratch.name) / "empty"
+        empty.mkdir()
+        done = subprocess.run([TOOLS / "own_figure.py", empty], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
 
 
 class Version(unittest.TestCase):

@@ -145,6 +145,11 @@ class Ensemble(unittest.TestCase):
         other.chmod(0o755)
         self.assertEqual(self.ensemble("--realisations", 1, "--program", other)[0], 0)
         self.assertEqual(len(self.calls()), 13, "another program")
+        damaged = self.folder / self.id() / "25_75_-55_seed_1/hybrid_300000/results.h5"
+        damaged.write_bytes(damaged.read_bytes()[:5000])
+        code, _, said = self.ensemble("--realisations", 1, "--program", other)
+        self.assertEqual((code, "Traceback" in said), (2, False), said)
+        self.assertIn(f"error: ensemble: {damaged}: ", said)
 
     def test_goes_on_after_an_interruption(self):
         with subprocess.Popen(self.words("--realisations", 1), stderr=subprocess.PIPE, text=True, env=os.environ | {"HANG": "matched"}) as process:

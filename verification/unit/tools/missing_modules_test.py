@@ -22,7 +22,7 @@ NEEDS_NOTHING = {"sweep"}
 def scripts():
     """Names of all programs in Python, by what they do at their end."""
     return {file.name for file in TOOLS.iterdir() if file.is_file() and file.suffix in ("", ".py")
-            and "main(sys.argv[1:])" in file.read_text(encoding="utf-8") or file.name == "own_figure.py"}
+            and "main(sys.argv[1:])" in file.read_text(encoding="utf-8")}
 
 
 def said(python, name, environment=None):
