@@ -9,6 +9,7 @@ import json
 import re
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -87,6 +88,17 @@ class DamagedFiles(unittest.TestCase):
             shutil.copy(self.whole / FRAME, file)
         file = self.changed(FRAME, self.replaced("hdem/names", (3,), "S2000000000", chunks=(1,)))
         self.refused(lambda: hdem_io.read_blocks(file), "hdem/names", "too large")
+
+    def test_chunk_that_claims_more_than_the_file_is_not_asked_for(self):
+        file = self.folder / FRAME
+        with h5py.File(file) as opened:
+            chunk = opened["hdem/block_area"].id.get_chunk_info(0)
+        content = bytearray(file.read_bytes())
+        # In the index of chunks: its size in 32 bits, mask, offset in two extents, address.
+        at = content.index(struct.pack("<IIQQQ", chunk.size, 0, 0, 0, chunk.byte_offset))
+        content[at:at + 4] = struct.pack("<I", 0x7FFFFFFF)
+        file.write_bytes(content)
+        self.refused(lambda: hdem_io.read_blocks(file), "hdem/block_area", "2147483647 stored bytes")
 
     def test_packed_elements_may_not_be_out_of_proportion(self):
         for name in ("lzf", "gzip"):
