@@ -14,7 +14,7 @@
     print(run.energy()["kinetic_energy"], run.provenance()["git_commit"])
 
 Every number is in SI units; io/hdf5_format.md says what each array means. Files are opened, read and closed at once: a run may
-still be going on. Needs h5py and numpy.
+still be going on. Needs h5py and numpy, and the modules beside it. What is damaged, or no file of hdem, is a ResultError.
 """
 import json
 import sys
