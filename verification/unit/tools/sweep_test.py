@@ -4,17 +4,23 @@
     sweep_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
 import csv
+import errno
 import fcntl
 import json
+import os
+import socket
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import small_case
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(TOOLS))
+import run_lock    # noqa: E402
 
 
 class Sweep(unittest.TestCase):
@@ -126,6 +132,20 @@ class Sweep(unittest.TestCase):
         self.assertEqual([row["state"] for row in self.table()], ["running", "cut short", "cut short", "missing"])
         self.sweep("collect", "s")
         self.assertEqual(self.table()[0]["state"], "cut short", "nobody holds the lock any more")
+
+    def test_file_says_it_where_the_file_system_has_no_locks(self):
+        lock = self.folder / ".lock"
+        gone = subprocess.Popen(["true"])
+        gone.wait()
+        with unittest.mock.patch.object(run_lock.fcntl, "flock", side_effect=OSError(errno.ENOLCK, "no locks")):
+            for text, expected in ((json.dumps({"host": "elsewhere", "process": gone.pid}), True), (json.dumps({"host": socket.gethostname(), "process": os.getpid()}), True),
+                                   (json.dumps({"host": socket.gethostname(), "process": gone.pid}), False), ("", False), ("[]", False)):
+                lock.write_text(text)
+                self.assertIs(run_lock.is_running(self.folder), expected, text)
+        lock.unlink()
+        self.assertFalse(run_lock.is_running(self.folder))
+        os.mkfifo(lock)
+        self.assertFalse(run_lock.is_running(self.folder), "and does not wait for it")
 
     def test_errors_say_what_is_wrong(self):
         self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
