@@ -34,6 +34,7 @@ PROVENANCE = {"hdem_version": "text", "git_commit": "text", "git_dirty": "u1", "
               "hostname": "text", "threads": "i8", "seed": "u8", "begin": "text", "end": "text", "case_file": "text", "case_sha256": "text"}
 PROVENANCE_LISTS = ("overrides", "command_line", "environment")
 ENERGIES = ("kinetic_energy", "unbalanced_force_ratio", "greatest_speed", "residual")    # all others may be missing in older files
+LATEST = 1e15    # s, thirty million years
 LARGEST_SUMMARY = 1 << 26    # bytes
 
 
@@ -84,8 +85,8 @@ class Run:
         cycle, time = (results.array(f"frames/{name}", kind, number.shape) for name, kind in (("cycle", "i8"), ("time", "f8")))
         if np.any(number < 0) or np.any(np.diff(number) <= 0):
             results.fail("frames/number", "not in ascending order")
-        if not np.all(np.isfinite(time)):
-            results.fail("frames/time", "not a finite number")
+        if not np.all(np.abs(time) < LATEST):
+            results.fail("frames/time", f"not a number below {LATEST:g}")
         return [Frame(*row) for row in zip(number.tolist(), cycle.tolist(), time.tolist(), results.texts("frames/stage", len(number)))]
 
     def _younger_frames(self):
@@ -166,8 +167,8 @@ class Run:
             rows = results.array(f"{path}/cycle", "i8", (ANY,)).shape
             names = sorted({"cycle", "time", *known, *results.children(path)})
             columns = {name: results.array(f"{path}/{name}", "i8" if name == "cycle" else "f8", rows) for name in names}
-            if not np.all(np.isfinite(columns["time"])):
-                results.fail(f"{path}/time", "not a finite number")
+            if not np.all(np.abs(columns["time"]) < LATEST):    # also false for what is no number
+                results.fail(f"{path}/time", f"not a number below {LATEST:g}")
             return Table(columns, {name: results.attributes(f"{path}/{name}", {"unit": "text"})["unit"] for name in names})
 
     def history(self, name):

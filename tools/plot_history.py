@@ -7,6 +7,11 @@ from plain_text import add_legend, literal
 
 PREFIXES = {"m": [(1, "m"), (1e-3, "mm"), (1e-6, "µm")], "m/s": [(1, "m/s"), (1e-3, "mm/s"), (1e-6, "µm/s")],
             "Pa": [(1e6, "MPa"), (1e3, "kPa"), (1, "Pa")], "N": [(1e6, "MN"), (1e3, "kN"), (1, "N")]}
+LARGEST = 1e100    # what a run that blew up reached beyond is not drawn: ends of axes overflow
+
+
+def drawable(values):
+    return np.where(np.abs(values) < LARGEST, values, np.nan)
 
 
 def scaled_unit(unit, greatest):
@@ -39,6 +44,8 @@ def state_of(run):
 def draw_history(run, options):
     table = run.energy() if options.history == "energy" else run.history(options.history)
     names = [name for name in table if name not in ("cycle", "time")]
+    for name in names:
+        table[name] = drawable(table[name])
     panels = sorted({panel_of(name, table.unit[name]) for name in names}, key=lambda panel: (panel != "J", panel))
     if not len(table["time"]) or not names:
         raise ResultError(f"history {options.history} holds no rows yet")
@@ -47,7 +54,7 @@ def draw_history(run, options):
     for axes, panel in zip(grid[:, 0], panels):
         same = [name for name in names if panel_of(name, table.unit[name]) == panel]
         unit = table.unit[same[0]]
-        factor, shown = scaled_unit(unit, max(np.nanmax(np.abs(table[name])) for name in same))
+        factor, shown = scaled_unit(unit, max(np.nan_to_num(np.abs(table[name])).max() for name in same))
         positive = np.concatenate([table[name][table[name] > 0.0] for name in same])
         log = options.history == "energy" and panel != "points" and len(positive) and positive.max() > 1e3 * positive.min()
         for name, colour in zip(same, ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"] * len(same)):
@@ -56,7 +63,7 @@ def draw_history(run, options):
         axes.set_yscale("log" if log else "linear")
         literal(axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]"))
         axes.grid(linewidth=0.3, color="#cccccc")
-        add_legend(axes, axes.lines, frameon=False, loc="best", ncol=len(same))
+        add_legend(axes, axes.lines, frameon=False, loc="best", ncol=min(len(same), 3))    # more are wider than the picture
     grid[-1, 0].set_xlabel("time [s]")
     title = [options.title if options.title is not None else options.history,
              ", ".join([f"to cycle {table['cycle'][-1]}", *state_of(run)]) if state_of(run) else ""]

@@ -9,7 +9,7 @@ import numpy as np
 
 import curves
 import plot
-from plot_history import panel_of
+from plot_history import drawable, panel_of
 from shell import anchor
 
 MANY_BLOCKS = 4000      # from here on a picture is made of dots, which is smaller then
@@ -51,7 +51,7 @@ def thinned(x, y):
 
 
 def curve(table, name, label, positive=False):
-    y = table[name].astype(float)
+    y = drawable(table[name].astype(float))
     x, y = thinned(table["time"], np.where(y > 0.0, y, np.nan) if positive else y)
     return {"name": label, "origin": "ours", "dots": len(x) == 1, "x": x.tolist(), "y": [float(v) if np.isfinite(v) else None for v in y]}
 

@@ -163,6 +163,19 @@ class DamagedFiles(unittest.TestCase):
                     self.assertIn(file.split("/")[-1], done.stderr)
                 shutil.copy(self.whole / file, self.folder / file)
 
+    def test_values_of_a_run_that_blew_up_are_drawn_as_far_as_they_go(self):
+        for value in (1e308, -1e308, np.inf, np.nan):
+            def change(opened):
+                for name in ("kinetic_energy", "slip_points", "friction"):
+                    opened["energy"][name][-1] = value    # noqa: B023
+                opened["energy/impulse_points"][...] = value    # noqa: B023
+            self.changed("results.h5", change)
+            for words in (["plot", self.folder, "--history", "energy"], ["report", self.folder]):
+                done = subprocess.run([HDEM, *words], capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.changed("results.h5", lambda opened: opened["energy/time"].__setitem__(-1, 1e308))
+        self.refused(lambda: hdem_io.open_run(self.folder).energy(), "energy/time")
+
     def test_contacts_of_other_blocks_are_refused(self):
         shutil.copy(self.whole / "frames/blocks_000002.hdf", self.folder / "frames/blocks_000001.hdf")    # without the prop
         done = subprocess.run([HDEM, "plot", self.folder, "--frame", "1", "--contacts"], capture_output=True, text=True, check=False)
