@@ -46,8 +46,13 @@ class RockCheck : public CaseCheck
                 problems_.add(std::string("domain.") + key, "[domain]", key, "belongs to traces_file, which is not given",
                               "Give traces_file, or remove this key.");
         if (given("domain.polygon"))
-            for (const char* key : {"width", "height", "origin", "fixed"})
+        {
+            for (const char* key : {"width", "height", "origin"})
                 exclude("domain", "[domain]", "polygon", key);
+            if (given("domain.fixed"))
+                problems_.add("domain.fixed", "[domain]", "fixed", "names sides of a rectangle, and the domain is a polygon",
+                              "Use fixed_edges = [0, ...]: 0 is the edge from the first to the second vertex.");
+        }
         else
         {
             for (const char* key : {"width", "height"})

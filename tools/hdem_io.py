@@ -27,7 +27,7 @@ import numpy as np
 from checked_hdf5 import ANY, ResultError, open_checked
 from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_contacts
 from plain_text import one_line
-from run_lock import is_interrupted, is_running
+from run_lock import is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
 PROVENANCE = {"hdem_version": "text", "git_commit": "text", "git_dirty": "u1", "compiler": "text", "flags": "text", "build_type": "text", "cpu": "text",
@@ -120,8 +120,6 @@ class Run:
 
     def state(self):
         """"done", "running", or "interrupted": broken off by a signal or a limit of time, or killed."""
-        if is_interrupted(self.summary()):
-            return "interrupted"
         return "done" if self.has_ended else "running" if is_running(self.folder) else "interrupted"
 
     def _results(self):

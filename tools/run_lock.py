@@ -40,8 +40,3 @@ def may_live(descriptor):
     except (OSError, ValueError, TypeError, KeyError, OverflowError):    # empty or damaged
         return False
     return True
-
-
-def is_interrupted(summary):
-    """Whether summary.json is that of a run which was broken off."""
-    return bool(summary.get("interrupted")) or summary.get("state") == "interrupted"

@@ -5,6 +5,7 @@
 #include "parallel/simulation.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
+#include "tools/hdem/run_report.h"
 
 #include <fmt/format.h>
 
@@ -54,9 +55,7 @@ int check_command(const CheckOptions& options)
     say("blocks            {} ({} free)\n", model.blocks(), free);
     say("smallest free     {:.6g} kg\n", smallest);
     if (rock.joints > 0)
-        say("joints            {} traces, {} dead ends dropped, {} cuts, {} refused, {} skipped by persistence, {} slivers "
-            "merged\n",
-            rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers);
+        say("joints            {}\n", describe_cuts(rock));
     say("time step         {:.6g} s\n", model.time_step);
     say("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
     say("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());

@@ -112,6 +112,18 @@ double cpu_seconds()
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+std::string describe_cuts(const RockMass& rock)
+{
+    const std::string refused = rock.refused_cuts == 0
+                                    ? "none refused"
+                                    : fmt::format(
+                                          "{} refused (a piece or an edge would be too small; the block stays whole there, a rock "
+                                          "bridge across the joint)",
+                                          rock.refused_cuts);
+    return fmt::format("{} traces, {} dead ends dropped, {} cuts, {}, {} skipped by persistence, {} slivers merged", rock.joints,
+                       rock.dead_ends, rock.cuts, refused, rock.skipped_cuts, rock.merged_slivers);
+}
+
 void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation)
 {
     const Model& model = simulation.model();
@@ -125,10 +137,7 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
                          smallest_free_mass(model, state)));
     const RockMass& rock = start.loaded.setup.rock;
     if (rock.joints > 0)
-        log.line(fmt::format(
-            "joints    {} traces, {} dead ends of them dropped, {} cuts; {} cuts refused (piece or edge too small), {} skipped by "
-            "persistence, {} slivers merged",
-            rock.joints, rock.dead_ends, rock.cuts, rock.refused_cuts, rock.skipped_cuts, rock.merged_slivers));
+        log.line("joints    " + describe_cuts(rock));
     log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
                          simulation.count_contacts().closed()));
     log.line(fmt::format("method    {}; threshold scale {:.4g}", name_of(state.method), model.threshold_scale));

@@ -20,6 +20,9 @@ struct Session
 /// Processor time of this program, over all threads [s].
 [[nodiscard]] double cpu_seconds();
 
+/// Traces, cuts and what became of them, in one line.
+[[nodiscard]] std::string describe_cuts(const RockMass& rock);
+
 void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation);
 
 /// @param wall_seconds of the whole run, over all restarts

@@ -6,7 +6,6 @@ import numpy as np
 
 import run_figures
 from hdem_io import ResultError
-from run_lock import is_interrupted
 from shell import anchor, card, document, number
 
 # of summary.json, what it is, unit
@@ -43,17 +42,6 @@ def check_summary(summary):
     for key, _, unit in OUTCOME:
         if summary and unit and summary.get(key) is not None and not (isinstance(summary[key], (int, float)) and math.isfinite(summary[key])):
             raise ResultError(f"summary.json: {key} = {str(summary[key])[:50]} is not a number. Remove the file, or run the case again.")
-
-
-def usable(summary):
-    """Of a run that was broken off there may be less than a page needs."""
-    try:
-        check_summary(summary)
-        return summary
-    except ResultError:
-        if is_interrupted(summary):
-            return {}
-        raise
 
 
 def cell(value):
@@ -177,7 +165,7 @@ def build(run, summary, log):
     """HTML of a run (hdem_io.Run); summary.json as dict and run.log as text, {} and "" where they are missing."""
     if not run.frames:
         raise ResultError(f"{run.folder}: holds no frames yet")
-    summary = usable(summary)
+    check_summary(summary)
     last, where = run.blocks("last"), run.provenance()
     first = str(run.frames[0].number)
     parts = {"Summary": summary_section(summary, last),

@@ -94,6 +94,7 @@ TEST(CaseErrors, ContradictionsAndUnknownNames)
         {"", "[domain]\nwidth = 1\n", "16:1: [domain]: height (", "is missing"},
         {"", "[domain]\nwidth = 1\nheight = 1\nmaterial = \"rok\"\n", "19:12: [domain]: material = \"rok\" (",
          "did you mean 'rock'?"},
+        {"", "[domain]\npolygon = [[0, 0], [1, 0], [1, 1]]\nfixed = [\"left\"]\n", "18:9: [domain]: fixed (", "Use fixed_edges"},
         {"", "[domain]\nwidth = 1\nheight = 1\nfixed_edges = [0]\n", "19:15: [domain]: fixed_edges", "the domain is a rectangle"},
         {"", "[[joint_set]]\ndip_deg = 0\nspacing = 2\n", "16:1: case: [[joint_set]] (", "there is no [domain]"},
         {"", "[domain]\nwidth = 9\nheight = 9\n[[joint_set]]\ndip_deg = 0\nspacing = 2\njoint = \"defalt\"\n",

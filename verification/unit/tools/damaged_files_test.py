@@ -156,7 +156,7 @@ class DamagedFiles(unittest.TestCase):
             with self.subTest(file):
                 (self.folder / file).write_bytes(content if content is not None else json.dumps(
                     json.loads((self.whole / file).read_text()) | {"wall_seconds": float("nan")}).encode())
-                for command in ("report",) if file == "summary.json" and content != b"[]" else ("plot", "report"):
+                for command in ("report",) if file == "summary.json" else ("plot", "report"):
                     done = subprocess.run([HDEM, command, self.folder], capture_output=True, text=True, check=False)
                     self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                     self.assertTrue(done.stderr.startswith(f"error: hdem {command}: "), done.stderr)

@@ -186,15 +186,6 @@ class InterruptedRun(unittest.TestCase):
         last.write_bytes(last.read_bytes()[:1000])    # the power failed
         self.assertEqual(hdem_io.open_run(folder).frames, frames[:-1])
 
-    def test_summary_may_say_that_a_run_was_interrupted(self):
-        folder = Path(self.scratch.name, "told")
-        shutil.copytree(self.folder, folder)
-        with h5py.File(folder / "results.h5", "r+") as opened:
-            opened["provenance"].attrs["end"] = np.bytes_("2026-01-01")
-        self.assertEqual(hdem_io.open_run(folder).state(), "done")
-        (folder / "summary.json").write_text('{"interrupted": true}')
-        self.assertEqual(hdem_io.open_run(folder).state(), "interrupted")
-
 
 class ColourRange(unittest.TestCase):
     def test_greatest_value_is_the_end(self):

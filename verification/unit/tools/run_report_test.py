@@ -116,9 +116,6 @@ class PageOfARun(unittest.TestCase):
         with h5py.File(folder / "results.h5", "r+") as opened:
             opened["provenance"].attrs["end"] = np.bytes_("")
         self.assertIn("was interrupted", self.page_of(folder))
-        (folder / "summary.json").write_text('{"interrupted": true, "cycles": 3}')
-        self.assertIn("was interrupted", self.page_of(folder))
-        (folder / "summary.json").unlink()
         (folder / ".lock").touch()
         with open(folder / ".lock", "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)

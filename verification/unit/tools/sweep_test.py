@@ -124,7 +124,7 @@ class Sweep(unittest.TestCase):
             (self.folder / f"s/run_00000{number}").mkdir()
             (self.folder / f"s/run_00000{number}/.lock").write_text("{}")
         (self.folder / "s/run_000003").mkdir()
-        (self.folder / "s/run_000003/summary.json").write_text('{"interrupted": true}')
+        (self.folder / "s/run_000003/results.h5").touch()
         with open(self.folder / "s/run_000001/.lock", "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             code, said = self.sweep("collect", "s")
