@@ -15,8 +15,7 @@ namespace hdem
 namespace
 {
 constexpr const char* file_type = "hdem-checkpoint";
-constexpr std::int64_t major_version = 2;  // other numbers are refused
-constexpr std::int64_t minor_version = 0;
+const std::vector<std::int64_t> layout = {2, 1};  // a state goes on with the program that knows all of it: others are refused
 
 void write_record(Hdf5Writer& file, const RunRecord& record)
 {
@@ -78,12 +77,14 @@ void check_version(const Hdf5Reader& file, const std::string& name)
 {
     if (!file.has_attribute("/", "filetype") || file.text("/", "filetype") != file_type)
         file.fail("/@filetype", "not a checkpoint of hdem");
-    const std::int64_t major = file.attribute<std::int64_t>("/", "version", {2}).front();
-    if (major != major_version)
+    const auto found = file.attribute<std::int64_t>("/", "version", {2});
+    if (found != layout)
         throw InputError(
             Problem{.key = {},
-                    .text = fmt::format("{}: version = {} (this hdem {} reads version {}). Go on with the hdem that wrote it: {}.",
-                                        name, major, version().number, major_version, file.text("/", "hdem_version"))});
+                    .text = fmt::format(
+                        "{}: version = {}.{} (this hdem {} reads version {}.{}). Go on with the hdem that wrote it: {}, commit {}.",
+                        name, found[0], found[1], version().number, layout[0], layout[1], file.text("/", "hdem_version"),
+                        file.text("/", "git_commit"))});
 }
 
 /// Calls `read`; whatever it finds wrong with the file becomes an error of the input.
@@ -117,7 +118,7 @@ void write_checkpoint(const std::filesystem::path& folder, const RunRecord& reco
 {
     Hdf5Writer file(checkpoint_file(folder));
     file.set_text("/", "filetype", file_type);
-    file.set_attribute("/", "version", std::vector<std::int64_t>{major_version, minor_version});
+    file.set_attribute("/", "version", layout);
     file.set_text("/", "hdem_version", version().number);
     file.set_text("/", "git_commit", version().commit);
     file.set_text("/", "date_and_time", timestamp());

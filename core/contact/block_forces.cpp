@@ -28,6 +28,21 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
 
 namespace
 {
+double squared_force(const ContactLoads& loads, Index entry)
+{
+    const auto& load = loads.load[entry];
+    return load.x * load.x + load.y * load.y;
+}
+
+/// Is the joint of one entry the one that damping goes by, rather than the other's? Two that slide have both all of their strength in use: the one that bears
+/// more, whichever stands first.
+bool is_used_more(const ContactLoads& loads, Index entry, Index other)
+{
+    const float share = loads.use[entry / 2].mobilised;
+    const float most = loads.use[other / 2].mobilised;
+    return share > most || (share == most && squared_force(loads, entry) > squared_force(loads, other));
+}
+
 template <bool find_joint>
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, Blocks& blocks)
@@ -49,15 +64,17 @@ void sum_forces(IndexRange range, const Model& model, const BlockContacts& list,
             force.contacts |= use.contacts;
             if constexpr (find_joint)
             {
-                most = use.mobilised > force.mobilised ? entry / 2 : most;
-                force.mobilised = std::max(force.mobilised, use.mobilised);
+                if (use.mobilised >= 0.0F && (most == no_index || is_used_more(loads, entry, most)))
+                    most = entry;
             }
         }
         sum.store(&force.x);
         if (most != no_index)
         {
-            force.t_x = loads.use[most].t_x;
-            force.t_y = loads.use[most].t_y;
+            const JointUse& use = loads.use[most / 2];
+            force.mobilised = use.mobilised;
+            force.t_x = use.t_x;
+            force.t_y = use.t_y;
         }
         blocks.force[b] = force;
     }

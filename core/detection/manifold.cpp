@@ -168,8 +168,9 @@ Facing face(const Shapes& shapes, const Pair& pair, bool ref_is_a, Index ref_edg
 
 /// The two edges of `facing` are not where the parts overlap: of the edges whose distance is `best`, the one that is. Edges of an almost straight side
 /// are equally far from a corner that enters it, and only one of them is over that corner.
-Facing better_placed(const Shapes& shapes, const Pair& pair, Facing facing, double best)
+Facing better_placed(const Shapes& shapes, const Pair& pair, const Facing& facing, double best)
 {
+    Facing deepest = facing;
     for (const bool on_a : {true, false})
     {
         const Index part = on_a ? pair.a : pair.b;
@@ -179,11 +180,11 @@ Facing better_placed(const Shapes& shapes, const Pair& pair, Facing facing, doub
             if (!is_external(shapes, e) ||
                 edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b) < best - pair.margin)
                 continue;
-            if (const Facing f = face(shapes, pair, on_a, e); f.overlap > facing.overlap + pair.margin)
-                facing = f;
+            if (const Facing f = face(shapes, pair, on_a, e); f.overlap > deepest.overlap)
+                deepest = f;
         }
     }
-    return facing;
+    return deepest.overlap > facing.overlap + pair.margin ? deepest : facing;
 }
 
 /// World position of a contact's points relative to the centroid of `from`.

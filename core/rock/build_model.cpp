@@ -44,9 +44,19 @@ Box bounding_box_of(const std::vector<RockBlock>& blocks)
     return box;
 }
 
+/// A model far from the user's origin would lose digits of every centroid.
+void move_blocks(std::vector<RockBlock>& blocks, const Vec2& way)
+{
+    for (RockBlock& block : blocks)
+        for (ConvexPart& part : block.parts)
+            for (Vec2& vertex : part.vertices)
+                vertex += way;
+}
+
 /// Eq. (28): model area over the area of a block, here the mean one. The model's width and height are those of the smallest
 /// rectangle around it: along the axes of x and y a turned model would have another threshold.
-double size_ratio(const std::vector<RockBlock>& blocks, const Model& model)
+/// @param origin  of the model in the blocks' coordinates
+double size_ratio(const std::vector<RockBlock>& blocks, const Vec2& origin, double mean_size)
 {
     SmallestRectangle around;
     for (const RockBlock& block : blocks)
@@ -54,10 +64,10 @@ double size_ratio(const std::vector<RockBlock>& blocks, const Model& model)
         {
             std::vector<Vec2> points = part.vertices;
             for (Vec2& point : points)
-                point -= model.origin;
+                point -= origin;
             around.add(points);
         }
-    return around.area() / (model.mean_size * model.mean_size);
+    return around.area() / (mean_size * mean_size);
 }
 
 void add_part(Shapes& shapes, const ConvexPart& part, const Vec2& centroid, Index block)
@@ -152,8 +162,9 @@ double greatest_stiffness(const JointTable& joints)
     return stiffness;
 }
 
+/// @param origin  of the model in the blocks' coordinates
 void add_initial_state(const RockMass& rock, const std::vector<Index>& order, const std::vector<BlockMoments>& moments,
-                       const Model& model, State& state)
+                       const Vec2& origin, const Model& model, State& state)
 {
     Blocks& blocks = state.blocks;
     const auto n = static_cast<std::size_t>(model.blocks());
@@ -167,7 +178,7 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
     for (Index i = 0; i < model.blocks(); ++i)
     {
         const RockBlock& from = rock.blocks[order[i]];
-        const Vec2 at = moments[order[i]].of.centroid - model.origin;
+        const Vec2 at = moments[order[i]].of.centroid - origin;
         blocks.motion[i] = {.x = at.x(), .y = at.y(), .vx = from.velocity.x(), .vy = from.velocity.y(), .w = from.angular_velocity};
         blocks.inertia[i] = model.full_inertia[i];
         if (from.fix_x)
@@ -201,7 +212,7 @@ Setup build_model(const CaseDef& def)
         throw InputError(Problem{.key = "domain",
                                  .text = "rock mass: blocks = 0 (nothing to compute). Give a [domain] or at least one [[block]]."});
     Model& model = setup.model;
-    const Box box = bounding_box_of(rock.blocks);
+    Box box = bounding_box_of(rock.blocks);
     model.title = def.title;
     // A whole number of metres, so that subtracting it is exact for coordinates of up to 1e9 m given to a micrometre.
     model.origin = (0.5 * (box.low + box.high)).array().round();
@@ -209,6 +220,13 @@ Setup build_model(const CaseDef& def)
     const Vec2 extent = box.high - box.low;
     model.lost_beyond = 0.5 * extent.norm() + def.convergence.lost_distance.value_or(10.0 * extent.maxCoeff());
 
+    Vec2 origin = model.origin;
+    if (origin.norm() > extent.norm())
+    {
+        move_blocks(rock.blocks, -origin);
+        box = {box.low - origin, box.high - origin};
+        origin = {0.0, 0.0};
+    }
     std::vector<BlockMoments> moments;
     moments.reserve(rock.blocks.size());
     for (const RockBlock& block : rock.blocks)
@@ -245,7 +263,7 @@ Setup build_model(const CaseDef& def)
     model.histories = def.histories;
     model.mean_size = std::sqrt(total_area / static_cast<double>(order.size()));
 
-    add_initial_state(rock, order, moments, model, setup.state);
+    add_initial_state(rock, order, moments, origin, model, setup.state);
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
     const double smallest = smallest_free_mass(model, setup.state.blocks);
@@ -258,7 +276,8 @@ Setup build_model(const CaseDef& def)
     model.is_driven = is_driven(def);
     model.has_step = def.time.step.has_value();
     model.stable_fraction = def.time.stable_fraction;
-    model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock.blocks, model);
+    model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale
+                                                        : size_ratio(rock.blocks, origin, model.mean_size);
 
     std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);
     if (!std::isfinite(smallest))

@@ -67,6 +67,16 @@ struct Found
     CheckpointReader reader;
 };
 
+bool can_be_read(const fs::path& checkpoint)
+try
+{
+    return fs::exists(checkpoint) && CheckpointReader(checkpoint).cycle() >= 0;
+}
+catch (const InputError&)
+{
+    return false;
+}
+
 /// The checkpoint itself, or the last one of a folder that can be read.
 /// @param ours  the run goes on in that folder: a damaged checkpoint is put aside, else it would soon take the place of the sound one
 Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>& notes)
@@ -85,7 +95,7 @@ Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>
     }
     catch (const InputError& error)
     {
-        if (!fs::exists(previous))
+        if (!can_be_read(previous))
             throw;
         notes.push_back(fmt::format("warning: {}", error.what()));
         if (ours)
