@@ -34,15 +34,6 @@ double squared_force(const ContactLoads& loads, Index entry)
     return load.x * load.x + load.y * load.y;
 }
 
-/// Is the joint of one entry the one that damping goes by, rather than the other's? Two that slide have both all of their strength in use: the one that bears
-/// more, whichever stands first.
-bool is_used_more(const ContactLoads& loads, Index entry, Index other)
-{
-    const float share = loads.use[entry / 2].mobilised;
-    const float most = loads.use[other / 2].mobilised;
-    return share > most || (share == most && squared_force(loads, entry) > squared_force(loads, other));
-}
-
 template <bool find_joint>
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, Blocks& blocks)
@@ -64,15 +55,19 @@ void sum_forces(IndexRange range, const Model& model, const BlockContacts& list,
             force.contacts |= use.contacts;
             if constexpr (find_joint)
             {
-                if (use.mobilised >= 0.0F && (most == no_index || is_used_more(loads, entry, most)))
+                // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
+                if (use.mobilised > force.mobilised || (use.mobilised == force.mobilised && most != no_index &&
+                                                        squared_force(loads, entry) > squared_force(loads, most)))
+                {
                     most = entry;
+                    force.mobilised = use.mobilised;
+                }
             }
         }
         sum.store(&force.x);
         if (most != no_index)
         {
             const JointUse& use = loads.use[most / 2];
-            force.mobilised = use.mobilised;
             force.t_x = use.t_x;
             force.t_y = use.t_y;
         }
