@@ -58,7 +58,6 @@ checkpoint_every = 200
 checkpoint_wall_minutes = 0
 """
 INTERVAL = 200    # checkpoint_every
-ROW_EVERY = 50    # where rows of run.log must tell how far a killed run had come
 
 
 def write_case(folder):
@@ -117,13 +116,69 @@ def checkpoint_cycle(folder):
     return -1
 
 
+def same_bits(a, b):
+    """Texts of variable length have no bytes of their own; numbers must be the same to the sign of zero."""
+    a, b = np.asarray(a), np.asarray(b)
+    return a.dtype == b.dtype and a.shape == b.shape and (a.tolist() == b.tolist() if a.dtype.kind == "O" else a.tobytes() == b.tobytes())
+
+
+def read_frame(file):
+    """Every dataset and every attribute of a frame."""
+    with h5py.File(file, "r") as opened:
+        objects = {f"/@{key}": value for key, value in opened.attrs.items()}
+
+        def take(name, item):
+            objects.update({f"{name}@{key}": value for key, value in item.attrs.items()})
+            if isinstance(item, h5py.Dataset):
+                objects[name] = item[...]
+        opened.visititems(take)
+        return objects
+
+
+def differing_keys(a, b):
+    return sorted(a.keys() ^ b.keys()) + sorted(name for name in a.keys() & b.keys() if not same_bits(a[name], b[name]))
+
+
+def differing_frames(one, other):
+    """Frames that only one run has, and what in the others is not the same to the last bit."""
+    names = [{file.name for file in (folder / "frames").iterdir() if file.suffix == ".hdf"} for folder in (one, other)]
+    differing = [f"frames/{name}" for name in sorted(names[0] ^ names[1])]
+    for name in sorted(names[0] & names[1]):
+        files = [folder / "frames" / name for folder in (one, other)]
+        if files[0].read_bytes() != files[1].read_bytes():
+            differing += [f"frames/{name}: {key}" for key in differing_keys(*map(read_frame, files))]
+    return differing
+
+
 def differing_results(one, other):
-    """Names of histories, energies and frame numbers that are not the same to the last bit."""
+    """Names of histories, energies, frame numbers and parts of frames that are not the same to the last bit."""
     def tables(folder):
         with h5py.File(folder / "results.h5", "r") as results:
-            values = {name: results["frames"][name][...] for name in ("number", "cycle", "time", "stage")}
+            values = {f"/frames/{name}": results["frames"][name][...] for name in ("number", "cycle", "time", "stage")}
             return read_all(results["history"], read_all(results["energy"], values))
-    a, b = tables(one), tables(other)
-    frames = [sorted(file.name for file in (folder / "frames").iterdir()) for folder in (one, other)]
-    return sorted(a.keys() ^ b.keys()) + [name for name in a.keys() & b.keys() if not np.array_equal(a[name], b[name])] + \
-        (["frames"] if frames[0] != frames[1] else [])
+    series = [name for name in ("blocks.hdf.series", "contacts.hdf.series")
+              if [(folder / name).read_bytes() if (folder / name).exists() else None for folder in (one, other)].count(None) == 1
+              or ((one / name).exists() and (one / name).read_bytes() != (other / name).read_bytes())]
+    return differing_keys(tables(one), tables(other)) + differing_frames(one, other) + series
+
+
+# Of the time on the wall and the machine, not of the run.
+OF_THE_MACHINE = {"threads", "wall_seconds", "stage_wall_seconds", "contact_point_updates_per_second", "timing"}
+
+
+# What a checkpoint does not keep of the stages that are over: a restart leaves it empty.
+NOT_KEPT = {"not_at_rest": [], "static_solution": None}
+
+
+def forgotten(one, other):
+    """How many values of stages that summary.json of `other` has are empty in that of `one`, because a checkpoint does not keep them."""
+    pairs = zip(summary(one)["stages"], summary(other)["stages"])
+    return sum(a[key] == empty != b[key] for a, b in pairs for key, empty in NOT_KEPT.items())
+
+
+def differing_summary(one, other):
+    """Keys of summary.json whose values are not the same, the numbers to their last digit; but for what `forgotten` counts."""
+    a, b = summary(one), summary(other)
+    for mine, whole in zip(a["stages"], b["stages"]):
+        mine.update({key: whole[key] for key, empty in NOT_KEPT.items() if mine[key] == empty})
+    return sorted(key for key in (a.keys() | b.keys()) - OF_THE_MACHINE if a.get(key) != b.get(key))
