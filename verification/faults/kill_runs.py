@@ -4,6 +4,7 @@
     kill_runs.py HDEM [--kills 100] [--seed 1]             HDEM: the program; one scene, killed and restarted again and again
     kill_runs.py HDEM --random [--kills 1000] [--seed 1]   each run is another random scene (random_scene.py)
     kill_runs.py HDEM --random --scene 17 [--kills 12]     only this scene
+    kill_runs.py HDEM --case woken_by_stage.toml           only this case, whose checkpoints are by cycles
 
 After each kill every file must open and be readable to its last byte, no more than one checkpoint interval may be lost, and the run goes on from
 the folder, or begins anew where there was no checkpoint yet. What is left of a kill (`.lock`, temporary files) neither locks out nor stays. Once a
@@ -16,6 +17,7 @@ import argparse
 import json
 import os
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -38,6 +40,14 @@ class TheScene:
     """The one scene of runs without --random."""
     interval = run_folder.INTERVAL
     text = run_folder.CASE.replace("row_every = 500", "row_every = 50")    # rows of run.log must tell how far a killed run had come
+
+
+class GivenScene:
+    """The case of --case."""
+
+    def __init__(self, file):
+        self.text = file.read_text(encoding="utf-8")
+        self.interval = int(re.search(r"(?m)^checkpoint_every = (\d+)", self.text)[1])
 
 
 def cycles_logged(folder):
@@ -177,13 +187,14 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--random", action="store_true")
     parser.add_argument("--scene", type=int)
+    parser.add_argument("--case", type=Path)
     parser.add_argument("--from-previous", action="store_true")
     options = parser.parse_args()
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")    # more threads than processors
     problems, kills, runs, left_out, forgotten, manners = [], 0, 0, 0, 0, {}
     while kills < options.kills or runs == 0:
         number = options.scene if options.scene is not None else options.seed * 10000 + runs + left_out
-        scene = Scene(number) if options.random else TheScene()
+        scene = GivenScene(options.case) if options.case else Scene(number) if options.random else TheScene()
         with tempfile.TemporaryDirectory() as scratch:
             killer = Killer(options, random.Random(number + 10 ** 7 * options.seed), Path(scratch), scene)
             name = f"scene {number}" if options.random else f"run {runs}"

@@ -43,7 +43,8 @@ class Scene:
         first = self.chance.randint(-40, 40)
         for number in range(2 if self.static else self.chance.choice((2, 2, 3))):
             dip = (first + number * self.chance.randint(50, 75) + 90) % 180 - 90
-            self.add("[[joint_set]]", dip_deg=float(dip), spacing=self.between(1.1, 1.4) if self.static else self.between(0.9, 1.3), deviation_deg=self.chance.choice((0.0, 3.0)),
+            spacing = self.between(1.1, 1.4) if self.static else self.between(0.9, 1.3)
+            self.add("[[joint_set]]", dip_deg=float(dip), spacing=spacing, deviation_deg=self.chance.choice((0.0, 3.0)),
                      persistence=self.chance.choice((1.0, 1.0, 0.8)))
         self.add("[generator]", seed=self.chance.randint(1, 10 ** 6), smallest_block_area=0.1)
         shape = self.chance.choice(("circle", "horseshoe", "rectangle"))
@@ -63,9 +64,10 @@ class Scene:
 
     def write_laws(self):
         self.add("[material.rock]", density=2700.0)
-        self.add("[joint.default]", normal_stiffness=7e9, shear_stiffness=5e8, friction_angle_deg=self.between(30.0, 40.0) if self.static else self.between(10.0, 40.0),
+        friction = self.between(30.0, 40.0) if self.static else self.between(10.0, 40.0)
+        self.add("[joint.default]", normal_stiffness=7e9, shear_stiffness=5e8, friction_angle_deg=friction,
                  cohesion=1e4 if self.static else self.chance.choice((0.0, 1e4)))
-        self.add("[contact]", method=self.chance.choice(("force", "hybrid")) if self.static else self.chance.choice(("force", "impulse", "hybrid")))
+        self.add("[contact]", method=self.chance.choice(("force", "hybrid") if self.static else ("force", "impulse", "hybrid")))
         if not self.static and self.chance.random() < 0.4:
             self.add("[damping]", preset=self.chance.choice(("paper", "dynamic")))
 
