@@ -90,13 +90,13 @@ double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored)
     return most > 0.0 ? residual(ledger, stored) / most : 0.0;
 }
 
-void LedgerWatch::look_at(const Model& model, const State& state)
+void watch_ledger(const Model& model, State& state)
 {
     const EnergyLedger& ledger = state.ledger;
     const double now = std::abs(relative_residual(ledger, stored_energy(model, state)));
     const bool has_impulses = ledger.impulse_loss != 0.0 || ledger.position_correction != 0.0;
     const double of_bar = now / (has_impulses ? impulses_residual : springs_residual);
-    if (!(of_bar <= share))
-        *this = {.residual = now, .share = of_bar, .cycle = state.cycle};
+    if (!(of_bar <= state.worst_residual.share))
+        state.worst_residual = {.residual = now, .share = of_bar, .cycle = state.cycle};
 }
 }  // namespace hdem

@@ -66,13 +66,6 @@ inline constexpr double springs_residual = 1e-6;
 inline constexpr double impulses_residual = 1e-4;
 inline constexpr double wrong_residual = 10.0;
 
-/// The worst residual that a run has had, against what it should have.
-struct LedgerWatch
-{
-    double residual = 0.0;  ///< relative [-]
-    double share = 0.0;     ///< of the bar
-    std::int64_t cycle = 0;
-
-    void look_at(const Model& model, const State& state);
-};
+/// Remember the present residual if it is the worst so far, against what it should be.
+void watch_ledger(const Model& model, State& state);
 }  // namespace hdem

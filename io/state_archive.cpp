@@ -103,6 +103,9 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::uint8_t>("/state", "stage_begun", state.stage_begun);
     archive.template value<std::int64_t>("/state", "stage_begin_cycle", state.stage_begin_cycle);
     archive.template value<double>("/state", "default_step", state.default_step);
+    archive.template value<double>("/state", "worst_residual", state.worst_residual.residual);
+    archive.template value<double>("/state", "worst_residual_share", state.worst_residual.share);
+    archive.template value<std::int64_t>("/state", "worst_residual_cycle", state.worst_residual.cycle);
     archive.template value<double>("/state", "quiet_since", state.quiet_since);
     archive.template value<std::uint8_t>("/state", "method", state.method);
     archive.template value<std::uint8_t>("/state", "damping", state.damping);

@@ -157,6 +157,7 @@ void Simulation::begin_stage(Index stage)
     state_.released.clear();
     state_.is_calm = false;
     state_.flies_ahead = false;
+    state_.rest_changed = true;  // who was left out takes part again
     state_.statics_due = false;
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
@@ -255,7 +256,7 @@ void Simulation::renew_contacts()
 void Simulation::check_state()
 {
     check_finite(model_, state_);
-    watch_.look_at(model_, state_);
+    watch_ledger(model_, state_);
     check_step(model_, state_);
 }
 

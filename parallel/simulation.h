@@ -55,7 +55,6 @@ class Simulation
     void advance(std::int64_t cycles);
     /// Throws RunError: see state_check.h. Looks at the ledger.
     void check_state();
-    [[nodiscard]] const LedgerWatch& ledger_watch() const { return watch_; }
 
     [[nodiscard]] Equilibrium equilibrium() const;
     /// Do the criteria of rest hold, and every_block, where it is one of them, for long enough? Each check is remembered.
@@ -80,7 +79,6 @@ class Simulation
     Model model_;
     State state_;
     CycleRunner runner_;
-    LedgerWatch watch_;
     int threads_ = 1;
     std::optional<StaticOutcome> statics_;
     std::function<bool()> is_to_stop_;

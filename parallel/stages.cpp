@@ -11,7 +11,7 @@ namespace hdem
 namespace
 {
 constexpr std::int64_t check_every = 1000;
-constexpr std::int64_t least_between_checks = 20;  ///< cycles; stages may be as short as one
+constexpr std::int64_t least_cycles_checked = 20;  ///< of a stage; it may have one only
 constexpr std::int64_t finish_every = 10'000;      ///< cycles between static solutions in a stage whose blocks are all slow
 
 void show(Simulation& simulation, std::span<Observer* const> observers, bool all)
@@ -83,8 +83,8 @@ class StageRunner
         result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (broken_off_)
             return result;
-        if (state.cycle - last_check_ >= least_between_checks || def_ == &simulation_.model().stages.back())
-            check_state();
+        if (result.cycles >= least_cycles_checked || def_ == &simulation_.model().stages.back())
+            simulation_.check_state();
         if (result.sought_rest && !result.at_rest)
             result.not_at_rest = moving_blocks();
         for (Observer* const observer : observers_)
@@ -115,16 +115,10 @@ class StageRunner
         pace_.took(state.cycle - now);
         const bool looks = state.cycle % check_every == 0;
         if (looks)
-            check_state();
+            simulation_.check_state();
         if (ends_at_rest(*def_) && (looks || state.cycle == end_))
             simulation_.hold_lost_blocks();
         return is_at_rest();
-    }
-
-    void check_state()
-    {
-        simulation_.check_state();
-        last_check_ = simulation_.state().cycle;
     }
 
     /// Looks at the rock if this is a cycle for it. The criterion every_block must have held for some time.
@@ -174,7 +168,6 @@ class StageRunner
     const StageDef* def_ = nullptr;
     std::int64_t begin_ = 0;
     std::int64_t end_ = 0;
-    std::int64_t last_check_ = -check_every;
     bool broken_off_ = false;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Sums of the energy ledger since the start of the run; part of the state.
 
+#include <cstdint>
+
 namespace hdem
 {
 /// What went in (first group) and what was spent (second), all [J], spent energy positive.
@@ -35,5 +37,13 @@ struct EnergyLedger
         removed += other.removed;
         coasting += other.coasting;
     }
+};
+
+/// The worst residual of the ledger that a run has had, against what it should have.
+struct WorstResidual
+{
+    double residual = 0.0;  ///< relative [-]
+    double share = 0.0;     ///< of the bar
+    std::int64_t cycle = 0;
 };
 }  // namespace hdem

@@ -35,6 +35,7 @@ struct State
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
     EnergyLedger ledger;
+    WorstResidual worst_residual;
     std::int64_t cycle = 0;
     double time = 0.0;  ///< sum of all steps [s]
     std::int64_t stage_begin_cycle = 0;

@@ -69,7 +69,6 @@ int run_command(const RunOptions& options)
     patience.reset();
 
     clear_for_run(start, options.overwrite);
-    remove_file(folder / "summary.json");  // that of an older run, or not yet the outcome
     Log log(folder / "run.log", options.quiet, start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
     print_banner(log, start, options, simulation);
 
@@ -106,7 +105,7 @@ int run_command(const RunOptions& options)
     const RunSummary summary = summarise(start, simulation, stages, session, keeper.wall_seconds());
     write_summary(folder / "summary.json", summary);
     print_closing(log, summary, session, simulation, folder);
-    if (const LedgerWatch& watch = simulation.ledger_watch(); watch.share > wrong_residual)
+    if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > wrong_residual)
         throw RunError(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} (more than ten times what it should be: "
                         "the answer may be wrong by as much). Give a smaller time.step or time.stable_fraction. Results are in {}.",

@@ -87,7 +87,7 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
             fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
                         "greater convergence.lost_distance.",
                         first_of(s.lost_blocks)));
-    if (const LedgerWatch& watch = simulation.ledger_watch(); watch.share > 1.0)
+    if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
         warnings.push_back(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
                         "Give a smaller time.step or time.stable_fraction.",

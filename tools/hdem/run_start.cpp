@@ -82,7 +82,18 @@ catch (const InputError&)
 Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>& notes)
 {
     if (!fs::is_directory(given))
-        return {given, CheckpointReader(given)};
+    {
+        CheckpointReader reader(given);
+        const fs::path younger = checkpoint_file(folder_of(given));
+        if (ours && given.filename() == previous_checkpoint_file("").filename() && fs::exists(younger))
+        {
+            // Else a restart of the folder would go on from it, without the rows and frames that are dropped now.
+            const fs::path aside = younger.string() + ".younger";
+            fs::rename(younger, aside);
+            notes.push_back(fmt::format("note: {} is younger and is now called {}", younger.string(), aside.string()));
+        }
+        return {given, std::move(reader)};
+    }
     const fs::path last = checkpoint_file(given);
     const fs::path previous = previous_checkpoint_file(given);
     if (!fs::exists(last) && !fs::exists(previous))
@@ -179,9 +190,12 @@ RunStart start_run(const RunOptions& options)
 
 void clear_for_run(const RunStart& start, bool overwrite)
 {
-    if (start.restarted && !start.moved)
-        return;
     const fs::path& folder = start.folder;
+    if (start.restarted && !start.moved)
+    {
+        remove_file(folder / "summary.json");  // not yet the outcome
+        return;
+    }
     const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
     if (!overwrite && fs::exists(checkpoints[0]))
     {
@@ -201,6 +215,7 @@ void clear_for_run(const RunStart& start, bool overwrite)
                 "write to another folder with -o, or begin anew with --overwrite.",
                 checkpoints[0].string(), reader->cycle(), folder.string()));
     }
+    remove_file(folder / "summary.json");  // first what tells of the others
     for (const fs::path& checkpoint : checkpoints)
         remove_file(checkpoint);
     remove_file(folder / "results.h5");  // it names frames that are about to go
