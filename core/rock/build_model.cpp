@@ -3,6 +3,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
+#include "core/geometry/tangent.h"
 #include "core/motion/time_step.h"
 #include "core/rock/resolve_names.h"
 #include "core/stage/rules.h"
@@ -119,7 +120,7 @@ void add_joints(const CaseDef& def, Model& model)
         table.names.push_back(joint.name);
         table.laws.push_back({.normal_stiffness = joint.normal_stiffness,
                               .shear_stiffness = joint.shear_stiffness,
-                              .friction_coefficient = std::tan(radians(joint.friction_angle_deg)),
+                              .friction_coefficient = tangent(radians(joint.friction_angle_deg)),
                               .cohesion = joint.cohesion,
                               .restitution = joint.restitution.value_or(def.contact.restitution)});
         if (joint.name == "default")

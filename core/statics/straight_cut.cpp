@@ -1,9 +1,10 @@
 #include "core/statics/straight_cut.h"
 
+#include "core/geometry/unit_direction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace hdem
 {
@@ -110,8 +111,7 @@ std::vector<StraightCut> StraightCutSearch::find(std::span<const Index> blocks, 
     count_.resize(static_cast<std::size_t>(std::clamp(4.0 * std::sqrt(static_cast<double>(blocks.size())), 64.0, 1024.0)));
     for (int i = 0; i < directions; ++i)
     {
-        const double angle = i * std::numbers::pi / directions;
-        StraightCut line{{std::cos(angle), std::sin(angle)}};
+        StraightCut line{unit_direction(i * 180.0 / directions)};
         if (find_in_direction(blocks, side, line))
             lines.push_back(line);
     }

@@ -6,9 +6,23 @@ target_compile_features(hdem_flags INTERFACE cxx_std_20)
 # Nothing reads errno after a math function or traps floating-point exceptions, so these two change no result.
 set(HDEM_NUMERIC_FLAGS -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(HDEM_NATIVE)
-    # g++ 12 fuses pairs like (a c - b s, a s + b c) into fmaddsub when it vectorises, in spite of -ffp-contract=off, and the bits then
-    # differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into.
-    list(APPEND HDEM_NUMERIC_FLAGS -march=native -mtune=native -mno-fma -mno-avx512f)
+    list(APPEND HDEM_NUMERIC_FLAGS -march=native -mtune=native)
+endif()
+
+# g++ 12 fuses pairs like (a c - b s, a s + b c) into fmaddsub when it vectorises, in spite of -ffp-contract=off, and the bits then
+# differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into. This holds for the -march of
+# HDEM_NATIVE and for one in CMAKE_CXX_FLAGS alike, and is asked anew each time, for those may have changed.
+include(CheckCXXSourceCompiles)
+string(JOIN " " CMAKE_REQUIRED_FLAGS ${HDEM_NUMERIC_FLAGS})
+unset(HDEM_HAS_FMA CACHE)
+check_cxx_source_compiles("
+    #if !defined(__FMA__) && !defined(__FMA4__) && !defined(__AVX512F__)
+    #error
+    #endif
+    int main() {}" HDEM_HAS_FMA)
+unset(CMAKE_REQUIRED_FLAGS)
+if(HDEM_HAS_FMA)
+    list(APPEND HDEM_NUMERIC_FLAGS -mno-fma -mno-fma4 -mno-avx512f)
 endif()
 
 set(HDEM_SANITIZE_FLAGS "")
