@@ -11,9 +11,10 @@ endif()
 
 # g++ 12 fuses pairs like (a c - b s, a s + b c) into fmaddsub when it vectorises, in spite of -ffp-contract=off, and the bits then
 # differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into. This holds for the -march of
-# HDEM_NATIVE and for one in CMAKE_CXX_FLAGS alike, and is asked anew each time, for those may have changed.
+# HDEM_NATIVE and for one that the user gives alike, and is asked anew each time, for that may have changed.
 include(CheckCXXSourceCompiles)
-string(JOIN " " CMAKE_REQUIRED_FLAGS ${HDEM_NUMERIC_FLAGS})
+string(TOUPPER "${CMAKE_BUILD_TYPE}" upper_build_type)
+string(JOIN " " CMAKE_REQUIRED_FLAGS ${CMAKE_CXX_FLAGS_${upper_build_type}} ${HDEM_NUMERIC_FLAGS})
 unset(HDEM_HAS_FMA CACHE)
 check_cxx_source_compiles("
     #if !defined(__FMA__) && !defined(__FMA4__) && !defined(__AVX512F__)
@@ -45,7 +46,6 @@ target_compile_options(hdem_flags INTERFACE
 target_link_options(hdem_flags INTERFACE ${HDEM_SANITIZE_FLAGS})
 
 # One line for the provenance of results; see core/version.h.
-string(TOUPPER "${CMAKE_BUILD_TYPE}" upper_build_type)
 string(JOIN " " HDEM_FLAGS_TEXT
     ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${upper_build_type}} ${HDEM_NUMERIC_FLAGS} ${HDEM_SANITIZE_FLAGS})
 string(REGEX REPLACE "  +" " " HDEM_FLAGS_TEXT "${HDEM_FLAGS_TEXT}")
