@@ -15,16 +15,19 @@ endif()
 include(CheckCXXSourceCompiles)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" upper_build_type)
 string(JOIN " " CMAKE_REQUIRED_FLAGS ${CMAKE_CXX_FLAGS_${upper_build_type}} ${HDEM_NUMERIC_FLAGS})
-unset(HDEM_HAS_FMA CACHE)
-check_cxx_source_compiles("
-    #if !defined(__FMA__) && !defined(__FMA4__) && !defined(__AVX512F__)
-    #error
-    #endif
-    int main() {}" HDEM_HAS_FMA)
+foreach(extension FMA FMA4 AVX512F)
+    string(TOLOWER ${extension} option)
+    unset(HDEM_HAS_${extension} CACHE)
+    check_cxx_source_compiles("
+        #if !defined(__${extension}__)
+        #error
+        #endif
+        int main() {}" HDEM_HAS_${extension})
+    if(HDEM_HAS_${extension})
+        list(APPEND HDEM_NUMERIC_FLAGS -mno-${option})
+    endif()
+endforeach()
 unset(CMAKE_REQUIRED_FLAGS)
-if(HDEM_HAS_FMA)
-    list(APPEND HDEM_NUMERIC_FLAGS -mno-fma -mno-fma4 -mno-avx512f)
-endif()
 
 set(HDEM_SANITIZE_FLAGS "")
 if(HDEM_SANITIZE STREQUAL "address")
