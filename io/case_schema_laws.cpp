@@ -255,7 +255,8 @@ SectionSpec time_section()
               .example = "5e-5",
               .range = {.low = 0, .high = 1e6, .low_included = false},
               .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness)); a block with a side L above 4 m "
-                              "counts with 4 m / L of its mass (not under `preset = \"paper\"`). Half the stable limit of the first contacts where that "
+                              "counts with 4 m / L of its mass (not under `preset = \"paper\"`). Half the stable limit of the "
+                              "first contacts where that "
                               "is above it"}),
          field<&TimeDef::fraction>({.name = "fraction",
                                     .effect = "FRAC of Eq. (32), when step is not given.",

@@ -176,28 +176,30 @@ SectionSpec history_section()
 
 SectionSpec output_section()
 {
-    return {"output",
-            SectionKind::table,
-            "output",
-            "",
-            {field<&OutputDef::row_every>(
-                 {.name = "row_every",
-                  .effect = "Cycles between rows on the screen and in run.log, and between samples of the energies.",
-                  .range = count}),
-             field<&OutputDef::frame_every>({.name = "frame_every",
-                                             .effect = "Cycles between frames for ParaView; 0: one at the end of each stage. With more than 1000 stages only where 100 cycles have passed since the last frame.",
-                                             .range = count_or_none}),
-             field<&OutputDef::contacts>({.name = "contacts", .effect = "Write contact frames as well."}),
-             field<&OutputDef::checkpoint_every>(
-                 {.name = "checkpoint_every",
-                  .effect = "Cycles between checkpoints, from which `hdem run --restart` goes on; 0: by wall time only.",
-                  .range = count_or_none}),
-             field<&OutputDef::checkpoint_wall_minutes>(
-                 {.name = "checkpoint_wall_minutes",
-                  .unit = "min",
-                  .effect = "Time on the wall between checkpoints; 0: by cycles only. There is one at the end and when the run is "
-                            "interrupted in any case.",
-                  .range = {.low = 0, .high = 1e6}})},
-            part<&CaseDef::output>};
+    return {
+        "output",
+        SectionKind::table,
+        "output",
+        "",
+        {field<&OutputDef::row_every>(
+             {.name = "row_every",
+              .effect = "Cycles between rows on the screen and in run.log, and between samples of the energies.",
+              .range = count}),
+         field<&OutputDef::frame_every>({.name = "frame_every",
+                                         .effect = "Cycles between frames for ParaView; 0: one at the end of each stage. With more "
+                                                   "than 1000 stages only where 100 cycles have passed since the last frame.",
+                                         .range = count_or_none}),
+         field<&OutputDef::contacts>({.name = "contacts", .effect = "Write contact frames as well."}),
+         field<&OutputDef::checkpoint_every>(
+             {.name = "checkpoint_every",
+              .effect = "Cycles between checkpoints, from which `hdem run --restart` goes on; 0: by wall time only.",
+              .range = count_or_none}),
+         field<&OutputDef::checkpoint_wall_minutes>(
+             {.name = "checkpoint_wall_minutes",
+              .unit = "min",
+              .effect = "Time on the wall between checkpoints; 0: by cycles only. There is one at the end and when the run is "
+                        "interrupted in any case.",
+              .range = {.low = 0, .high = 1e6}})},
+        part<&CaseDef::output>};
 }
 }  // namespace hdem

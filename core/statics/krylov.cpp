@@ -48,7 +48,8 @@ double HessenbergProblem::add_column(std::span<const double> column)
         turned[i] = c * upper + s * lower;
         turned[i + 1] = c * lower - s * upper;
     }
-    const double length = std::sqrt(turned.back() * turned.back() + column.back() * column.back());  // std::hypot has other bits in other libraries
+    const double length = std::sqrt(turned.back() * turned.back() +
+                                    column.back() * column.back());  // std::hypot has other bits in other libraries
     const Rotation last = length > 0.0 ? Rotation{turned.back() / length, column.back() / length} : Rotation{};
     turned.back() = length;
     rotation_.push_back(last);

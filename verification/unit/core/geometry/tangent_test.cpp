@@ -1,5 +1,4 @@
 #include "core/geometry/tangent.h"
-
 #include "core/types.h"
 
 #include <gtest/gtest.h>
