@@ -151,6 +151,8 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         leave_out(state, team);
     if (rules_.step.varies)
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
+    // close_cycle makes the next step the last one: nobody may go on before.
+    const bool step_changes = state.blocks.step.last != state.blocks.step.next;
     if (rules_.has_loads)
         team.alone(
             [&]
@@ -187,7 +189,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     way += farthest;
     if (team.is_first())
         close_cycle(model, state);
-    if (rules_.step.varies || rules_.rest.leaves_out)
+    if (rules_.step.varies || rules_.rest.leaves_out || step_changes)
         team.barrier();  // all read the step and who rests
     return goes_on;
 }

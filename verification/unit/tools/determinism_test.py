@@ -4,6 +4,7 @@
     determinism_test.py HDEM CASES    the program, and verification/cases
 """
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -24,6 +25,62 @@ def summary(*arguments):
         return json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
 
 
+SHORT_STAGES = """
+[domain]
+width = 16.0
+height = 16.0
+fixed = ["left", "right", "bottom"]
+[[joint_set]]
+dip_deg = 10.0
+spacing = 0.8
+deviation_deg = 2.0
+[[joint_set]]
+dip_deg = -80.0
+spacing = 0.8
+deviation_deg = 2.0
+[[excavation]]
+name = "tunnel"
+shape = "circle"
+position = [8.0, 8.0]
+diameter = 5.0
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e9
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+[contact]
+method = "force"
+[generator]
+smallest_block_area = 0.032
+smallest_edge = 0.04
+[[stage]]
+until = "converged"
+max_cycles = 300
+[[stage]]
+excavate = ["tunnel"]
+until = "converged"
+max_cycles = 400
+""" + 20 * """
+[[stage]]
+until = "converged"
+max_cycles = 100
+[[stage]]
+cycles = 10
+"""
+
+
+def short_stages(threads):
+    """summary.json of a run whose stages begin with another step than the one before ended with."""
+    with tempfile.TemporaryDirectory(prefix="hdem_determinism_") as folder:
+        case = Path(folder) / "case.toml"
+        case.write_text(SHORT_STAGES, encoding="utf-8")
+        done = subprocess.run([HDEM, "run", case, "-o", Path(folder) / "out", "--quiet", "--threads", threads],
+                              env=os.environ | {"OMP_WAIT_POLICY": "passive"}, capture_output=True, text=True, check=False)
+        assert done.returncode == 4, done.stderr  # not converged in so few cycles
+        return json.loads((Path(folder) / "out" / "summary.json").read_text(encoding="utf-8"))
+
+
 class Determinism(unittest.TestCase):
     def expect_same(self, method, thread_counts):
         one = summary("--method", method, "--threads", "1")
@@ -40,6 +97,13 @@ class Determinism(unittest.TestCase):
 
     def test_hybrid(self):
         self.expect_same("hybrid", "2348")
+
+    def test_where_stages_change_the_step(self):
+        one = short_stages("1")
+        for threads in "33322":
+            many = short_stages(threads)
+            self.assertEqual(many["state_hash"], one["state_hash"], f"{threads} threads")
+            self.assertEqual(many["energy"], one["energy"], f"{threads} threads")
 
 
 if __name__ == "__main__":
