@@ -120,6 +120,13 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::uint8_t>("/state", "statics_taken", state.statics_taken);
     archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
                                         [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest); });
+    const auto block_of_stage = [](StageBlock& b) { return std::tie(b.stage, b.block); };
+    archive.template rows<std::int32_t>("/state/not_at_rest", any_extent, state.not_at_rest, block_of_stage);
+    archive.template rows<std::int32_t>("/state/statics", any_extent, state.statics,
+                                        [](StaticSolution& s) { return std::tie(s.stage, s.end, s.iterations); });
+    archive.template rows<double>("/state/statics_residual", state.statics.size(), state.statics,
+                                  [](StaticSolution& s) { return std::tie(s.residual); });
+    archive.template rows<std::int32_t>("/state/came_loose", any_extent, state.came_loose, block_of_stage);
     EnergyLedger& ledger = state.ledger;
     archive.group("/state/ledger");
     archive.template value<double>("/state/ledger", "initial", ledger.initial);

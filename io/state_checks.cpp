@@ -31,6 +31,31 @@ bool is_rotation(const BlockMotion& m)
     return std::abs(m.c * m.c + m.s * m.s - 1.0) < 1e-6;
 }
 
+/// Blocks of the model, of stages before `end`, in order?
+bool are_blocks_of_stages(const std::vector<StageBlock>& named, Index end, Index blocks)
+{
+    const bool ascending = std::ranges::adjacent_find(named, std::greater_equal<>()) == named.end();
+    return ascending && std::ranges::all_of(named, [&](const StageBlock& b)
+                                            { return b.stage >= 0 && b.stage < end && b.block >= 0 && b.block < blocks; });
+}
+
+/// What is told of stages.
+std::optional<Damage> damage_of_stages(const Model& model, const State& state)
+{
+    if (!are_blocks_of_stages(state.not_at_rest, state.stage, model.blocks()))
+        return Damage{"/state/not_at_rest", "not blocks of stages that are over, ascending"};
+    if (!are_blocks_of_stages(state.came_loose, state.stage + 1, model.blocks()))
+        return Damage{"/state/came_loose", "not blocks of stages, ascending"};
+    Index last = -1;
+    for (const StaticSolution& s : state.statics)
+    {
+        if (s.stage <= last || s.stage > state.stage || s.end > StaticEnd::not_converged || s.iterations < 0)
+            return Damage{"/state/statics", "not static solutions of stages, ascending"};
+        last = s.stage;
+    }
+    return std::nullopt;
+}
+
 std::optional<Damage> damage_of_run(const Model& model, const State& state)
 {
     const auto stages = static_cast<Index>(model.stages.size());
@@ -56,6 +81,8 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
         return Damage{"/state@method", "unknown method or damping"};
     if (state.excavation_cycle < -1 || state.excavation_cycle > state.cycle || state.broad_phase_runs < 1)
         return Damage{"/state", "counters that no run leaves behind"};
+    if (auto damage = damage_of_stages(model, state))
+        return damage;
     const EnergyLedger& e = state.ledger;
     if (!are_finite({e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
                      e.impulse_loss, e.contact_changes, e.removed}))

@@ -40,7 +40,7 @@ Json timing_json(const RunSummary& s)
     return json;
 }
 
-/// null where none was tried, or before a restart.
+/// null where none was tried.
 Json statics_json(const std::optional<StaticResult>& statics)
 {
     if (!statics)

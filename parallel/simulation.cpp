@@ -178,8 +178,14 @@ void Simulation::begin_stage(Index stage)
 
 void Simulation::solve_due_statics()
 {
-    if (state_.statics_due)
-        solve_statics();
+    if (!state_.statics_due)
+        return;
+    solve_statics();
+    state_.statics.push_back(
+        {.stage = state_.stage, .end = statics_->kind, .iterations = statics_->iterations, .residual = statics_->residual});
+    for (const Index block : statics_->loose)
+        state_.came_loose.push_back({.stage = state_.stage, .block = model_.user_number[block]});
+    std::ranges::sort(state_.came_loose);
 }
 
 void Simulation::solve_statics()
@@ -225,9 +231,11 @@ void Simulation::hold_lost_blocks()
         renew_contacts();
 }
 
-void Simulation::note_outcome(bool at_rest)
+void Simulation::note_outcome(bool at_rest, const std::vector<Index>& not_at_rest)
 {
     state_.stages_done.push_back({.cycles = state_.cycle - state_.stage_begin_cycle, .at_rest = at_rest});
+    for (const Index block : not_at_rest)
+        state_.not_at_rest.push_back({.stage = state_.stage, .block = block});
 }
 
 void Simulation::advance(std::int64_t cycles)

@@ -48,8 +48,8 @@ class Simulation
     void finish_by_statics();
     /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.
     [[nodiscard]] const std::optional<StaticOutcome>& statics() const { return statics_; }
-    /// How the present stage ended; before the next one begins.
-    void note_outcome(bool at_rest);
+    /// How the present stage ended, and the user's numbers of blocks that were not at rest, ascending; before the next one begins.
+    void note_outcome(bool at_rest, const std::vector<Index>& not_at_rest);
 
     /// Throws RunError in the cycle in which springs begin to act that are too stiff for the step.
     void advance(std::int64_t cycles);

@@ -39,14 +39,25 @@ class Pace
     std::int64_t cycles_ = 1;
 };
 
-std::optional<StaticResult> static_result(const Simulation& simulation)
+/// Blocks that belong to the stage: the user's numbers.
+std::vector<Index> blocks_of_stage(const std::vector<StageBlock>& blocks, Index stage)
 {
-    if (!simulation.statics())
+    std::vector<Index> found;
+    for (const StageBlock& b : blocks)
+        if (b.stage == stage)
+            found.push_back(b.block);
+    return found;
+}
+
+/// What the static solution at the beginning of the stage found, if it was tried.
+std::optional<StaticResult> static_result(const Model& model, const State& state, Index stage)
+{
+    const auto found = std::ranges::find(state.statics, stage, &StaticSolution::stage);
+    if (found == state.statics.end())
         return std::nullopt;
-    const StaticOutcome& found = *simulation.statics();
-    StaticResult result{.outcome = name_of(found.kind), .iterations = found.iterations, .residual = found.residual};
-    for (const Index block : found.loose)
-        result.loose.push_back(simulation.model().name[block]);
+    StaticResult result{.outcome = name_of(found->end), .iterations = found->iterations, .residual = found->residual};
+    for (const Index user : blocks_of_stage(state.came_loose, stage))
+        result.loose.push_back(model.name[model.slot_of_user[user]]);
     return result;
 }
 
@@ -68,7 +79,7 @@ class StageRunner
         begin_ = state.stage_begin_cycle;
         end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
         StageResult result{.name = def_->name, .first_cycle = begin_, .sought_rest = ends_at_rest(*def_)};
-        result.statics = static_result(simulation_);
+        result.statics = static_result(simulation_.model(), state, state.stage);
         result.at_rest = is_at_rest();
         while (state.cycle < end_ && !result.at_rest && !broken_off_)
         {
@@ -141,12 +152,13 @@ class StageRunner
                                    { return load.from < load.until && (is_to_come(load.from) || is_to_come(load.until)); });
     }
 
+    /// The user's numbers, ascending.
     [[nodiscard]] std::vector<Index> moving_blocks() const
     {
         std::vector<Index> moving;
         for (const Index block : simulation_.model().slot_of_user)
             if (simulation_.state().blocks.is_free(block) && !is_supported(block, simulation_.model(), simulation_.state()))
-                moving.push_back(block);
+                moving.push_back(simulation_.model().user_number[block]);
         return moving;
     }
 
@@ -179,12 +191,15 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
     for (std::size_t i = 0; i < state.stages_done.size(); ++i)
     {
         const StageOutcome& outcome = state.stages_done[i];
+        const auto stage = static_cast<Index>(i);
         const StageDef& def = model.stages[i];
         results.push_back({.name = def.name,
                            .first_cycle = begin,
                            .cycles = outcome.cycles,
                            .sought_rest = ends_at_rest(def),
-                           .at_rest = outcome.at_rest});
+                           .at_rest = outcome.at_rest,
+                           .not_at_rest = blocks_of_stage(state.not_at_rest, stage),
+                           .statics = static_result(model, state, stage)});
         begin += outcome.cycles;
     }
     return results;
@@ -230,7 +245,7 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
             results.push_back(runner.leave());
         }
         if (i + 1 < stages && !runner.broken_off())
-            simulation.note_outcome(results.back().at_rest);
+            simulation.note_outcome(results.back().at_rest, results.back().not_at_rest);
     }
     return results;
 }

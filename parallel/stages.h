@@ -35,7 +35,7 @@ struct StageResult
     std::int64_t cycles = 0;
     bool sought_rest = false;  ///< it was to end when the rock is at rest
     bool at_rest = false;
-    std::vector<Index> not_at_rest;  ///< blocks that were not supported when the stage ended without rest
+    std::vector<Index> not_at_rest;  ///< blocks not supported when the stage ended without rest: the user's numbers, ascending
     double wall_seconds = 0.0;       ///< since the start or restart, with what is done when it begins
     std::optional<StaticResult> statics;
 };

@@ -34,13 +34,7 @@ void stop_if_asked(const StaticRule& rule);
 
 struct StaticOutcome
 {
-    enum class Kind
-    {
-        balanced,
-        nearly_balanced,  ///< single blocks rest where the law of a contact jumps: cycles have to settle them
-        no_equilibrium,   ///< blocks go on moving however far the search follows them
-        not_converged
-    };
+    using Kind = StaticEnd;
     Kind kind = Kind::not_converged;
     /// Is the state the one that was found?
     [[nodiscard]] bool is_taken() const { return kind == Kind::balanced || kind == Kind::nearly_balanced; }

@@ -5,19 +5,13 @@
 #include "core/state/blocks.h"
 #include "core/state/contacts.h"
 #include "core/state/energy_terms.h"
+#include "core/state/stage_outcome.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace hdem
 {
-/// How a stage ended.
-struct StageOutcome
-{
-    std::int64_t cycles = 0;
-    bool at_rest = false;
-};
-
 /// What excavated blocks gave to a block that stays (core/motion/released_forces.h).
 struct ReleasedForce
 {
@@ -43,6 +37,9 @@ struct State
     Index stage = 0;                        ///< running, or next to begin
     bool stage_begun = false;               ///< `stage` runs, or has just come to its end
     std::vector<StageOutcome> stages_done;  ///< one for each stage before `stage`
+    std::vector<StageBlock> not_at_rest;    ///< blocks not supported when one of these stages ended without rest, ascending
+    std::vector<StaticSolution> statics;    ///< found when a stage began, the running one included; ascending by stage
+    std::vector<StageBlock> came_loose;     ///< blocks that came away in these solutions, ascending
     Method method = Method::hybrid;         ///< in force now
     DampingPreset damping = DampingPreset::automatic;
     std::int64_t excavation_cycle = -1;  ///< of the last excavation, -1: none yet

@@ -35,11 +35,11 @@ Index present_blocks(const State& state)
     return std::accumulate(state.blocks.present.begin(), state.blocks.present.end(), Index{0});
 }
 
-std::vector<std::string> names_of(const Model& model, const std::vector<Index>& blocks)
+std::vector<std::string> names_of(const Model& model, const std::vector<Index>& user_numbers)
 {
     std::vector<std::string> names;
-    for (const Index block : blocks)
-        names.push_back(model.name[block]);
+    for (const Index user : user_numbers)
+        names.push_back(model.name[model.slot_of_user[user]]);
     return names;
 }
 

@@ -67,7 +67,7 @@ class Killer:
         self.options, self.chance, self.scene = options, chance, scene
         self.folder, self.whole, self.case = root / "run", root / "whole", root / "case.toml"
         self.case.write_text(scene.text, encoding="utf-8")
-        self.problems, self.manners, self.forgotten = [], {}, 0
+        self.problems, self.manners = [], {}
         self.seconds, self.exit_code = 0.0, 0
 
     def run_unbroken(self):
@@ -162,7 +162,6 @@ class Killer:
             return
         self.problems += [f"{name} differs from the unbroken run" for name in run_folder.differing_results(folder, whole)]
         self.problems += [f"summary.json: {name} differs from the unbroken run" for name in run_folder.differing_summary(folder, whole)]
-        self.forgotten = run_folder.forgotten(folder, whole)
         self.problems += run_folder.broken_files(folder)
         self.problems += [f"{file.name} is left at the end" for file in sorted(temporary_files(folder)) + list(folder.rglob(".lock"))]
 
@@ -191,7 +190,7 @@ def main():
     parser.add_argument("--from-previous", action="store_true")
     options = parser.parse_args()
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")    # more threads than processors
-    problems, kills, runs, left_out, forgotten, manners = [], 0, 0, 0, 0, {}
+    problems, kills, runs, left_out, manners = [], 0, 0, 0, {}
     while kills < options.kills or runs == 0:
         number = options.scene if options.scene is not None else options.seed * 10000 + runs + left_out
         scene = GivenScene(options.case) if options.case else Scene(number) if options.random else TheScene()
@@ -213,11 +212,9 @@ def main():
             for text in killer.problems:
                 print(f"    {text}", flush=True)
             problems += killer.problems
-            forgotten += killer.forgotten > 0
             for manner, times in killer.manners.items():
                 manners[manner] = manners.get(manner, 0) + times
     print(", ".join(f"{times} {manner}" for manner, times in sorted(manners.items())))
-    print(f"{forgotten} runs whose summary.json lacks not_at_rest or static_solution of stages before a restart: checkpoints do not keep them")
     print(f"{kills} kills, {runs} runs, {left_out} scenes left out, {len(problems)} problems")
     return 1 if problems else 0
 

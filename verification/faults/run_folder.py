@@ -166,19 +166,7 @@ def differing_results(one, other):
 OF_THE_MACHINE = {"threads", "wall_seconds", "stage_wall_seconds", "contact_point_updates_per_second", "timing"}
 
 
-# What a checkpoint does not keep of the stages that are over: a restart leaves it empty.
-NOT_KEPT = {"not_at_rest": [], "static_solution": None}
-
-
-def forgotten(one, other):
-    """How many values of stages that summary.json of `other` has are empty in that of `one`, because a checkpoint does not keep them."""
-    pairs = zip(summary(one)["stages"], summary(other)["stages"])
-    return sum(a[key] == empty != b[key] for a, b in pairs for key, empty in NOT_KEPT.items())
-
-
 def differing_summary(one, other):
-    """Keys of summary.json whose values are not the same, the numbers to their last digit; but for what `forgotten` counts."""
+    """Keys of summary.json whose values are not the same, the numbers to their last digit."""
     a, b = summary(one), summary(other)
-    for mine, whole in zip(a["stages"], b["stages"]):
-        mine.update({key: whole[key] for key, empty in NOT_KEPT.items() if mine[key] == empty})
     return sorted(key for key in (a.keys() | b.keys()) - OF_THE_MACHINE if a.get(key) != b.get(key))

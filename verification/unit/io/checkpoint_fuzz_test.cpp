@@ -58,7 +58,7 @@ fs::path sound_checkpoint(const fs::path& folder)
     Simulation simulation(loaded.setup.model, loaded.setup.state);
     simulation.begin_stage(0);
     simulation.advance(100);
-    simulation.note_outcome(false);
+    simulation.note_outcome(false, {2});
     simulation.begin_stage(1);
     simulation.advance(20);
     RunRecord record;
@@ -98,7 +98,8 @@ const Hdf5Mutator::Targets targets = {
                  "/blocks/joint_use",          "/blocks/contact_kinds", "/blocks/inverse_inertia", "/blocks/present",
                  "/blocks/reference_position", "/contacts/features",    "/contacts/swapped",       "/contacts/stale",
                  "/contacts/regime",           "/contacts/edges",       "/contacts/seen",          "/contacts/length",
-                 "/contacts/point_0",          "/state/stages_done",    "/run/history_axes",       "/case/text"},
+                 "/contacts/point_0",          "/state/stages_done",    "/state/not_at_rest",      "/state/statics",
+                 "/state/statics_residual",    "/state/came_loose",     "/run/history_axes",       "/case/text"},
     .attributes = {"/state@cycle", "/state@time", "/state@stage", "/state@stage_begun", "/state@stage_begin_cycle", "/state@method",
                    "/state@damping", "/state@excavation_cycle", "/state@contacts_outdated"}};
 
@@ -195,7 +196,7 @@ TEST(CheckpointReader, RefusesAnotherVersionAndAnotherModel)
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 2.77 (this hdem"));
     change("version", {3, 0});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 3.0 (this hdem"));
-    change("version", {2, 1});
+    change("version", {2, 2});
     EXPECT_EQ(refusal_of(file), "accepted");
     change("model_hash", {5});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("Go on with the hdem that wrote it"));

@@ -6,6 +6,7 @@
 #include "verification/scenes/scenes.h"
 #include "verification/unit/small_run.h"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -43,6 +44,7 @@ struct Ended
     std::uint64_t hash = 0;
     std::int64_t cycle = 0;
     std::vector<std::int64_t> stage_cycles;
+    std::vector<std::string> told;  ///< of the stages, for people
     std::vector<double> ledger;
     std::int64_t counters = 0;
 
@@ -53,7 +55,13 @@ Ended run(Simulation& simulation, Keeper* keeper)
 {
     Ended ended;
     for (const StageResult& stage : run_stages(simulation, {}, keeper))
+    {
         ended.stage_cycles.insert(ended.stage_cycles.end(), {stage.first_cycle, stage.cycles, stage.at_rest});
+        ended.told.push_back(fmt::format("not at rest: {}", fmt::join(stage.not_at_rest, " ")));
+        if (stage.statics)
+            ended.told.push_back(fmt::format("{} after {}, {:a}; loose: {}", stage.statics->outcome, stage.statics->iterations,
+                                             stage.statics->residual, fmt::join(stage.statics->loose, " ")));
+    }
     const State& state = simulation.state();
     const EnergyLedger& e = state.ledger;
     ended.hash = state_hash(simulation.model(), state);
@@ -174,6 +182,30 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksThatRest)
     const State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
     EXPECT_GT(std::count(state.blocks.rest.begin(), state.blocks.rest.end(), left_out), 5);
     EXPECT_NE(state.blocks.step.next, setup.model.time_step);
+}
+
+/// What a summary says of stages that were over before the restart, and of the one that runs.
+TEST(Checkpoint, KeepsWhichBlocksWereNotAtRestAndWhatStaticSolutionsFound)
+{
+    const ScratchFolder folder("checkpoint_told");
+    CaseDef scene = scenes::joints(16.0, 16.0, 0.8, 2.0);
+    scene.contact.method = Method::force;
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {8.0, 8.0}, .diameter = 5.0}};
+    scene.stages = {
+        {.name = "rest", .until_converged = true, .max_cycles = 400, .solver = RestSolver::statics},
+        {.name = "dig", .until_converged = true, .max_cycles = 600, .solver = RestSolver::statics, .excavate = {"tunnel"}},
+        {.name = "more", .cycles = 100}};
+    scene.convergence.least_cycles = 100;
+    const Ended unbroken = run_unbroken(scene);
+    using testing::HasSubstr, testing::Contains;
+    EXPECT_THAT(unbroken.told, Contains(HasSubstr("balanced after")).Times(testing::Ge(2)));
+    EXPECT_THAT(unbroken.told, Contains(HasSubstr("loose: b")));
+    EXPECT_THAT(unbroken.told, Contains(testing::ContainsRegex("not at rest: [0-9]")));
+    for (const std::int64_t cycle : {unbroken.stage_cycles[1] + 1, unbroken.cycle - 50})
+    {
+        run_until(scene, cycle, folder.path());
+        EXPECT_EQ(restart(scene, folder.path(), 1), unbroken) << "cycle " << cycle;
+    }
 }
 
 /// Blocks may be sorted anew while a run goes on; the case alone gives the order at the start.

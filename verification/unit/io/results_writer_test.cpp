@@ -113,7 +113,10 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     record.files = {{"a.wkt", "# none"}};
     record.history_axes = recorder.history_axes();
     run.state.rebuilt_at = run.state.blocks.motion;
-    run.state.stages_done = {{.cycles = 7, .at_rest = true}};
+    run.state.stages_done = {{.cycles = 7, .at_rest = false}};
+    run.state.not_at_rest = {{.stage = 0, .block = 1}};
+    run.state.statics = {{.stage = 0}};
+    run.state.came_loose = {{.stage = 0, .block = 2}};
     write_checkpoint(folder.path(), record, run.model, run.state);
     const std::string source = HDEM_SOURCE_DIR;
     const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source +
