@@ -56,6 +56,17 @@ TEST(ContinuouslyYielding, StiffnessFollowsTheStressAndIsWholeAfterReversal)
     EXPECT_NEAR((before - p.now.shear) / 1e-6, p.now.shear_stiffness, 2e-3 * p.now.shear_stiffness);
 }
 
+TEST(ContinuouslyYielding, ReloadsWithRestingShareOfAtMostThreeQuarters)
+{
+    LawPoint<ContinuouslyYielding, PowerLaw> p(numbers(), 1e6);
+    p.go(10e-3, 2000, 1e6);
+    p.go(10e-3 - 2e-5, 100, 1e6);
+    const double before = p.now.shear, most = p.now.strength;
+    EXPECT_GT(before / most, 0.9);
+    p.go(p.u + 1e-8, 1, 1e6);
+    EXPECT_NEAR((p.now.shear - before) / 1e-8, 1e9 * (1.0 - before / most) / 0.25, 1e9 * 2e-3);
+}
+
 TEST(ContinuouslyYielding, EnergyBalancesOverTenCycles)
 {
     expect_energy_balance<ContinuouslyYielding, PowerLaw>(numbers(), 1e6, 5e9, 5000);

@@ -122,6 +122,27 @@ TEST(CoulombResidual, ANewContactHasResidualValuesAndDoesNotDilate)
     EXPECT_EQ(p.freed, 0.0);
 }
 
+/// K_N tan phi tan psi > K_S: the strength falls faster than the shear spring unloads. Slip takes the shear stress to 0 at most.
+TEST(CoulombResidual, SnapsBackNoFartherThanTheShearSpringReaches)
+{
+    CoulombInput in = bedding();
+    in.shear_stiffness = 5e8;
+    Point p(numbers(in), 1e6);
+    const double c = p.closure;
+    p.step(8e-3, c);
+    double tau = p.now.shear;
+    EXPECT_GT(tau, 0.0);
+    for (int k = 0; k < 12000; ++k)
+    {
+        p.step(-4e-6, c);
+        EXPECT_LE(std::abs(p.now.shear), p.now.strength * (1 + 1e-12));
+        EXPECT_GE(p.now.shear * p.now.slid, 0.0);
+        EXPECT_LE(std::abs(p.now.slid), (std::abs(tau) + 5e8 * 4e-6) / 5e8 * (1 + 1e-12));
+        tau = p.now.shear;
+    }
+    EXPECT_NEAR(p.work, p.stored() - 50.0 + p.heat + p.freed, 1e-9 * p.greatest_work);
+}
+
 TEST(CoulombResidual, EnergyBalancesOverTenCycles)
 {
     CoulombInput in = bedding();

@@ -50,6 +50,8 @@ TEST(NormalClosure, GoesOnStraightBeyondTheCap)
     EXPECT_NEAR(p[curve_cap_stress], 1e8, 1e-4);
     EXPECT_NEAR(p[curve_cap], 2e-2, 1e-14);
     EXPECT_NEAR(PowerLaw::at(p, 3e-2).stress, 1e8 + 1e10 * 1e-2, 1.0);
+    // b V^2 up to the cap: a third of stress times closure; then a trapezium.
+    EXPECT_NEAR(PowerLaw::at(p, 3e-2).energy, 1e8 * 2e-2 / 3 + 0.5 * (1e8 + 2e8) * 1e-2, 1e-8 * 2e6);
     EXPECT_NEAR(PowerLaw::closure_under(p, 2e8), 3e-2, 1e-12);
 }
 

@@ -48,6 +48,24 @@ TEST(Patton, ReturnIsExactForAnyStepThroughTheChangeOfBranches)
     EXPECT_GT(fine.heat, 0.0);
 }
 
+/// An opening gained below sigma_T is given back from a stress above it.
+TEST(Patton, ReturnIsExactOnTheWayBackThroughTheChangeOfBranches)
+{
+    LawPoint<Patton, Linear> fine(numbers(), 1e6), coarse(numbers(), 1e6);
+    fine.go(10e-3, 2000, 1e6);
+    coarse.go(10e-3, 2000, 1e6);
+    const double c = fine.closure + 3e-3;
+    fine.step(0.0, c);
+    coarse.step(0.0, c);
+    EXPECT_GT(fine.now.normal, 3.4e6);
+    for (int k = 0; k < 4000; ++k)
+        fine.step(-14e-3 / 4000, c);
+    coarse.step(-14e-3, c);
+    EXPECT_LT(fine.now.normal, 3.2e6);
+    EXPECT_NEAR(coarse.now.shear, fine.now.shear, 1e-9 * std::abs(fine.now.shear));
+    EXPECT_NEAR(coarse.now.normal, fine.now.normal, 1e-9 * fine.now.normal);
+}
+
 TEST(Patton, EnergyBalancesOverTenCycles)
 {
     expect_energy_balance<Patton, Linear>(numbers(), 1e6, 5e8, 2000);
