@@ -1,0 +1,174 @@
+#pragma once
+/// Barton-Bandis: shear strength of a rough joint from JRC and JCS.
+
+#include "core/joint/normal_closure.h"
+
+namespace hdem
+{
+/// Roughness and strength of the joint walls, as measured on a length of 0.1 m.
+struct BartonBandisInput
+{
+    double shear_stiffness = 0.0;    ///< K_S [Pa/m]; raised to the steepest part of the mobilisation curve
+    double roughness = 0.0;          ///< JRC_0 [-]
+    double wall_strength = 0.0;      ///< JCS_0 [Pa]
+    double residual_friction = 0.0;  ///< phi_r [deg]
+    double length = 0.1;             ///< L, the joint's block size [m]
+    double damage = 2.0;             ///< M: 1 at low, 2 at high stress
+    double normal_stress = 1e6;      ///< greatest sigma expected, for K_S [Pa]
+};
+
+/// Bandis's closure: aperture, initial stiffness, greatest closure; SI units.
+struct BandisClosure
+{
+    double aperture, stiffness, greatest;
+};
+
+/// From JRC, JCS and the strength of the rock; cycle 1 to 3 of loading.
+///
+///   a_j = JRC/5 (0.2 sigma_c/JCS - 0.1) mm,  K_ni = -7.15 + 1.75 JRC + 0.02 JCS/a_j MPa/mm,  V_m = A + B JRC + C (JCS/a_j)^D mm
+///
+/// Bandis, Lumsden & Barton (1983); MPa and mm inside.
+[[nodiscard]] inline BandisClosure bandis_closure(double roughness, double wall_strength, double rock_strength, int cycle)
+{
+    constexpr double table[3][4] = {
+        {-0.2960, -0.0056, 2.2410, -0.2450}, {-0.1005, -0.0073, 1.0082, -0.2301}, {-0.1032, -0.0074, 1.1350, -0.2510}};
+    const auto& [a, b, c, d] = table[cycle - 1];
+    const double aperture = roughness / 5.0 * (0.2 * rock_strength / wall_strength - 0.1), ratio = 1e-6 * wall_strength / aperture;
+    return {1e-3 * aperture, 1e9 * (-7.15 + 1.75 * roughness + 0.02 * ratio), 1e-3 * (a + b * roughness + c * power(ratio, d))};
+}
+
+/// Barton & Choubey (1977), Barton, Bandis & Bakhtar (1985):
+///
+///   i = JRC_n log10(JCS_n / sigma),  0 <= i <= 70 deg - phi_r        roughness angle
+///   tau_max = sigma tan(phi_r + m i),  m = m(delta / delta_p)        mobilised strength; below 0.3 delta_p: sigma tan(phi_r delta / 0.3 delta_p)
+///   dw = tan(m i / M) d delta                                        dilation
+///   JRC_n = JRC_0 (L/L_0)^(-0.02 JRC_0),  JCS_n = JCS_0 (L/L_0)^(-0.03 JRC_0),  delta_p = L/500 (JRC_n/L)^0.33
+///
+/// delta is the greatest total shear displacement |u_p + tau/K_S| so far. It is known before the return, which so needs no iteration; dw is booked in proportion to slip.
+/// After a reversal: elastic, then slip at m(delta) with no gain. The opening stays: given back, it would unload the stiff normal spring faster
+/// than the shear spring can follow (K_N tan phi dw/du_p is ten times K_S in the example of the test), and each reversal would be a jump.
+/// K_S is raised so that each part of the curve leaves slip enough to pay for its dilation under sigma = normal_stress.
+///
+/// Memory: state is delta; opening is w; turn and broken mean nothing.
+/// Differs from the source: no hysteresis of closure; |u_p + tau/K_S| counts, which on reversal is less than |u_p| + |tau|/K_S.
+/// @see verification/unit/core/joint/barton_bandis_test.cpp
+struct BartonBandis
+{
+    enum Number : int
+    {
+        shear_stiffness = curve_numbers,
+        residual_friction,   ///< phi_r [rad]
+        roughness,           ///< i per unit of the natural logarithm [rad]
+        log_strength,        ///< ln JCS_n
+        greatest_roughness,  ///< greatest i [rad]
+        peak_displacement,   ///< delta_p [m]
+        damage,              ///< 1 / M
+        scaled_roughness,    ///< JRC_n, for reports
+        scaled_strength      ///< JCS_n [Pa], for reports
+    };
+
+    /// m over x = delta / delta_p, from 0.3 on.
+    template <typename R>
+    [[nodiscard]] static R mobilised(R x)
+    {
+        constexpr double part[7][3] = {{0.3, 0.6, 0.75},  {0.6, 1.0, 0.25},   {1.0, 2.0, -0.15},  {2.0, 4.0, -0.15},
+                                       {4.0, 10.0, -0.2}, {10.0, 25.0, -0.1}, {25.0, 100.0, -0.4}};  // from, to, change of m
+        R m = 0.0;
+        for (const auto& [from, to, change] : part)
+            m += R(change / (to - from)) * min(max(x - R(from), R(0.0)), R(to - from));
+        return m;
+    }
+
+    /// phi_r + m i [rad]
+    template <typename R>
+    [[nodiscard]] static R friction_angle(const BasicJointNumbers<R>& n, R x, R i)
+    {
+        return n[residual_friction] * min(x * R(1.0 / 0.3), R(1.0)) + mobilised(x) * i;
+    }
+
+    [[nodiscard]] static JointNumbers numbers(const BartonBandisInput& in, JointNumbers n)
+    {
+        constexpr double ln10 = 2.302585092994046;
+        const double scale = in.length / 0.1;
+        n[scaled_roughness] = in.roughness * power(scale, -0.02 * in.roughness);
+        n[scaled_strength] = in.wall_strength * power(scale, -0.03 * in.roughness);
+        n[residual_friction] = radians(in.residual_friction);
+        n[roughness] = radians(n[scaled_roughness]) / ln10;
+        n[log_strength] = log(n[scaled_strength]);
+        n[greatest_roughness] = radians(70.0) - n[residual_friction];
+        n[peak_displacement] = in.length / 500.0 * power(n[scaled_roughness] / in.length, 0.33);
+        n[damage] = 1.0 / in.damage;
+        n[shear_stiffness] = max(in.shear_stiffness, steepest(n, in.normal_stress));
+        return n;
+    }
+
+    /// Stiffness that the curve asks for at the ends of its rising parts [Pa/m].
+    [[nodiscard]] static double steepest(const JointNumbers& n, double normal)
+    {
+        const double i = min(max(n[roughness] * (n[log_strength] - log(normal)), 0.0), n[greatest_roughness]);
+        const double slope[3] = {n[residual_friction] / 0.3, 2.5 * i, 0.625 * i}, end[3] = {0.3, 0.6, 1.0};
+        double most = 0.0;
+        for (int k = 0; k < 3; ++k)
+        {
+            const double t = tan(friction_angle(n, end[k], i)), dilation = tan(mobilised(end[k]) * i * n[damage]);
+            most = max(most, normal * slope[k] * (1.0 + t * t) / (n[peak_displacement] * (1.0 - dilation / t)));
+        }
+        return most;
+    }
+
+    /// dw/du_p while delta grows from `from` to `to`. dw = tan(m i / M) d delta, and of d delta the share 1 - (d tau_max/d delta) / K_S is slip.
+    /// No more than slip pays for.
+    template <typename R>
+    [[nodiscard]] static R first_dilation(const BasicJointNumbers<R>& n, R from, R to, R i, R angle, R t, R normal)
+    {
+        const R one = 1.0, peak = n[peak_displacement], way = to - from;
+        const R turned = angle - friction_angle(n, from / peak, i);
+        const R gain = normal * turned * (one + t * t) * (one - t * turned);  // in the middle of the step
+        const R dilation = tan(mobilised(R(0.5) * (from + to) / peak) * i * n[damage]);
+        return min(safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way)), t);
+    }
+
+    template <typename Curve, typename R>
+    [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
+                                                   BasicJointMemory<R>& m)
+    {
+        const R zero = 0.0, one = 1.0, k = n[shear_stiffness];
+        const R w = m.opening;
+        const R trial = step.last_shear - k * step.slide, sign = direction_of(trial);
+        const R delta = max(m.state, magnitude(m.slip + trial / k));
+        const auto grows = delta > m.state;
+        const BasicCurvePoint<R> before = Curve::at(n, step.closure + w);
+        const auto open = before.stress <= zero;
+
+        const R sigma = max(before.stress, R(1.0));  // [Pa]; nothing is left of the law below
+        const R free_i = n[roughness] * (n[log_strength] - log(sigma));
+        const R i = min(max(free_i, zero), n[greatest_roughness]);
+        const R x = delta / n[peak_displacement], angle = friction_angle(n, x, i), t = tan(angle);
+        // d tau_max / d sigma; i falls as sigma grows.
+        const R mu = max(t - select(i == free_i, (one + t * t) * mobilised(x) * n[roughness], zero), zero);
+        R dilation = zero;
+        if (any(grows))
+            dilation = select(grows, first_dilation(n, m.state, delta, i, angle, t, sigma), zero);
+        const R stiffness = k + before.stiffness * mu * dilation;
+        const R lambda = max(magnitude(trial) - before.stress * t, zero) / stiffness;
+
+        BasicJointStress<R> now;
+        now.opening = w + dilation * lambda;
+        const BasicCurvePoint<R> after = Curve::at(n, step.closure + now.opening);
+        now.normal = after.stress;
+        now.energy = after.energy;
+        now.normal_stiffness = after.stiffness;
+        now.shear = trial - sign * (k * lambda);
+        now.strength = max(before.stress * t + mu * (after.stress - before.stress), zero);
+        now.slid = sign * lambda;
+        now.shear_stiffness = k;
+        now.heat = slip_heat(step, now, w);
+        now.freed = zero;
+        now = unless_open(open, step, now, w);
+        m.slip += now.slid;
+        m.opening = now.opening;
+        m.state = select(open, m.state, delta);
+        return now;
+    }
+};
+}  // namespace hdem

@@ -1,0 +1,139 @@
+#pragma once
+/// Logarithm, exponential, tangent and power for `double` and for `Pack`.
+///
+/// One algorithm for both, from + - * / and integer operations alone: a lane gives the same bits as a double, and no result depends on the
+/// libm of the machine. The series are those of Taylor. Relative error about 5e-16.
+/// @see verification/unit/core/joint/functions_test.cpp
+
+#include "core/simd.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace hdem
+{
+using BitLanes = std::uint64_t __attribute__((vector_size(32)));
+
+inline std::uint64_t bits_of(double x)
+{
+    return std::bit_cast<std::uint64_t>(x);
+}
+inline BitLanes bits_of(Pack x)
+{
+    return std::bit_cast<BitLanes>(x.v);
+}
+inline double from_bits(std::uint64_t bits)
+{
+    return std::bit_cast<double>(bits);
+}
+inline Pack from_bits(BitLanes bits)
+{
+    return Pack(std::bit_cast<Pack::V>(bits));
+}
+
+/// |x|, with the same sign of 0 in a lane and in a double; that of simd.h has not.
+template <typename R>
+[[nodiscard]] inline R magnitude(R x)
+{
+    return select(x < R(0.0), -x, x);
+}
+
+/// c[0] + c[1] x + c[2] x^2 + ...
+template <typename R, std::size_t n>
+[[nodiscard]] inline R polynomial(R x, const std::array<double, n>& c)
+{
+    R sum = c[n - 1];
+    for (std::size_t k = n - 1; k-- > 0;)
+        sum = sum * x + R(c[k]);
+    return sum;
+}
+
+// ln 2 in two parts; the first ends in zeros, so that its product with a power of two below 2048 is exact.
+inline constexpr double ln2_high = 0x1.62e42fee00000p-1;
+inline constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+
+/// (2 atanh(s) - 2 s) / s = 2 (s^2 / 3 + s^4 / 5 + ...), for |s| <= 0.18. ln((1 + s) / (1 - s)) = 2 atanh(s).
+template <typename R>
+[[nodiscard]] inline R atanh_rest(R s)
+{
+    constexpr std::array<double, 10> c{2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
+                                       2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
+    const R square = s * s;
+    return square * polynomial(square, c);
+}
+
+/// Natural logarithm. x = 2^k m with m from sqrt(1/2) to sqrt(2).
+/// @pre x is 0 or a normal positive number. At 0 the answer is about -709, so that an unused lane gives no NaN.
+template <typename R>
+[[nodiscard]] inline R log(R x)
+{
+    constexpr std::uint64_t root_half = 0x3FE6A09E667F3BCDu, bias = std::uint64_t{1024} << 52, two52 = 0x4330000000000000u;
+    const auto bits = bits_of(x);
+    const auto shifted = (bits - root_half + bias) >> 52;  // k + 1024
+    const R k = from_bits(shifted | two52) - R(0x1p52 + 1024.0);
+    const R m = from_bits(bits - (shifted << 52) + bias);
+    const R f = m - R(1.0);
+    const R s = f / (R(2.0) + f);
+    return k * R(ln2_high) + (R(2.0) * s + (s * atanh_rest(s) + k * R(ln2_low)));
+}
+
+/// e^x; x is cut to +-708. x = n ln 2 + r with |r| <= ln 2 / 2.
+template <typename R>
+[[nodiscard]] inline R exp(R x)
+{
+    constexpr std::array<double, 12> c{1.0 / 2,       1.0 / 6,        1.0 / 24,          1.0 / 120,
+                                       1.0 / 720,     1.0 / 5040,     1.0 / 40320,       1.0 / 362880,
+                                       1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600.0, 1.0 / 6227020800.0};
+    constexpr double rounder = 0x1.8p52;  // added to a small number it leaves the nearest integer in the last bits
+    constexpr double log2_e = 1.4426950408889634;
+    const R cut = min(max(x, R(-708.0)), R(708.0));
+    const R stored = cut * R(log2_e) + R(rounder);
+    const R n = stored - R(rounder);
+    const R r = (cut - n * R(ln2_high)) - n * R(ln2_low);
+    const R rest = r * r * polynomial(r, c);
+    const R scale = from_bits((bits_of(stored) - std::bit_cast<std::uint64_t>(rounder) + 1023u) << 52);
+    return scale * (R(1.0) + (r + rest));
+}
+
+/// tan x, |x| < pi / 2.
+template <typename R>
+[[nodiscard]] inline R tan(R x)
+{
+    constexpr std::array<double, 9> sine{1.0,
+                                         -1.0 / 6,
+                                         1.0 / 120,
+                                         -1.0 / 5040,
+                                         1.0 / 362880,
+                                         -1.0 / 39916800,
+                                         1.0 / 6227020800.0,
+                                         -1.0 / 1307674368000.0,
+                                         1.0 / 355687428096000.0};
+    constexpr std::array<double, 9> cosine{1.0,
+                                           -1.0 / 2,
+                                           1.0 / 24,
+                                           -1.0 / 720,
+                                           1.0 / 40320,
+                                           -1.0 / 3628800,
+                                           1.0 / 479001600.0,
+                                           -1.0 / 87178291200.0,
+                                           1.0 / 20922789888000.0};
+    constexpr double quarter = 0.78539816339744831, half_high = 1.5707963267948966, half_low = 6.123233995736766e-17;
+    const R size = magnitude(x);
+    const auto steep = size > R(quarter);
+    const R y = select(steep, (R(half_high) - size) + R(half_low), size);
+    const R square = y * y;
+    const R s = y * polynomial(square, sine);
+    const R c = polynomial(square, cosine);
+    const R t = select(steep, c, s) / select(steep, s, c);
+    return select(x < R(0.0), -t, t);
+}
+
+/// x^y for x > 0; the relative error grows with |y ln x|, 1e-16 times that. At x = 0 a tiny number for y > 1, no NaN.
+template <typename R>
+[[nodiscard]] inline R power(R x, R y)
+{
+    return exp(y * log(x));
+}
+}  // namespace hdem

@@ -1,0 +1,88 @@
+#pragma once
+/// Plesha's law: asperities that are climbed, and worn by the work of slip.
+
+#include "core/joint/normal_closure.h"
+
+namespace hdem
+{
+struct PleshaInput
+{
+    double shear_stiffness = 0.0;  ///< K_S [Pa/m]
+    double friction = 0.0;         ///< phi [deg]
+    double roughness = 0.0;        ///< alpha_0 [deg]
+    double wear = 0.0;             ///< C [m^2/J]
+};
+
+/// Plesha (1987):
+///
+///   tau_max = sigma tan(phi + s alpha),  dw = tan(s alpha) d lambda,  alpha = alpha_0 exp(-C W_p),  W_p = integral of tau du_p
+///
+/// s = 1 where slip leads away from u_p = 0, -1 where it leads back. alpha is that of the cycle's beginning. Slip through u_p = 0 is split
+/// there: beyond it the joint must first reach its greater strength.
+///
+/// Memory: state is W_p [J/m^2]; opening is w; turn and broken mean nothing.
+/// Differs from the source: the strength on the way back is at least 0 (alpha > phi would push).
+/// @pre  K_N tan(phi - alpha) tan(alpha) < K_S, else the joint snaps back to u_p = 0 on reversal
+/// @see  verification/unit/core/joint/plesha_test.cpp
+struct Plesha
+{
+    enum Number : int
+    {
+        shear_stiffness = curve_numbers,
+        friction,   ///< tan phi
+        roughness,  ///< alpha_0 [rad]
+        wear        ///< C [m^2/J]
+    };
+
+    [[nodiscard]] static JointNumbers numbers(const PleshaInput& in, JointNumbers n)
+    {
+        n[shear_stiffness] = in.shear_stiffness;
+        n[friction] = tan(radians(in.friction));
+        n[roughness] = radians(in.roughness);
+        n[wear] = in.wear;
+        return n;
+    }
+
+    template <typename Curve, typename R>
+    [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
+                                                   BasicJointMemory<R>& m)
+    {
+        const R zero = 0.0, one = 1.0, k = n[shear_stiffness];
+        const R w = m.opening;
+        const R trial = step.last_shear - k * step.slide, sign = direction_of(trial), slipped = sign * m.slip;
+        const R tilt = tan(n[roughness] * exp(-n[wear] * m.state)), phi = n[friction];
+        const R mu_up = (phi + tilt) / (one - phi * tilt), mu_down = max((phi - tilt) / (one + phi * tilt), zero);
+        const BasicCurvePoint<R> before = Curve::at(n, step.closure + w);
+        const auto open = before.stress <= zero;
+
+        const R coupling = before.stiffness * tilt;
+        const R left = max(-slipped, zero), most = safe_ratio(magnitude(trial), k);
+        const std::array<R, 2> down = slip_along<R, 2>(select(left > zero, magnitude(trial) - before.stress * mu_down, zero), most,
+                                                       {{{left, k - coupling * mu_down}, {zero, k}}});
+        const R bottom = max(before.stress - coupling * down[0], zero);
+        const auto passed = !(down[0] + slipped < zero);
+        const std::array<R, 1> up = slip_along<R, 1>(select(passed, (magnitude(trial) - k * down[0]) - bottom * mu_up, zero),
+                                                     most - down[0], {{{R(no_limit), k + coupling * mu_up}}});
+        const R lambda = down[0] + up[0];
+
+        BasicJointStress<R> now;
+        now.opening = w + tilt * (up[0] - down[0]);
+        const BasicCurvePoint<R> after = Curve::at(n, step.closure + now.opening);
+        now.normal = max(after.stress, zero);
+        now.energy = select(after.stress > zero, after.energy, zero);
+        now.normal_stiffness = after.stiffness;
+        now.shear = trial - sign * (k * lambda);
+        const auto leads_back = slipped + lambda < zero;
+        now.strength = now.normal * select(leads_back, mu_down, mu_up);
+        now.slid = sign * lambda;
+        now.shear_stiffness = k;
+        now.heat = slip_heat(step, now, w);
+        now.freed = zero;
+        now = unless_open(open, step, now, w);
+        m.state = select(open, m.state, m.state + max(R(0.5) * (step.last_shear + now.shear) * now.slid, zero));
+        m.opening = now.opening;
+        m.slip = select(open, m.slip, select(passed & (up[0] <= zero) & (left > zero), zero, m.slip + sign * lambda));
+        return now;
+    }
+};
+}  // namespace hdem
