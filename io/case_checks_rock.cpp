@@ -21,6 +21,8 @@ class RockCheck : public CaseCheck
         for (std::size_t i = 0; i < def_.excavations.size(); ++i)
             check_excavation(def_.excavations[i], fmt::format("excavation[{}]", i));
         check_joints();
+        if (def_.insitu.given)
+            check_insitu();
     }
 
   private:
@@ -119,6 +121,32 @@ class RockCheck : public CaseCheck
         const bool arc = excavation.shape == OutlineShape::horseshoe || excavation.shape == OutlineShape::circle;
         if (!arc && given(path + ".arc_segments"))
             problems_.add(path + ".arc_segments", object, "arc_segments", fmt::format("a {} has no arc", shape), "Remove it.");
+    }
+
+    void check_insitu()
+    {
+        const auto belongs = [&](const char* key, const char* to)
+        {
+            if (given(std::string("insitu.") + key))
+                problems_.add(std::string("insitu.") + key, "[insitu]", key, fmt::format("belongs to {}, which is not given", to),
+                              fmt::format("Give {}, or remove this key.", to));
+        };
+        exclude("insitu", "[insitu]", "stress", "surface");
+        if (!def_.insitu.stress && !def_.insitu.surface && !problems_.has("insitu"))
+            problems_.add("insitu", "[insitu]", "stress", "is missing, and there is no surface",
+                          "Give stress, or surface and ratio.");
+        if (!def_.insitu.surface)
+            for (const char* key : {"ratio", "ratio_offset"})
+                belongs(key, "surface");
+        else if (!def_.insitu.ratio && !problems_.has("insitu.ratio"))
+            problems_.add("insitu.surface", "[insitu]", "ratio", "is missing: surface gives the vertical stress only",
+                          "Give ratio.");
+        if (!def_.insitu.stress)
+            for (const char* key : {"gradient", "reference"})
+                belongs(key, "stress");
+        if (def_.insitu.surface && (def_.gravity.x() != 0.0 || def_.gravity.y() >= 0.0))
+            problems_.add("insitu.surface", "[insitu]", "surface", "needs a gravity that points straight down",
+                          "Give stress and gradient instead.");
     }
 
     void check_joints()

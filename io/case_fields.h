@@ -54,6 +54,8 @@ constexpr ValueType type_of()
         return ValueType::integer;
     else if constexpr (std::is_same_v<T, Vec2>)
         return ValueType::vector;
+    else if constexpr (std::is_same_v<T, StressDef>)
+        return ValueType::stress;
     else if constexpr (std::is_same_v<T, Polygon>)
         return ValueType::polygon;
     else if constexpr (std::is_same_v<T, std::vector<std::string>>)
@@ -78,6 +80,12 @@ inline Vec2 vector(const TomlNode& node)
     return {(*node.items())[0].number(), (*node.items())[1].number()};
 }
 
+inline StressDef stress(const TomlNode& node)
+{
+    const std::vector<TomlNode>& items = *node.items();
+    return {items[0].number(), items[1].number(), items[2].number()};
+}
+
 /// @pre the value was checked against the key (find_complaint)
 template <class T>
 void store(T& field, const TomlNode& node, const KeySpec& key)
@@ -96,6 +104,8 @@ void store(T& field, const TomlNode& node, const KeySpec& key)
         field = *node.text();
     else if constexpr (std::is_same_v<T, Vec2>)
         field = vector(node);
+    else if constexpr (std::is_same_v<T, StressDef>)
+        field = stress(node);
     else
     {
         field.clear();
@@ -134,6 +144,8 @@ std::string json(const T& field, const std::vector<std::string>& choices)
         return field.empty() ? "" : '"' + field + '"';
     else if constexpr (std::is_same_v<T, Vec2>)
         return fmt::format("[{}, {}]", json_number(field.x()), json_number(field.y()));
+    else if constexpr (std::is_same_v<T, StressDef>)
+        return fmt::format("[{}, {}, {}]", json_number(field.xx), json_number(field.yy), json_number(field.xy));
     else if constexpr (std::is_same_v<T, std::vector<std::string>>)
         return field.empty() ? "" : fmt::format("[\"{}\"]", fmt::join(field, "\", \""));
     else

@@ -173,6 +173,8 @@ std::string type_column(const KeySpec& key)
         return "list of whole numbers";
     case ValueType::vector:
         return "[x, y]";
+    case ValueType::stress:
+        return "[xx, yy, xy]";
     case ValueType::polygon:
         return "list of [x, y]";
     case ValueType::boolean_or_texts:

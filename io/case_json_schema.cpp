@@ -37,11 +37,11 @@ Json list_of(Json items)
     return {{"type", "array"}, {"items", std::move(items)}};
 }
 
-Json vector_schema(const KeySpec& key)
+Json vector_schema(const KeySpec& key, int numbers)
 {
     Json schema = list_of(number_schema(key, "number"));
-    schema["minItems"] = 2;
-    schema["maxItems"] = 2;
+    schema["minItems"] = numbers;
+    schema["maxItems"] = numbers;
     return schema;
 }
 
@@ -62,10 +62,12 @@ Json value_schema(const KeySpec& key)
     case ValueType::integer_list:
         return list_of(number_schema(key, "integer"));
     case ValueType::vector:
-        return vector_schema(key);
+        return vector_schema(key, 2);
+    case ValueType::stress:
+        return vector_schema(key, 3);
     case ValueType::polygon:
     {
-        Json schema = list_of(vector_schema(key));
+        Json schema = list_of(vector_schema(key, 2));
         schema["minItems"] = 3;
         return schema;
     }

@@ -95,13 +95,16 @@ Complaints check_text(const KeySpec& key, const TomlNode& node, const std::strin
              "Choose from " + quoted_list(key.choices) + "."}};
 }
 
-Complaints check_vector(const KeySpec& key, const TomlNode& node, const std::string& item = "")
+Complaints check_vector(const KeySpec& key, const TomlNode& node, std::size_t numbers, const std::string& item = "")
 {
     if (node.items() == nullptr)
-        return wrong_type(key, node, item, "[x, y]");
-    if (node.items()->size() != 2)
-        return {{item, &node, fmt::format("has {} numbers, a point or vector has two", node.items()->size()), "Write [x, y]."}};
-    for (std::size_t i = 0; i < 2; ++i)
+        return wrong_type(key, node, item, numbers == 2 ? "[x, y]" : "[xx, yy, xy]");
+    if (node.items()->size() != numbers)
+        return {{item, &node,
+                 fmt::format("has {} numbers, {}", node.items()->size(),
+                             numbers == 2 ? "a point or vector has two" : "a stress has three"),
+                 numbers == 2 ? "Write [x, y]." : "Write [xx, yy, xy]."}};
+    for (std::size_t i = 0; i < numbers; ++i)
         if (auto found = check_number(key, (*node.items())[i], fmt::format("{}[{}]", item, i)); !found.empty())
             return found;
     return {};
@@ -120,7 +123,9 @@ Complaints check_items(const KeySpec& key, const TomlNode& node, CheckItem check
 
 Complaints check_polygon(const KeySpec& key, const TomlNode& node)
 {
-    auto found = check_items(key, node, check_vector);
+    auto found = check_items(key, node,
+                             [](const KeySpec& k, const TomlNode& point, const std::string& item)
+                             { return check_vector(k, point, 2, item); });
     if (found.empty() && node.items()->size() < 3)
         found.push_back({"", &node, fmt::format("has {} vertices, a polygon has at least 3", node.items()->size()),
                          "Write [[x, y], [x, y], [x, y], ...]."});
@@ -200,7 +205,9 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
     case ValueType::integer_list:
         return check_items(key, value, check_number);
     case ValueType::vector:
-        return check_vector(key, value);
+        return check_vector(key, value, 2);
+    case ValueType::stress:
+        return check_vector(key, value, 3);
     case ValueType::polygon:
         return check_polygon(key, value);
     case ValueType::boolean_or_texts:
@@ -236,6 +243,8 @@ std::string describe_type(const KeySpec& key)
         return "a list of whole numbers";
     case ValueType::vector:
         return "[x, y]" + in;
+    case ValueType::stress:
+        return "[xx, yy, xy]" + in;
     case ValueType::polygon:
         return "a list of points [x, y]" + in;
     case ValueType::boolean_or_texts:

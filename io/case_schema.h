@@ -24,6 +24,7 @@ enum class ValueType
     text_list,
     integer_list,
     vector,            ///< [x, y]
+    stress,            ///< [xx, yy, xy]
     polygon,           ///< [[x, y], [x, y], [x, y], ...]
     boolean_or_texts,  ///< true, false or a list of choices
     number_or_text     ///< a number or one of the choices

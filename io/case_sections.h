@@ -22,6 +22,9 @@ SectionSpec contact_section();
 SectionSpec damping_section();
 SectionSpec time_section();
 
+// case_schema_stress.cpp
+SectionSpec insitu_section();
+
 // case_schema_run.cpp: stages and results
 SectionSpec convergence_section();
 SectionSpec stage_section();

@@ -203,11 +203,20 @@ void exchange_contacts(Archive& archive, std::vector<Contact>& contacts, std::ve
 }
 
 template <typename Archive>
+void exchange_preloads(Archive& archive, std::vector<Contact>& contacts)
+{
+    archive.template rows<double>("/contacts/preload", contacts.size(), contacts,
+                                  [](Contact& c) { return std::tie(c.point[0].preload, c.point[1].preload); });
+}
+
+template <typename Archive>
 void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
 {
     exchange_run(archive, state);
     exchange_blocks(archive, static_cast<std::uint64_t>(blocks), state, unpacked);
     exchange_contacts(archive, unpacked.contacts, unpacked.stale);
+    if (state.contacts.has_preload)
+        exchange_preloads(archive, unpacked.contacts);
 }
 }  // namespace
 
@@ -225,6 +234,7 @@ void save_state(const Model& model, const State& state, Hdf5Writer& file)
 State load_state(const Hdf5Reader& file, Model& model)
 {
     State state;
+    state.contacts.has_preload = model.insitu.given;
     Unpacked unpacked;
     Loader loader(file);
     exchange(loader, model.blocks(), state, unpacked);

@@ -26,6 +26,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
         [&]
         {
             begin(model);
+            list_.has_preload = state.contacts.has_preload;
             set_margins(model, state.blocks);
         });
     const auto count = static_cast<Index>(chunks_.size());

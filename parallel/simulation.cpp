@@ -1,5 +1,6 @@
 #include "parallel/simulation.h"
 
+#include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 #include "core/motion/released_forces.h"
@@ -7,6 +8,7 @@
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
+#include "core/stress/insitu_stress.h"
 #include "parallel/state_check.h"
 
 #include <algorithm>
@@ -40,6 +42,8 @@ Simulation::Simulation(Model model, State state, int threads)
         renew_contacts();
     if (fresh)
     {
+        if (model_.insitu.given)
+            lock_in_stress(model_, state_);
         state_.ledger.initial = stored_energy(model_, state_).total();
         find_default_step();
     }
@@ -75,6 +79,14 @@ std::vector<Problem> Simulation::find_problems()
                  .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                          " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a "
                          "step."}};
+    double preload = 0.0;
+    for (Index i = 0; i < state_.contacts.size(); ++i)
+        preload = std::max({preload, state_.contacts.preload(0, i), state_.contacts.preload(1, i)});
+    if (preload > 0.5 * skin_width(model_))
+        problems.push_back({.key = "contact.skin",
+                            .text = "contact: skin = " + with_digits("%.4g", model_.contact.skin) +
+                                    " (in-situ stress presses a joint by " + with_digits("%.4g", preload) +
+                                    " m: it would be lost while it still bears). Give a greater skin, or stiffer joints."});
     const double limit = critical_step();
     if (model_.time_step > limit && needs_stable_step())
         problems.push_back({.key = "time.step",

@@ -51,7 +51,32 @@ inline Pack kept_share(const ContactGroup& g, int k, Pack stretch)
     return select(g.last_normal[k] > zero, min(kept / g.last_normal[k], Pack(1.0)), zero);
 }
 
-template <Contact4 contact>
+/// Overlap of a point, and what it is pressed by where the blocks are drawn [m].
+template <bool preloaded>
+[[gnu::always_inline]] inline Pack pressed_by(const ContactGroup& g, int k)
+{
+    if constexpr (preloaded)
+        return g.touch.point[k].overlap + g.preload[k];
+    else
+        return g.touch.point[k].overlap;
+}
+
+/// The touch with overlaps as pressed_by has them.
+template <bool preloaded>
+[[gnu::always_inline]] inline decltype(auto) pressed_touch(const ContactGroup& g)
+{
+    if constexpr (preloaded)
+    {
+        BasicEdgeTouch<Pack> touch = g.touch;
+        for (int k = 0; k < 2; ++k)
+            touch.point[k].overlap += g.preload[k];
+        return touch;
+    }
+    else
+        return (g.touch);
+}
+
+template <Contact4 contact, bool preloaded>
 [[gnu::always_inline]] inline void evaluate_point(const ContactGroup& g, int k, Mask impulsive, Pack share, Pack dt,
                                                   ContactLanes& l, std::uint8_t* regime, Sums& sums)
 {
@@ -61,7 +86,8 @@ template <Contact4 contact>
     const Pack spring_normal = rests ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
     const Pack spring_shear = rests ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
     const Pack last_rest = rests ? zero : load_lane(l.rest_overlap[k]);
-    const Pack rest = rests ? zero : rest_overlap(p.overlap, last_rest, g.recovery);
+    const Pack overlap = pressed_by<preloaded>(g, k);
+    const Pack rest = rests ? zero : rest_overlap(overlap, last_rest, g.recovery);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
     const Pack start = spring_shear * g.shear_share;
     const Pack handed = rests ? start
@@ -69,7 +95,7 @@ template <Contact4 contact>
                                        start);
     const Pack curved = Pack(0.5) * dt * g.turning[k].t;
     const Pack v_t = p.v_t - curved;  // amid the last step, where the shear displacement is of second order
-    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, rests ? p.overlap : share * (p.overlap - rest), v_t, dt,
+    const BasicPointForce<Pack> f = spring_force(g.joint->law, g.length, rests ? overlap : share * (overlap - rest), v_t, dt,
                                                  handed);
     const Mask spring = rests ? g.closed[k] : g.closed[k] & !impulsive;
     const Pack normal = select(spring, f.normal, zero);
@@ -80,7 +106,7 @@ template <Contact4 contact>
     store_bytes((spring.v & 1) + (slips.v & 1) + (rests ? Mask::V{} : held.v & 3), regime);
 
     // Energies of this step; u is the stretch of the normal spring.
-    const Pack u = rests ? p.overlap : p.overlap - select(g.was_impulse[k], rest, last_rest);
+    const Pack u = rests ? overlap : overlap - select(g.was_impulse[k], rest, last_rest);
     const Pack last_u = rests ? load_lane(l.overlap[k]) : load_lane(l.overlap[k]) - last_rest;
     const Pack plastic = -v_t * dt - (shear - start) * (g.joint->shear_compliance * g.length_inverse);
     const Pack slipped = Pack(0.5) * (start + shear) * plastic;
@@ -94,13 +120,14 @@ template <Contact4 contact>
         sums.changes -= Pack(0.5) * normal * select(g.was_impulse[k], zero, last_rest - rest);
         // An impulse point keeps its stretch until its impulses are known: where they would leave its spring empty.
         const Pack last_stretch = select(g.last_normal[k] > zero, max(load_lane(l.overlap[k]) - last_rest, zero), zero);
-        store_lane(l.rest_overlap[k], select(spring, rest, select(held, p.overlap - last_stretch, zero)));
+        store_lane(l.rest_overlap[k], select(spring, rest, select(held, overlap - last_stretch, zero)));
     }
-    store_lane(l.overlap[k], p.overlap);
+    store_lane(l.overlap[k], overlap);
     store_lane(l.normal_force[k], rests ? normal : select(held, g.last_normal[k], normal));
     store_lane(l.shear_force[k], rests ? shear : select(held, g.last_shear[k], shear));
 
     sums.normal[k] = normal;
+    // A preload is no stretch that a change of the contact length could give back: nothing may move where the blocks are drawn.
     sums.work += normal * (rests ? p.overlap : p.overlap - rest);
     sums.used += abs(shear);
     sums.strength += select(spring, f.strength, zero);
@@ -131,7 +158,7 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
     sums.changes -= Pack(0.5) * dt * work;
 }
 
-template <ContactLaw law>
+template <ContactLaw law, bool preloaded>
 ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                       ContactLoads& loads, const ContactTally& before)
 {
@@ -170,7 +197,9 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         stale -= moved;
         for (int k = 0; k < 2; ++k)
         {
-            g.closed[k] = is_closed(g.touch.length, g.touch.point[k].overlap, floor);
+            if constexpr (preloaded)
+                g.preload[k] = load_lane(contacts.preload_lane[i / lanes].preload[k]);
+            g.closed[k] = is_closed(g.touch.length, pressed_by<preloaded>(g, k), floor);
             g.was_impulse[k] = {load_regimes(&contacts.regime[k][i]) == static_cast<std::int64_t>(Regime::impulse)};
             g.last_normal[k] = load_lane(l.normal_force[k]);
             g.last_shear[k] = load_lane(l.shear_force[k]);
@@ -193,24 +222,25 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         Mask shared{};
         if (closing != Closing::whole_cycles)
         {
-            shared = closing == Closing::fast_points ? may_close_or_open(touch.point, ways) : touching;
+            shared = closing == Closing::fast_points ? may_close_or_open(pressed_touch<preloaded>(g).point, ways) : touching;
             if (closing_speed > 0.0)
                 shared = shared & are_faster(touch.point, closing_speed);
             act = act | shared;
         }
         if (!any(act))
             for (int k = 0; k < 2; ++k)
-                evaluate_point<Contact4::rests>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
+                evaluate_point<Contact4::rests, preloaded>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
         else
         {
             g.recovery = recovery * floor;
             std::array<Pack, 2> share{1.0, 1.0};
             if (closing != Closing::whole_cycles)
-                share = closing_shares(blocks, l, at_ref, at_inc, touch, g.joint->law.normal_stiffness * g.length, g.recovery);
+                share = closing_shares(blocks, l, at_ref, at_inc, pressed_touch<preloaded>(g),
+                                       g.joint->law.normal_stiffness * g.length, g.recovery);
             for (Pack& s : share)  // what is slow must not depend on which contacts it is handled with
                 s = select(shared, s, 1.0);
             for (int k = 0; k < 2; ++k)
-                evaluate_point<Contact4::any>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
+                evaluate_point<Contact4::any, preloaded>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
         }
         add_tilt_forces(g, floor, dt, l, sums);
         store_lane(l.last_length, g.length);
@@ -240,20 +270,27 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
             before.stale + count(stale),
             before.deep + count(deep)};
 }
+template <bool preloaded>
+ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
+                             ContactLoads& loads, const ContactTally& sums)
+{
+    switch (rule.law)
+    {
+    case ContactLaw::springs:
+        return evaluate<ContactLaw::springs, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+    case ContactLaw::impulses:
+        return evaluate<ContactLaw::impulses, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+    case ContactLaw::by_speed:
+        return evaluate<ContactLaw::by_speed, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+    }
+    return {};
+}
 }  // namespace
 
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
 {
-    switch (rule.law)
-    {
-    case ContactLaw::springs:
-        return evaluate<ContactLaw::springs>(range, model, rule, blocks, contacts, loads, sums);
-    case ContactLaw::impulses:
-        return evaluate<ContactLaw::impulses>(range, model, rule, blocks, contacts, loads, sums);
-    case ContactLaw::by_speed:
-        return evaluate<ContactLaw::by_speed>(range, model, rule, blocks, contacts, loads, sums);
-    }
-    return {};
+    return contacts.has_preload ? evaluate_by_law<true>(range, model, rule, blocks, contacts, loads, sums)
+                                : evaluate_by_law<false>(range, model, rule, blocks, contacts, loads, sums);
 }
 }  // namespace hdem

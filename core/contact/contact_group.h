@@ -42,6 +42,7 @@ struct ContactGroup
     Mask closed[2];
     Mask was_impulse[2];
     Pack last_normal[2], last_shear[2];
+    Pack preload[2];  ///< only where contacts have one [m]
 };
 
 /// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,

@@ -41,7 +41,7 @@ void store_impulses(const Blocks& blocks, const std::vector<ImpulsePoint>& point
         contacts.shear_force(p.end, p.contact) = p.impulse_shear / dt;
         const double kept = remaining_force(p.impulse_normal / dt, p.load_velocity, p.restitution, p.approach,
                                             p.spring_force + p.mass_normal * p.load_velocity / dt);
-        contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.overlap, kept, p.stiffness);
+        contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.pressed, kept, p.stiffness);
     }
 }
 

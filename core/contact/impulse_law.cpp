@@ -41,14 +41,16 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     p.restitution = joint.restitution;
     p.friction = joint.friction_coefficient;
     p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * dt;
+    const double preload = contacts.preload(end, contact);
     p.overlap = at.overlap;
+    p.pressed = at.overlap + preload;
     p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
     p.weight_velocity = model.gravity.norm() * dt;
     const double rest = contacts.rest_overlap(end, contact);
-    p.spring_force = p.stiffness * (at.overlap - rest);
+    p.spring_force = p.stiffness * (p.pressed - rest);
     const double size = std::min(model.size(p.ref), model.size(p.inc));
     const double most = std::max(at.v_m, 0.0) * blocks.step.last + model.contact.correction_rate * size * blocks.step.next;
-    p.excess_overlap = std::min(rest - model.contact.allowed_overlap, most);
+    p.excess_overlap = std::min(rest - preload - model.contact.allowed_overlap, most);
     p.impulse_normal = contacts.normal_force(end, contact) * dt;
     p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * dt, p.impulse_normal * p.friction + p.cohesive_impulse);
     return p;

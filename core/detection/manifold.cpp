@@ -215,6 +215,11 @@ void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
     const double sense = old.ref == contact.ref ? 1.0 : -1.0;
     const double along = sense * old_direction.dot(direction);
     contact.point = {};
+    // The stress that the rock was drawn with stays on a joint; an edge that meets another one across a corner is a new joint.
+    if (along > 0.9 && (old.point[0].regime != Regime::open || old.point[1].regime != Regime::open))
+        for (int k = 0; k < 2; ++k)
+            contact.point[k]
+                .preload = old.point[(after[k] - before[0]).squaredNorm() <= (after[k] - before[1]).squaredNorm() ? 0 : 1].preload;
     for (int k = 0; k < 2; ++k)
     {
         if (old.point[k].regime == Regime::open)
@@ -237,7 +242,7 @@ void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& co
     const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
     contact.last_length = point_length(touch.length, contact.length_floor);
     for (int k = 0; k < 2; ++k)
-        contact.point[k].overlap = touch.point[k].overlap - touch.point[k].v_m * dt;
+        contact.point[k].overlap = touch.point[k].overlap + contact.point[k].preload - touch.point[k].v_m * dt;
 }
 
 /// Springs of new features hold no more energy than the old ones did. A corner that turns past the middle between its two sides passes from a face over which

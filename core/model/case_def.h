@@ -120,6 +120,28 @@ struct JointDef
     std::vector<std::string> materials;  ///< the two materials this joint lies between; empty: only used by name
 };
 
+// ---- stress at the start --------------------------------------------------------------------------------------------
+
+/// A stress, tension positive [Pa], or how it changes upwards [Pa/m].
+struct StressDef
+{
+    double xx = 0.0;
+    double yy = 0.0;
+    double xy = 0.0;
+};
+
+/// [insitu]: what the rock carries before the first cycle; either `stress` or `surface`.
+struct InsituDef
+{
+    bool given = false;
+    std::optional<StressDef> stress;  ///< at y = reference [Pa]
+    StressDef gradient;               ///< d/dy [Pa/m]
+    double reference = 0.0;           ///< [m]
+    std::optional<double> surface;    ///< y of the ground [m]
+    std::optional<double> ratio;      ///< of horizontal to vertical stress [-]
+    double ratio_offset = 0.0;        ///< horizontal compression besides [Pa]
+};
+
 // ---- loads, method, time --------------------------------------------------------------------------------------------
 
 /// From when until when, in cycles or in seconds (both may be open).
@@ -270,6 +292,7 @@ struct CaseDef
     std::string blocks_file;  ///< WKT, one POLYGON a line; read by io/ into `blocks`
     std::vector<MaterialDef> materials;
     std::vector<JointDef> joints;
+    InsituDef insitu;
     Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
     std::vector<LoadDef> loads;
     ContactDef contact;

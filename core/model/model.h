@@ -60,6 +60,17 @@ struct Load
     std::int64_t until = 0;
 };
 
+/// Stress at the start: linear in y. See core/stress/insitu_stress.h.
+struct InsituField
+{
+    bool given = false;
+    StressDef stress;                ///< at the reference, tension positive [Pa]
+    StressDef gradient;              ///< [Pa/m]
+    double reference = 0.0;          ///< y in local coordinates [m]
+    bool ends_at_reference = false;  ///< none above it: the ground
+    double density = 0.0;            ///< of the domain's material [kg/m3]
+};
+
 struct Model
 {
     std::string title;
@@ -83,6 +94,8 @@ struct Model
 
     std::vector<std::string> material_names;
     std::vector<std::string> excavation_names;
+    std::vector<std::string> joint_set_names;
+    InsituField insitu;
     JointTable joints;
     std::vector<Load> loads;
     std::vector<StageDef> stages;

@@ -111,7 +111,8 @@ void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& con
                         const std::uint8_t regime = contacts.regime[k][i];
                         const bool counts = which == Springs::acting
                                                 ? is_spring(regime)
-                                                : is_closed(touch.length, touch.point[k].overlap, contacts.length_floor(i));
+                                                : is_closed(touch.length, touch.point[k].overlap + contacts.preload(k, i),
+                                                            contacts.length_floor(i));
                         if (counts)
                             add(normal);
                         if (counts && (which == Springs::closed || regime == static_cast<std::uint8_t>(Regime::stick)))

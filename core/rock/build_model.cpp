@@ -7,6 +7,7 @@
 #include "core/motion/time_step.h"
 #include "core/rock/resolve_names.h"
 #include "core/stage/rules.h"
+#include "core/stress/insitu_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -254,6 +255,12 @@ Setup build_model(const CaseDef& def)
     for (const ExcavationDef& excavation : def.excavations)
         model.excavation_names.push_back(excavation.name);
     add_joints(def, model);
+    for (const JointSetDef& set : def.joint_sets)
+        model.joint_set_names.push_back(set.name);
+    if (def.insitu.given)
+        model.insitu = make_field(def.insitu, def.materials[material_number(def, def.domain.material)].density, def.gravity,
+                                  model.origin);
+    setup.state.contacts.has_preload = def.insitu.given;
 
     model.gravity = def.gravity;
     model.contact = def.contact;

@@ -16,6 +16,7 @@ void Contacts::resize(Index n)
     for (auto& column : regime)
         column.resize(size);
     lane.resize(groups);
+    preload_lane.resize(has_preload ? groups : 0);
     const Contact none{.ref = 0,
                        .inc = 0,
                        .moved_limit = std::numeric_limits<float>::infinity(),
@@ -35,6 +36,7 @@ void Contacts::reserve(Index n)
     for (auto* column : {&stale, &swapped, &regime[0], &regime[1]})
         column->reserve(groups * lanes);
     lane.reserve(groups);
+    preload_lane.reserve(has_preload ? groups : 0);
 }
 
 EdgePair Contacts::edges(Index i) const
@@ -64,7 +66,7 @@ Contact Contacts::get(Index i) const
                     .point = {}};
     for (int k = 0; k < 2; ++k)
         contact.point[k] = {l.normal_force[k][at], l.shear_force[k][at], l.rest_overlap[k][at], static_cast<Regime>(regime[k][i]),
-                            l.overlap[k][at],      l.tilt_force[k][at]};
+                            l.overlap[k][at],      l.tilt_force[k][at],  preload(k, i)};
     return contact;
 }
 
@@ -104,6 +106,8 @@ void Contacts::put(Index i, const Contact& contact)
         l.rest_overlap[k][at] = contact.point[k].rest_overlap;
         l.tilt_force[k][at] = contact.point[k].tilt_force;
         regime[k][i] = static_cast<std::uint8_t>(contact.point[k].regime);
+        if (has_preload)
+            preload_lane[i / lanes].preload[k][at] = contact.point[k].preload;
     }
 }
 }  // namespace hdem

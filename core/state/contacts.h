@@ -51,8 +51,9 @@ struct PointHistory
     double shear_force = 0.0;   ///< on inc along t [N]
     double rest_overlap = 0.0;  ///< >= 0, overlap at which the normal spring is empty [m]
     Regime regime = Regime::open;
-    double overlap = 0.0;     ///< of the last cycle [m]
+    double overlap = 0.0;     ///< of the last cycle, with the preload [m]
     double tilt_force = 0.0;  ///< of the last cycle, on inc along t (contact/force_law.h) [N]
+    double preload = 0.0;     ///< >= 0, by which the joint is pressed where the blocks are drawn: in-situ stress over K_N [m]
 };
 
 /// One contact as a value: what moves between arrays when contacts are re-sorted, saved or restarted.
@@ -85,6 +86,12 @@ struct alignas(64) ContactLanes
     std::array<float, lanes> moved_limit;
 };
 
+/// Preloads of four contacts.
+struct alignas(64) PreloadLanes
+{
+    std::array<ContactLanes::Lane, 2> preload;
+};
+
 /// All contacts. Arrays are filled up to a multiple of `lanes` with contacts of block 0 with itself that never touch.
 class Contacts
 {
@@ -94,6 +101,8 @@ class Contacts
     std::vector<std::uint8_t> swapped;  ///< ref is the block of part_b, inc that of part_a
     std::array<std::vector<std::uint8_t>, 2> regime;
     std::vector<ContactLanes> lane;
+    std::vector<PreloadLanes> preload_lane;  ///< empty without in-situ stress
+    bool has_preload = false;                ///< set it while there are no contacts
 
     [[nodiscard]] Index size() const { return size_; }
     void resize(Index n);
@@ -107,6 +116,10 @@ class Contacts
     [[nodiscard]] double tilt_force(int end, Index i) const { return lane[i / lanes].tilt_force[end][i % lanes]; }
     [[nodiscard]] double shear_force(int end, Index i) const { return lane[i / lanes].shear_force[end][i % lanes]; }
     [[nodiscard]] double rest_overlap(int end, Index i) const { return lane[i / lanes].rest_overlap[end][i % lanes]; }
+    [[nodiscard]] double preload(int end, Index i) const
+    {
+        return has_preload ? preload_lane[i / lanes].preload[end][i % lanes] : 0.0;
+    }
     [[nodiscard]] double& rest_overlap(int end, Index i) { return lane[i / lanes].rest_overlap[end][i % lanes]; }
     [[nodiscard]] double& normal_force(int end, Index i) { return lane[i / lanes].normal_force[end][i % lanes]; }
     [[nodiscard]] double& shear_force(int end, Index i) { return lane[i / lanes].shear_force[end][i % lanes]; }

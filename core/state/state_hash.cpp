@@ -28,6 +28,12 @@ struct HashedContact
     std::array<double, 6> history;  ///< forces, rest overlaps
     std::array<std::int64_t, 2> regime;
 };
+
+struct HashedPreload
+{
+    std::int64_t low, high;
+    std::array<double, 2> preload;
+};
 }  // namespace
 
 std::uint64_t state_hash(const Model& model, const State& state)
@@ -44,6 +50,7 @@ std::uint64_t state_hash(const Model& model, const State& state)
     const std::vector<Index> number = user_part_numbers(model);
     const Contacts& contacts = state.contacts;
     std::vector<HashedContact> hashed;
+    std::vector<HashedPreload> preloads;
     for (Index i = 0; i < contacts.size(); ++i)
     {
         if (contacts.regime[0][i] == 0 && contacts.regime[1][i] == 0)
@@ -61,6 +68,13 @@ std::uint64_t state_hash(const Model& model, const State& state)
     std::sort(hashed.begin(), hashed.end(),
               [](const HashedContact& p, const HashedContact& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
     XXH3_64bits_update(hash, hashed.data(), hashed.size() * sizeof(HashedContact));
+    for (Index i = 0; i < (contacts.has_preload ? contacts.size() : 0); ++i)
+        preloads.push_back({std::min(number[contacts.part_a[i]], number[contacts.part_b[i]]),
+                            std::max(number[contacts.part_a[i]], number[contacts.part_b[i]]),
+                            {contacts.preload(0, i) + 0.0, contacts.preload(1, i) + 0.0}});
+    std::sort(preloads.begin(), preloads.end(),
+              [](const HashedPreload& p, const HashedPreload& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
+    XXH3_64bits_update(hash, preloads.data(), preloads.size() * sizeof(HashedPreload));
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

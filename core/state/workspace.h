@@ -77,6 +77,7 @@ struct ImpulsePoint
     double load_velocity = 0.0;     ///< what this cycle's forces add to it, and no less than weight does [m/s]
     double restitution = 0.0;       ///< R of Eq. (15) [-]
     double overlap = 0.0;           ///< [m]
+    double pressed = 0.0;           ///< with the preload [m]
     double stiffness = 0.0;         ///< K_N L of the point, for the spring that follows [N/m]
     double spring_force = 0.0;      ///< with which its spring would have begun before this cycle [N]
     double friction = 0.0;          ///< tan phi [-]

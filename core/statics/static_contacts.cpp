@@ -21,8 +21,11 @@ struct View
     double d_t = 0.0;                       ///< from the centroid of ref to that of inc, along the edge [m]
     double length = 0.0;                    ///< a point's share [m]
     double floor = 0.0;
+    std::array<double, 2> preload{};  ///< of the points [m]
     const CoulombSlip* joint = nullptr;
 
+    /// Overlap of a point with its preload [m].
+    [[nodiscard]] double pressed(int k) const { return touch.point[k].overlap + preload[k]; }
     /// Along the edge, of a body point of inc [m].
     [[nodiscard]] double t_of(double q_x, double q_y) const { return d_t + (turned_c * q_x - turned_s * q_y); }
 };
@@ -41,6 +44,7 @@ View view(const Model& model, const State& state, Index i)
     v.turned_s = seen.ex * inc.s - seen.ey * inc.c;
     v.d_t = seen.d_t;
     v.floor = contacts.length_floor(i);
+    v.preload = {contacts.preload(0, i), contacts.preload(1, i)};
     v.length = point_length(v.touch.length, v.floor);
     v.joint = &model.joints.laws[contacts.law[i]];
     return v;
@@ -48,7 +52,7 @@ View view(const Model& model, const State& state, Index i)
 
 PointPlace place(const View& v, int k, const StaticPoint& point, double rest)
 {
-    const double overlap = v.touch.point[k].overlap;
+    const double overlap = v.pressed(k);
     const bool closed = is_closed(v.touch.length, overlap, v.floor);
     return {.length = v.length,
             .stretch = overlap - rest_overlap(overlap, rest, 0.0),
@@ -148,7 +152,7 @@ void begin_points(IndexRange range, const Model& model, const State& state, std:
             point = {};
             point.trust = first_trust;
             count_ways_anew(v, k, point);
-            const bool closed = is_closed(v.touch.length, v.touch.point[k].overlap, v.floor);
+            const bool closed = is_closed(v.touch.length, v.pressed(k), v.floor);
             point.is_parted = !closed;
             point.start_shear = closed ? state.contacts.shear_force(k, i) : 0.0;
             point.began_closed = closed;
@@ -174,7 +178,7 @@ void put_loads(IndexRange range, const Model& model, const State& state, const s
             const StaticPoint& point = points[2 * i + k];
             const PointPlace at = place(v, k, point, contacts.rest_overlap(k, i));
             r[k] = react(joint_of(v, point), at, point.start_shear, frozen ? point.strength : -1.0);
-            work += r[k].normal * at.stretch;
+            work += r[k].normal * (at.stretch - v.preload[k]);
         }
         double f_t = 0.0, f_m = 0.0, moment_ref = 0.0, moment_inc = 0.0;
         const double pull = length_pull(work, 1.0 / v.length) * length_growth(v.touch.length, v.floor);
@@ -292,7 +296,7 @@ void commit_points(IndexRange range, const Model& model, const std::vector<Stati
             const StaticPoint& point = points[2 * i + k];
             const PointPlace at = place(v, k, point, l.rest_overlap[k][lane]);
             const PointReaction r = at.is_closed ? react(joint_of(v, point), at, point.start_shear) : PointReaction{};
-            const double overlap = v.touch.point[k].overlap;
+            const double overlap = v.pressed(k);
             l.normal_force[k][lane] = r.normal;
             l.shear_force[k][lane] = r.shear;
             l.overlap[k][lane] = overlap;
@@ -300,7 +304,7 @@ void commit_points(IndexRange range, const Model& model, const std::vector<Stati
             contacts.regime[k][i] = static_cast<std::uint8_t>(r.status == PointStatus::open   ? Regime::open
                                                               : r.status == PointStatus::slip ? Regime::slip
                                                                                               : Regime::stick);
-            work += r.normal * at.stretch;
+            work += r.normal * (at.stretch - v.preload[k]);
         }
         const double pull = length_pull(work, 1.0 / v.length) * length_growth(v.touch.length, v.floor);
         for (int k = 0; k < 2; ++k)

@@ -1,5 +1,6 @@
 /// hdem check: read and generate only.
 
+#include "core/stress/insitu_stress.h"
 #include "io/load_case.h"
 #include "io/polygons.h"
 #include "parallel/simulation.h"
@@ -27,6 +28,29 @@ void list_blocks(const Model& model, const State& state)
             state.blocks.is_free(i) ? "free" : "fixed",
             model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
     }
+}
+
+void describe_insitu(const Model& model, const InsituSummary& insitu)
+{
+    say("in-situ stress    field out of equilibrium with gravity by {:.3g} of its weight\n", insitu.field);
+    if (insitu.field > 1e-3)
+        say("warning: [insitu]: the field is not in equilibrium with gravity (d sigma_yy/dy + rho g = {:.3g} of rho g). Blocks "
+            "will move. "
+            "Give gradient = [.., rho g, ..], or surface and ratio.\n",
+            insitu.field);
+    if (insitu.worst != no_index)
+        say("worst unbalanced  {:.3g} of the forces on block {}\n", insitu.unbalance, printable(model.name[insitu.worst]));
+    if (insitu.unbalance > 1e-9)
+        say("warning: [insitu]: block {} is out of balance by {:.3g} of what acts on it. Look for a side that is free under stress "
+            "(fix it), "
+            "for a gap beside the block, or for a joint that would bear tension.\n",
+            printable(model.name[insitu.worst]), insitu.unbalance);
+    for (const StressedSet& set : insitu.sets)
+        say("joints            {}: {} contacts, {:.6g} m; shear strength in use at most {:.4f}; above it {} contacts, {:.6g} m "
+            "({:.4g} % "
+            "of their length)\n",
+            printable(set.name), set.joints, set.length, set.most_used, set.above, set.length_above,
+            set.length > 0.0 ? 100.0 * set.length_above / set.length : 0.0);
 }
 }  // namespace
 
@@ -59,6 +83,8 @@ int check_command(const CheckOptions& options)
     say("time step         {:.6g} s\n", model.time_step);
     say("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
     say("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());
+    if (model.insitu.given)
+        describe_insitu(model, summarise_insitu(model, state));
     say("threshold scale   {:.6g}\n", model.threshold_scale);
     for (const Problem& warning : loaded.warnings)
         say("{}\n", warning.text);

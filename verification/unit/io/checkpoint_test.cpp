@@ -204,7 +204,8 @@ TEST(Checkpoint, KeepsWhichBlocksWereNotAtRestAndWhatStaticSolutionsFound)
     for (const std::int64_t cycle : {unbroken.stage_cycles[1] + 1, unbroken.cycle - 50})
     {
         run_until(scene, cycle, folder.path());
-        EXPECT_EQ(restart(scene, folder.path(), 1), unbroken) << "cycle " << cycle;
+        for (const int threads : {1, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
     }
 }
 

@@ -1,0 +1,192 @@
+#include "core/stress/insitu_stress.h"
+
+#include "core/detection/edge_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hdem
+{
+StressDef stress_at(const InsituField& field, double y)
+{
+    const double way = y - field.reference;
+    if (field.ends_at_reference && way > 0.0)
+        return {};
+    return {field.stress.xx + field.gradient.xx * way, field.stress.yy + field.gradient.yy * way,
+            field.stress.xy + field.gradient.xy * way};
+}
+
+InsituField make_field(const InsituDef& def, double density, const Vec2& gravity, const Vec2& origin)
+{
+    InsituField field{.given = def.given, .density = density};
+    if (def.surface)
+    {
+        const double weight = -density * gravity.y();
+        field.reference = *def.surface - origin.y();
+        field.gradient = {def.ratio.value_or(0.0) * weight, weight, 0.0};
+        field.stress.xx = -def.ratio_offset;
+        field.ends_at_reference = true;
+        return field;
+    }
+    field.stress = def.stress.value_or(StressDef{});
+    field.gradient = def.gradient;
+    field.reference = def.reference - origin.y();
+    return field;
+}
+
+double field_unbalance(const InsituField& field, double density, const Vec2& gravity)
+{
+    const Vec2 weight = density * gravity;
+    const Vec2 lacking = Vec2(field.gradient.xy, field.gradient.yy) + weight;
+    const double scale = std::max(weight.norm(), std::hypot(field.gradient.xy, field.gradient.yy));
+    return scale > 0.0 ? lacking.norm() / scale : 0.0;
+}
+
+namespace
+{
+/// Ends of a contact where the blocks are drawn, and the traction on inc there.
+struct DrawnContact
+{
+    EdgeTouch touch;
+    double floor = 0.0;
+    std::array<Vec2, 2> force;  ///< of the points on inc: along t, pressing [N]
+
+    [[nodiscard]] bool touches() const
+    {
+        return touch.length > 0.0 && -std::max(touch.point[0].overlap, touch.point[1].overlap) < floor;
+    }
+};
+
+DrawnContact drawn_contact(const Model& model, const State& state, Index i)
+{
+    const Contacts& contacts = state.contacts;
+    const BlockMotion& ref = state.blocks.motion[contacts.ref[i]];
+    const BlockMotion& inc = state.blocks.motion[contacts.inc[i]];
+    DrawnContact drawn{.touch = touch_edges(contacts.edges(i), ref, inc), .floor = contacts.length_floor(i), .force = {}};
+    const Vec2 t(drawn.touch.ex, drawn.touch.ey), m = turned_left(t);
+    std::array<Vec2, 2> traction;
+    for (int k = 0; k < 2; ++k)
+    {
+        const TouchPoint& p = drawn.touch.point[k];
+        const StressDef s = stress_at(model.insitu, ref.y + p.ref_t * t.y() + p.ref_m * m.y());
+        const Vec2 on_inc(s.xx * m.x() + s.xy * m.y(), s.xy * m.x() + s.yy * m.y());
+        traction[k] = {on_inc.dot(t), -on_inc.dot(m)};
+    }
+    const double sixth = std::max(drawn.touch.length, 0.0) / 6.0;
+    drawn.force = {sixth * (2.0 * traction[0] + traction[1]), sixth * (traction[0] + 2.0 * traction[1])};
+    return drawn;
+}
+
+std::string name_of(const Model& model, std::int32_t source)
+{
+    if (source < 0)
+        return source == edge_outline ? "outlines" : "other edges";
+    const auto set = static_cast<std::size_t>(source);
+    return set < model.joint_set_names.size() ? model.joint_set_names[set] : "traces";
+}
+
+/// What acts on each block: net force and moment, and the sum of all that does.
+struct Acting
+{
+    Vec2 net = {0.0, 0.0};
+    double moment = 0.0, all = 0.0;
+
+    void add(const Vec2& force, double force_moment)
+    {
+        net += force;
+        moment += force_moment;
+        all += force.norm();
+    }
+};
+
+void find_worst(const Model& model, const State& state, const std::vector<Acting>& acting, InsituSummary& summary)
+{
+    for (Index b = 0; b < model.blocks(); ++b)
+    {
+        if (!state.blocks.is_free(b) || acting[b].all == 0.0)
+            continue;
+        const double unbalance = (acting[b].net.norm() + std::abs(acting[b].moment) / model.radius[b]) / acting[b].all;
+        if (unbalance > summary.unbalance || summary.worst == no_index)
+        {
+            summary.unbalance = unbalance;
+            summary.worst = b;
+        }
+    }
+}
+}  // namespace
+
+void lock_in_stress(const Model& model, State& state)
+{
+    Contacts& contacts = state.contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const DrawnContact drawn = drawn_contact(model, state, i);
+        if (!drawn.touches())
+            continue;
+        Contact contact = contacts.get(i);
+        const double length = point_length(drawn.touch.length, drawn.floor);
+        const double stiffness = model.joints.laws[contact.law].normal_stiffness * length;
+        contact.last_length = length;
+        for (int k = 0; k < 2; ++k)
+        {
+            PointHistory& point = contact.point[k];
+            point.normal_force = std::max(drawn.force[k].y(), 0.0);
+            point.shear_force = point.normal_force > 0.0 ? drawn.force[k].x() : 0.0;
+            const double overlap = drawn.touch.point[k].overlap;
+            point.preload = std::max(point.normal_force / stiffness - overlap, 0.0);
+            point.overlap = overlap + point.preload;
+            point.regime = point.normal_force > 0.0 ? Regime::stick : Regime::open;
+        }
+        contacts.put(i, contact);
+    }
+}
+
+InsituSummary summarise_insitu(const Model& model, const State& state)
+{
+    constexpr double rounding = 1e-9;
+    InsituSummary summary{.field = field_unbalance(model.insitu, model.insitu.density, model.gravity), .sets = {}};
+    std::vector<Acting> acting(static_cast<std::size_t>(model.blocks()));
+    std::map<std::int32_t, StressedSet> sets;
+    for (Index b = 0; b < model.blocks(); ++b)
+        acting[b].add(model.mass[b] * model.gravity, 0.0);
+    const Contacts& contacts = state.contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const DrawnContact drawn = drawn_contact(model, state, i);
+        if (!drawn.touches())
+            continue;
+        const std::int32_t source = std::max(model.shapes.edge_source[contacts.ref_edge[i]],
+                                             model.shapes.edge_source[contacts.inc_edge[i]]);
+        StressedSet& set = sets[source];
+        const CoulombSlip& law = model.joints.laws[contacts.law[i]];
+        const Vec2 t(drawn.touch.ex, drawn.touch.ey), m = turned_left(t);
+        const double length = 0.5 * drawn.touch.length;
+        bool above = false;
+        for (int k = 0; k < 2; ++k)
+        {
+            const TouchPoint& p = drawn.touch.point[k];
+            const double normal = contacts.normal_force(k, i), shear = contacts.shear_force(k, i);
+            const Vec2 on_inc = shear * t - normal * m;
+            acting[contacts.inc[i]].add(on_inc, -p.inc_t * normal - p.inc_m * shear);
+            acting[contacts.ref[i]].add(-on_inc, p.ref_t * normal + p.ref_m * shear);
+            const double strength = shear_strength(law, std::max(drawn.force[k].y(), 0.0), length);
+            const double used = std::abs(drawn.force[k].x());
+            above = above || used > strength * (1.0 + rounding) || drawn.force[k].y() < 0.0;
+            if (strength > 0.0)
+                set.most_used = std::max(set.most_used, used / strength);
+        }
+        ++set.joints;
+        set.length += drawn.touch.length;
+        set.above += above ? 1 : 0;
+        set.length_above += above ? drawn.touch.length : 0.0;
+    }
+    for (auto& [source, set] : sets)
+    {
+        set.name = name_of(model, source);
+        summary.sets.push_back(std::move(set));
+    }
+    find_worst(model, state, acting, summary);
+    return summary;
+}
+}  // namespace hdem

@@ -1,0 +1,54 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+SectionSpec insitu_section()
+{
+    return {
+        "insitu",
+        SectionKind::table,
+        "insitu",
+        "Stress that the rock carries before the first cycle. It is locked into the joints: no block is moved. Give `stress` (and "
+        "its "
+        "`gradient`), or the `surface` of the ground and the `ratio` of horizontal to vertical stress. The numbers of `stress` and "
+        "`gradient` are tension positive. Each block is then in equilibrium where the field is, at sides that are fixed and at a "
+        "ground without load. `hdem check` prints how far it is, and which joints bear more than their strength: they slip in the "
+        "first cycle.",
+        {field<&InsituDef::stress>({.name = "stress",
+                                    .unit = "Pa",
+                                    .effect = "[σ_xx, σ_yy, σ_xy] at y = `reference`; compression is negative.",
+                                    .example = "[-8e6, -5e6, 1e6]",
+                                    .range = any_size,
+                                    .default_note = "given by surface"}),
+         field<&InsituDef::gradient>({.name = "gradient",
+                                      .unit = "Pa/m",
+                                      .effect = "Change of the three upwards. With gravity, σ_yy grows by ρ g a metre.",
+                                      .range = any_size}),
+         field<&InsituDef::reference>(
+             {.name = "reference", .unit = "m", .effect = "Height y at which `stress` holds.", .range = coordinate}),
+         field<&InsituDef::surface>({.name = "surface",
+                                     .unit = "m",
+                                     .effect = "Height y of the ground: σ_yy = ρ g (y - surface), with the density of the domain's "
+                                               "material; none above it.",
+                                     .example = "120.0",
+                                     .range = coordinate,
+                                     .default_note = "given by stress"}),
+         field<&InsituDef::ratio>({.name = "ratio",
+                                   .effect = "K0, horizontal over vertical stress. Belongs to `surface`.",
+                                   .example = "1.5",
+                                   .range = {.low = 0, .high = 100},
+                                   .default_note = "must be given with surface"}),
+         field<&InsituDef::ratio_offset>({.name = "ratio_offset",
+                                          .unit = "Pa",
+                                          .effect = "Horizontal compression besides. Belongs to `surface`.",
+                                          .range = any_size})},
+        [](CaseDef& def, const std::string&) -> void*
+        {
+            def.insitu.given = true;
+            return &def.insitu;
+        }};
+}
+}  // namespace hdem
