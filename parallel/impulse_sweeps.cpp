@@ -31,6 +31,14 @@ void for_colours(const Team& team, bool together, Partition& partition, const St
     }
 }
 
+std::vector<std::vector<ImpulsePoint>*> impulse_lists(Partition& partition)
+{
+    std::vector<std::vector<ImpulsePoint>*> lists;
+    for (ContactPart& part : partition.contacts)
+        lists.push_back(&part.impulses);
+    return lists;
+}
+
 /// Islands that sweeps do not bring to an end, each by one thread. Which these are does not depend on the number of threads.
 void solve_islands(const Model& model, ExactIslands which, State& state, const Team& team, Partition& partition, Workspace& work)
 {
@@ -47,14 +55,7 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
     team.barrier();
     if (std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
         return;
-    team.alone(
-        [&]
-        {
-            std::vector<std::vector<ImpulsePoint>*> lists;
-            for (ContactPart& part : partition.contacts)
-                lists.push_back(&part.impulses);
-            partition.island_finder.find(lists, blocks, partition.islands);
-        });
+    team.alone([&] { partition.island_finder.find(impulse_lists(partition), blocks, partition.islands); });
     const IndexRange islands = team.share(static_cast<Index>(partition.islands.size()));
     for (Index i = islands.begin; i < islands.end; ++i)
         solve_island(model, which, blocks, work.pseudo, partition.islands[i]);
@@ -77,8 +78,11 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
         partition.contacts[i].masses = mass_range(partition.contacts[i].impulses, blocks);
     }
     team.barrier();
-    for_colours(team, together, partition,
-                [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses(part.impulses, blocks); });
+    if (state.contacts.has_preload)
+        team.alone([&] { state.ledger.impulse_loss += start_impulses(impulse_lists(partition), true, blocks); });
+    else
+        for_colours(team, together, partition,
+                    [&](ContactPart& part) { part.ledger.impulse_loss += start_impulses({&part.impulses}, false, blocks); });
     for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         for_colours(team, together, partition,
                     [&](ContactPart& part)

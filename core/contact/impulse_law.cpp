@@ -183,22 +183,44 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
     }
 }
 
-double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
+namespace
 {
-    double loss = 0.0;
-    const double before = demand(points, blocks);
-    for (ImpulsePoint& p : points)
-        loss += push(p, p.impulse_shear, -p.impulse_normal, blocks);
-    const double after = demand(points, blocks);
-    if (before + after >= -noticeable * weight_demand(points))  // 2 b >= c
+/// Of what the impulses by themselves would do: what rounding leaves of forces that balance.
+constexpr double rounding = 1e-9;
+
+double rounded_demand(const std::vector<ImpulsePoint>& points)
+{
+    double sum = 0.0;
+    for (const ImpulsePoint& p : points)
+        if (p.mass_normal > 0.0)
+            sum += rounding * (p.impulse_normal * p.impulse_normal + p.impulse_shear * p.impulse_shear) / p.mass_normal;
+    return sum;
+}
+}  // namespace
+
+double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool are_stressed, Blocks& blocks)
+{
+    double loss = 0.0, before = 0.0, after = 0.0, allowed = 0.0;
+    for (const auto* points : lists)
+        before += demand(*points, blocks);
+    for (auto* points : lists)
+        for (ImpulsePoint& p : *points)
+            loss += push(p, p.impulse_shear, -p.impulse_normal, blocks);
+    for (const auto* points : lists)
+    {
+        after += demand(*points, blocks);
+        allowed += noticeable * weight_demand(*points) + (are_stressed ? rounded_demand(*points) : 0.0);
+    }
+    if (before + after >= -allowed)  // 2 b >= c
         return loss;
     const double share = before > 0.0 ? before / (before - after) : 0.0;
-    for (ImpulsePoint& p : points)
-    {
-        loss += push(p, (share - 1.0) * p.impulse_shear, (1.0 - share) * p.impulse_normal, blocks);
-        p.impulse_shear *= share;
-        p.impulse_normal *= share;
-    }
+    for (auto* points : lists)
+        for (ImpulsePoint& p : *points)
+        {
+            loss += push(p, (share - 1.0) * p.impulse_shear, (1.0 - share) * p.impulse_normal, blocks);
+            p.impulse_shear *= share;
+            p.impulse_normal *= share;
+        }
     return loss;
 }
 

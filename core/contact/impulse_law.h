@@ -31,8 +31,9 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points);
 /// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
 /// springs' share between two points is handed over as it is. After an impact they are far too great, more than the sweeps may take back: then only
 /// the share of all of them that leaves least to do, which adds no energy.
+/// Of rock with in-situ stress all points must be started together (`are_stressed`): without those of its neighbours the forces of one part are far from balance.
 /// @return energy lost, as for sweep_impulses [J]
-double start_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
+double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool are_stressed, Blocks& blocks);
 
 /// One sweep over `range` of the points, one contact after another: each brings its own approach velocities to their targets and its
 /// sliding velocities to zero, within what the joint carries. The normal impulses of a contact's two points are solved together.

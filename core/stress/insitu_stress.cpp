@@ -1,6 +1,7 @@
 #include "core/stress/insitu_stress.h"
 
 #include "core/detection/edge_touch.h"
+#include "core/geometry/convex_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ double field_unbalance(const InsituField& field, double density, const Vec2& gra
 
 namespace
 {
-/// Ends of a contact where the blocks are drawn, and the traction on inc there.
+/// A contact where the blocks are drawn. Two edges that only meet in a corner do not touch.
 struct DrawnContact
 {
     EdgeTouch touch;
@@ -54,7 +55,7 @@ struct DrawnContact
 
     [[nodiscard]] bool touches() const
     {
-        return touch.length > 0.0 && -std::max(touch.point[0].overlap, touch.point[1].overlap) < floor;
+        return touch.length > 0.0 && -std::min(touch.point[0].overlap, touch.point[1].overlap) < floor;
     }
 };
 
