@@ -41,7 +41,7 @@ void run(benchmark::State& bench, const std::string& scene, Index blocks, const 
     Scratch begin{evaluated.state.blocks, {}, std::vector<Triple>(static_cast<std::size_t>(model.blocks()))};
     collect_impulse_points(evaluated.all_contacts(), model, begin.blocks, evaluated.state.contacts, begin.points);
     aim_impulses(begin.blocks, begin.points);
-    start_impulses(begin.points, begin.blocks);
+    start_impulses({&begin.points}, false, begin.blocks);
     Scratch swept = begin;
     sweep(model, swept);
     if (begin.points.empty() || !are_admissible(swept.points))

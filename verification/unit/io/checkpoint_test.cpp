@@ -131,6 +131,20 @@ TEST_P(Checkpoint, GivesTheUnbrokenRunToTheLastBitFromAnyCycle)
     }
 }
 
+TEST(Checkpoint, GivesTheUnbrokenRunOfStressedRock)
+{
+    const ScratchFolder folder("checkpoint_stress");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {50, 310, 1150})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
 TEST(Checkpoint, GivesTheUnbrokenRunOfStepsThatVary)
 {
     const ScratchFolder folder("checkpoint_step");
