@@ -30,13 +30,36 @@ TEST(CaseReader, LeavesWhatIsNotGivenAtItsDefault)
     EXPECT_TRUE(def.output.contacts);
 }
 
+TEST(CaseReader, ReadsStressInEitherForm)
+{
+    const InsituDef
+        tensor = read(two_blocks + "[insitu]\nstress = [-8e6, -5e6, 1e6]\ngradient = [1.0, 2.0, 3.0]\nreference = 4.0\n").insitu;
+    EXPECT_TRUE(tensor.given);
+    EXPECT_EQ(tensor.stress->xy, 1e6);
+    EXPECT_EQ(tensor.gradient.yy, 2.0);
+    EXPECT_EQ(tensor.reference, 4.0);
+    const InsituDef ground = read(two_blocks + "[insitu]\nsurface = 120.0\nratio = 1.5\nratio_offset = 1e6\n").insitu;
+    EXPECT_EQ(ground.surface, 120.0);
+    EXPECT_EQ(ground.ratio, 1.5);
+    EXPECT_EQ(ground.ratio_offset, 1e6);
+    const auto complains = [](const std::string& keys, const char* what)
+    { EXPECT_THAT(test::problems_of(two_blocks + "[insitu]\n" + keys), testing::Contains(testing::HasSubstr(what))) << keys; };
+    complains("", "stress (is missing, and there is no surface)");
+    complains("surface = 1.0", "ratio (is missing");
+    complains("stress = [1.0, 2.0]", "has 2 numbers, a stress has three");
+    complains("stress = [1.0, 2.0, 3.0]\nsurface = 1.0\nratio = 1.0", "contradicts stress");
+    complains("stress = [1.0, 2.0, 3.0]\nratio = 1.0", "belongs to surface");
+    complains("surface = 1.0\nratio = 1.0\ngradient = [0.0, 0.0, 0.0]", "belongs to stress");
+    complains("surface = 1.0\nratio = 1.0\n[gravity]\nvector = [1.0, -9.81]", "straight down");
+}
+
 /// Every default that the documentation shows, written into a file, is legal and reads back as the same value.
 TEST(CaseReader, ReadsEveryDocumentedDefaultBack)
 {
     int defaults = 0;
     for (const SectionSpec& section : case_schema())
     {
-        if (section.kind != SectionKind::table || section.name == "domain")
+        if (section.kind != SectionKind::table || section.name == "domain" || section.name == "insitu")
             continue;
         std::string text = two_blocks + "[" + section.name + "]\n";
         for (const KeySpec& key : section.keys)
