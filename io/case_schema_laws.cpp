@@ -57,8 +57,11 @@ SectionSpec joint_section()
                                                .example = "30.0",
                                                .range = {.low = 0, .high = 90, .high_included = false},
                                                .required = true}),
-         field<&JointDef::cohesion>(
-             {.name = "cohesion", .unit = "Pa", .effect = "c of the same limit; L is the contact length.", .range = non_negative}),
+         field<&JointDef::cohesion>({.name = "cohesion",
+                                     .unit = "Pa",
+                                     .effect = "c of the same limit; L is the contact length. Only joints that are closed where "
+                                               "the blocks are drawn have it; blocks that meet later do not.",
+                                     .range = non_negative}),
          field<&JointDef::restitution>({.name = "restitution",
                                         .effect = "Of impulse contacts on this joint.",
                                         .range = share,

@@ -8,7 +8,7 @@
 #include "core/motion/time_step.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
-#include "core/stress/insitu_stress.h"
+#include "core/stress/drawn_joints.h"
 #include "parallel/state_check.h"
 
 #include <algorithm>
@@ -42,8 +42,7 @@ Simulation::Simulation(Model model, State state, int threads)
         renew_contacts();
     if (fresh)
     {
-        if (model_.insitu.given)
-            lock_in_stress(model_, state_);
+        join_drawn_blocks(model_, std::vector<std::uint8_t>(static_cast<std::size_t>(model_.blocks()), 1), state_);
         state_.ledger.initial = stored_energy(model_, state_).total();
         find_default_step();
     }
@@ -146,6 +145,9 @@ void Simulation::change_blocks(const StageDef& stage)
 {
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
+    std::vector<std::uint8_t> was_fixed;
+    for (Index i = 0; i < model_.blocks(); ++i)
+        was_fixed.push_back(state_.blocks.is_free(i) ? 0 : 1);
     for (const std::string& name : stage.excavate)
         excavate(name);
     for (const std::string& name : stage.fix)
@@ -156,6 +158,8 @@ void Simulation::change_blocks(const StageDef& stage)
         state_.contacts_outdated = true;
     if (state_.contacts_outdated)
         renew_contacts();
+    if (!stage.free.empty())  // between two fixed blocks there was no contact
+        join_drawn_blocks(model_, was_fixed, state_);
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 

@@ -205,7 +205,8 @@ std::array<Vec2, 2> point_positions(const EdgePair& edges, const BlockMotion& re
 
 /// Forces of the old points go to the nearest new point. A shear force keeps the component along the new edge if that runs
 /// within about 25 degrees of the old one; across a corner it is dropped, since it belonged to another face.
-void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, Contact& contact)
+/// @return  whether it is the same joint still
+bool carry_history(const std::vector<BlockMotion>& motion, const Contact& old, Contact& contact)
 {
     const BlockMotion& from = motion[contact.ref];
     Vec2 old_direction, direction;
@@ -216,7 +217,8 @@ void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
     const double along = sense * old_direction.dot(direction);
     contact.point = {};
     // The stress that the rock was drawn with stays on a joint; an edge that meets another one across a corner is a new joint.
-    if (along > 0.9 && (old.point[0].regime != Regime::open || old.point[1].regime != Regime::open))
+    const bool goes_on = along > 0.9 && (old.point[0].regime != Regime::open || old.point[1].regime != Regime::open);
+    if (goes_on)
         for (int k = 0; k < 2; ++k)
             contact.point[k]
                 .preload = old.point[(after[k] - before[0]).squaredNorm() <= (after[k] - before[1]).squaredNorm() ? 0 : 1].preload;
@@ -232,6 +234,7 @@ void carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
         point.rest_overlap = std::max(point.rest_overlap, old.point[k].rest_overlap);
         point.regime = std::max(point.regime, old.point[k].regime);
     }
+    return goes_on;
 }
 
 /// What new features would have seen in the last cycle: overlaps one step back, bearing length as it is.
@@ -280,6 +283,13 @@ void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
 }
 }  // namespace
 
+Index joint_of(const Model& model, const Contact& contact)
+{
+    const std::vector<std::int32_t>& source = model.shapes.edge_source;
+    return model.joints.find(source[contact.ref_edge], source[contact.inc_edge], model.material[contact.ref],
+                             model.material[contact.inc]);
+}
+
 double find_features(const Model& model, const Blocks& blocks, Contact& contact)
 {
     const std::vector<BlockMotion>& motion = blocks.motion;
@@ -324,10 +334,11 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         contact.edges = facing.edges;
         contact.length_floor = floor;
         contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
-        contact.law = model.joints.find(shapes.edge_source[facing.ref_edge], shapes.edge_source[facing.inc_edge],
-                                        model.material[contact.ref], model.material[contact.inc]);
-        if (old.ref_edge != no_index)
-            carry_history(motion, old, contact);
+        const bool goes_on = old.ref_edge != no_index && carry_history(motion, old, contact);
+        const JointTable& joints = model.joints;
+        const Index law = joint_of(model, contact);
+        const bool is_bonded = goes_on && joints.unbonded_of(old.law) != old.law;
+        contact.law = is_bonded ? law : joints.unbonded_of(law);
         start_points(motion, blocks.step.last, contact);
         if (old.ref_edge != no_index)
             limit_energy(model.joints.laws[old.law], old, model.joints.laws[contact.law], contact);

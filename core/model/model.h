@@ -39,10 +39,15 @@ struct JointTable
 {
     std::vector<std::string> names;
     std::vector<CoulombSlip> laws;
+    std::vector<Index> unbonded;      ///< per law: the same without cohesion, for blocks that have met since the start
     std::vector<Index> of_joint_set;  ///< per joint set, and for all traces: law, or no_index
     std::vector<Index> of_materials;  ///< materials x materials: law
     Index materials = 0;
 
+    /// @return position of a copy without cohesion
+    Index add_unbonded(Index law);
+    /// Law of blocks that have met since the start.
+    [[nodiscard]] Index unbonded_of(Index law) const { return unbonded.empty() ? law : unbonded[law]; }
     [[nodiscard]] Index find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const;
 };
 

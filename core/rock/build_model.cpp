@@ -127,6 +127,10 @@ void add_joints(const CaseDef& def, Model& model)
         if (joint.name == "default")
             fallback = static_cast<Index>(j);
     }
+    for (Index j = 0; j < static_cast<Index>(def.joints.size()); ++j)
+        table.unbonded.push_back(table.laws[j].cohesion > 0.0 ? table.add_unbonded(j) : j);
+    for (auto j = static_cast<Index>(table.unbonded.size()); j < static_cast<Index>(table.laws.size()); ++j)
+        table.unbonded.push_back(j);
     table.of_materials.assign(static_cast<std::size_t>(n * n), fallback);
     const auto joint_named = [&](const std::string& name)
     {

@@ -2,6 +2,7 @@
 
 #include "core/detection/edge_touch.h"
 #include "core/geometry/convex_part.h"
+#include "core/stress/drawn_joints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,17 +47,12 @@ double field_unbalance(const InsituField& field, double density, const Vec2& gra
 
 namespace
 {
-/// A contact where the blocks are drawn. Two edges that only meet in a corner do not touch.
+/// A contact where the blocks are drawn.
 struct DrawnContact
 {
     EdgeTouch touch;
     double floor = 0.0;
     std::array<Vec2, 2> force;  ///< of the points on inc: along t, pressing [N]
-
-    [[nodiscard]] bool touches() const
-    {
-        return touch.length > 0.0 && -std::min(touch.point[0].overlap, touch.point[1].overlap) < floor;
-    }
 };
 
 DrawnContact drawn_contact(const Model& model, const State& state, Index i)
@@ -117,30 +113,25 @@ void find_worst(const Model& model, const State& state, const std::vector<Acting
 }
 }  // namespace
 
-void lock_in_stress(const Model& model, State& state)
+void lock_in_stress(const Model& model, State& state, Index i)
 {
     Contacts& contacts = state.contacts;
-    for (Index i = 0; i < contacts.size(); ++i)
+    const DrawnContact drawn = drawn_contact(model, state, i);
+    Contact contact = contacts.get(i);
+    const double length = point_length(drawn.touch.length, drawn.floor);
+    const double stiffness = model.joints.laws[contact.law].normal_stiffness * length;
+    contact.last_length = length;
+    for (int k = 0; k < 2; ++k)
     {
-        const DrawnContact drawn = drawn_contact(model, state, i);
-        if (!drawn.touches())
-            continue;
-        Contact contact = contacts.get(i);
-        const double length = point_length(drawn.touch.length, drawn.floor);
-        const double stiffness = model.joints.laws[contact.law].normal_stiffness * length;
-        contact.last_length = length;
-        for (int k = 0; k < 2; ++k)
-        {
-            PointHistory& point = contact.point[k];
-            point.normal_force = std::max(drawn.force[k].y(), 0.0);
-            point.shear_force = point.normal_force > 0.0 ? drawn.force[k].x() : 0.0;
-            const double overlap = drawn.touch.point[k].overlap;
-            point.preload = std::max(point.normal_force / stiffness - overlap, 0.0);
-            point.overlap = overlap + point.preload;
-            point.regime = point.normal_force > 0.0 ? Regime::stick : Regime::open;
-        }
-        contacts.put(i, contact);
+        PointHistory& point = contact.point[k];
+        point.normal_force = std::max(drawn.force[k].y(), 0.0);
+        point.shear_force = point.normal_force > 0.0 ? drawn.force[k].x() : 0.0;
+        const double overlap = drawn.touch.point[k].overlap;
+        point.preload = std::max(point.normal_force / stiffness - overlap, 0.0);
+        point.overlap = overlap + point.preload;
+        point.regime = point.normal_force > 0.0 ? Regime::stick : Regime::open;
     }
+    contacts.put(i, contact);
 }
 
 InsituSummary summarise_insitu(const Model& model, const State& state)
@@ -155,7 +146,7 @@ InsituSummary summarise_insitu(const Model& model, const State& state)
     for (Index i = 0; i < contacts.size(); ++i)
     {
         const DrawnContact drawn = drawn_contact(model, state, i);
-        if (!drawn.touches())
+        if (!lie_on_each_other(drawn.touch, drawn.floor))
             continue;
         const std::int32_t source = std::max(model.shapes.edge_source[contacts.ref_edge[i]],
                                              model.shapes.edge_source[contacts.inc_edge[i]]);

@@ -23,7 +23,7 @@ namespace hdem
 /// What the field lacks of equilibrium with gravity, |d sigma_xy/dy + rho g_x, d sigma_yy/dy + rho g_y| over rho g; without gravity over the gradient itself [-].
 [[nodiscard]] double field_unbalance(const InsituField& field, double density, const Vec2& gravity);
 
-/// Give all contacts that touch where the blocks are drawn the forces of the field. Blocks stay where they are.
+/// Give a contact whose edges lie on each other the forces of the field. Blocks stay where they are.
 ///
 ///   F_1 = L (2 t_1 + t_2) / 6,  F_2 = L (t_1 + 2 t_2) / 6,  t = sigma n at the two ends of a joint of length L
 ///   p = F_N / (K_N l) - u
@@ -34,7 +34,7 @@ namespace hdem
 /// the length times the traction at each end would have three times the moment of the gradient.
 /// A joint takes no tension: such forces are 0, and summarise_insitu tells of them. A joint above its strength slips in the first cycle.
 /// @see verification/unit/core/stress/insitu_stress_test.cpp
-void lock_in_stress(const Model& model, State& state);
+void lock_in_stress(const Model& model, State& state, Index contact);
 
 /// Joints of one set under the stress they begin with.
 struct StressedSet

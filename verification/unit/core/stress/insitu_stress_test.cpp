@@ -16,7 +16,7 @@ using test::CaseRun;
 CaseDef rock(const std::vector<double>& dips, const InsituDef& insitu)
 {
     CaseDef scene = scenes::empty_scene();
-    scene.domain = {.given = true, .width = 20.0, .height = 20.0, .fixed = {"left", "right", "bottom", "top"}};
+    scene.domain = {.given = true, .width = 14.0, .height = 14.0, .fixed = {"left", "right", "bottom", "top"}};
     for (const double dip : dips)
         scene.joint_sets.push_back({.name = "dip" + std::to_string(dip), .dip_deg = dip, .spacing = 1.7});
     scene.generator.smallest_block_area = 0.02;
@@ -88,7 +88,7 @@ TEST(InsituStress, LeavesUniformRockWhereItIsDrawn)
 
 TEST(InsituStress, LeavesRockUnderTheGroundWhereItIsDrawn)
 {
-    CaseDef scene = rock({25.0, -55.0, 90.0}, {.surface = 20.0, .ratio = 1.5});
+    CaseDef scene = rock({25.0, -55.0, 90.0}, {.surface = 14.0, .ratio = 1.5});
     scene.gravity = {0.0, -9.81};
     scene.domain.fixed = {"left", "right", "bottom"};
     expect_nothing_moves(scene);
