@@ -171,7 +171,9 @@ TEST(InsituStress, IsThatOfTheLinearAnswerAroundAHole)
     {
         const Vec2 from_crown = middle_of(run, b) - Vec2(0.0, 5.0);
         if (run.state().blocks.present[b] != 0 && from_crown.norm() < 0.01)
+        {
             EXPECT_NEAR(run.state().blocks.displacement(b).y(), -0.369245e-3, 0.01 * 0.369245e-3);
+        }
     }
 }
 }  // namespace
