@@ -32,7 +32,7 @@ SectionSpec insitu_section()
          field<&InsituDef::surface>({.name = "surface",
                                      .unit = "m",
                                      .effect = "Height y of the ground: σ_yy = ρ g (y - surface), with the density of the domain's "
-                                               "material; none above it.",
+                                               "material, or of the first block where there is no domain; none above it.",
                                      .example = "120.0",
                                      .range = coordinate,
                                      .default_note = "given by stress"}),

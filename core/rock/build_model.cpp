@@ -262,8 +262,10 @@ Setup build_model(const CaseDef& def)
     for (const JointSetDef& set : def.joint_sets)
         model.joint_set_names.push_back(set.name);
     if (def.insitu.given)
-        model.insitu = make_field(def.insitu, def.materials[material_number(def, def.domain.material)].density, def.gravity,
-                                  model.origin);
+    {
+        const std::string& material = def.domain.given ? def.domain.material : rock.blocks.front().material;
+        model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, def.gravity, model.origin);
+    }
     setup.state.contacts.has_preload = def.insitu.given;
 
     model.gravity = def.gravity;

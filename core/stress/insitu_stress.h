@@ -17,7 +17,7 @@ namespace hdem
 /// @param y  in the model's local coordinates [m]
 [[nodiscard]] StressDef stress_at(const InsituField& field, double y);
 
-/// The field of a case. rho is the density of the domain's material.
+/// The field of a case. rho is the density of the domain's material (of the first block where there is no domain).
 [[nodiscard]] InsituField make_field(const InsituDef& def, double density, const Vec2& gravity, const Vec2& origin);
 
 /// What the field lacks of equilibrium with gravity, |d sigma_xy/dy + rho g_x, d sigma_yy/dy + rho g_y| over rho g; without gravity over the gradient itself [-].

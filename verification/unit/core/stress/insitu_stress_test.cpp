@@ -109,6 +109,18 @@ TEST(InsituStress, OfALinearTractionHasItsMoment)
     EXPECT_NEAR(std::min(first, second), 2.0e6, 1e-3);
 }
 
+/// The weight of a block without a domain is that of its own material.
+TEST(InsituStress, UnderTheGroundIsThatOfBlocksWithoutADomain)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.materials[0].name = "granite";
+    for (BlockDef& block : scene.blocks)
+        block.material = "granite";
+    scene.insitu = {.given = true, .surface = 1.0, .ratio = 0.5};
+    const CaseRun run(scene);
+    EXPECT_LT(summarise_insitu(run.model(), run.state()).unbalance, 1e-12);
+}
+
 /// tau / sigma_n under (-15, -5) MPa: 0.4409 at 15, 0.5774 at 30, 0.5 at 45, 0.3464 at 60 degrees; at 28 degrees of friction only 30 slips.
 TEST(InsituStress, TellsWhichJointsAreAboveTheirStrength)
 {
