@@ -33,18 +33,10 @@ void list_blocks(const Model& model, const State& state)
 void describe_insitu(const Model& model, const InsituSummary& insitu)
 {
     say("in-situ stress    field out of equilibrium with gravity by {:.3g} of its weight\n", insitu.field);
-    if (insitu.field > 1e-3)
-        say("warning: [insitu]: the field is not in equilibrium with gravity (d sigma_yy/dy + rho g = {:.3g} of rho g). Blocks "
-            "will move. "
-            "Give gradient = [.., rho g, ..], or surface and ratio.\n",
-            insitu.field);
     if (insitu.worst != no_index)
         say("worst unbalanced  {:.3g} of the forces on block {}\n", insitu.unbalance, printable(model.name[insitu.worst]));
-    if (insitu.unbalance > 1e-9)
-        say("warning: [insitu]: block {} is out of balance by {:.3g} of what acts on it. Look for a side that is free under stress "
-            "(fix it), "
-            "for a gap beside the block, or for a joint that would bear tension.\n",
-            printable(model.name[insitu.worst]), insitu.unbalance);
+    for (const std::string& warning : insitu_warnings(model, insitu))
+        say("{}\n", warning);
     for (const StressedSet& set : insitu.sets)
         say("joints            {}: {} contacts, {:.6g} m; shear strength in use at most {:.4f}; above it {} contacts, {:.6g} m "
             "({:.4g} % "

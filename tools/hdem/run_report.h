@@ -1,6 +1,7 @@
 #pragma once
 /// What a run says about itself at its beginning and at its end.
 
+#include "core/stress/insitu_stress.h"
 #include "io/summary.h"
 #include "parallel/stages.h"
 #include "tools/hdem/run_start.h"
@@ -31,4 +32,6 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
 
 void print_closing(Log& log, const RunSummary& summary, const Session& session, const Simulation& simulation,
                    const std::filesystem::path& folder);
+/// Why a run would not begin in equilibrium, if so.
+std::vector<std::string> insitu_warnings(const Model& model, const InsituSummary& insitu);
 }  // namespace hdem

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""A run whose stress is not in equilibrium says so, as `hdem check` does; one that is says nothing.
+
+    insitu_test.py HDEM    the program
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HDEM = Path(sys.argv[1]).resolve()
+CASE = """
+[[block]]
+name = "ground"
+polygon = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
+fixed = true
+[[block]]
+name = "top"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e9
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+[[stage]]
+cycles = 10
+[insitu]
+"""
+
+
+def said(keys, command):
+    with tempfile.TemporaryDirectory(prefix="hdem_insitu_") as folder:
+        case = Path(folder) / "case.toml"
+        case.write_text(CASE + keys, encoding="utf-8")
+        more = ["-o", Path(folder) / "out"] if command == "run" else []
+        done = subprocess.run([HDEM, command, case, *more], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+
+class Insitu(unittest.TestCase):
+    def test_tells_of_stress_out_of_balance(self):
+        for command in ("check", "run"):
+            text = said("stress = [0.0, -1e3, 2e3]\n", command)
+            self.assertIn("not in equilibrium with gravity", text)
+            self.assertIn("block top is out of balance", text)
+            self.assertIn("bear more shear than their strength", text)
+
+    def test_says_nothing_of_rock_in_balance(self):
+        for command in ("check", "run"):
+            self.assertNotIn("warning: [insitu]", said("surface = 1.0\nratio = 0.5\n", command))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
