@@ -56,7 +56,7 @@ TEST(CaseErrors, WrongKeysTypesAndRanges)
         {"5e8", "-5e8", "5:19: joint \"default\": shear_stiffness = -500000000 Pa/m (", "e.g. shear_stiffness = 5e8."},
         {"5e8", "1e300", "5:19: joint", "must be > 0 and <= 1e+18"},
         {"30.0", "90", "6:22: joint \"default\": friction_angle_deg = 90 deg (", "must be >= 0 and < 90"},
-        {"friction_angle_deg = 30.0\n", "", "3:1: joint \"default\": friction_angle_deg (", "is missing). Add it: a number in deg"},
+        {"friction_angle_deg = 30.0\n", "", "3:1: joint \"default\": friction_angle_deg (", "is missing). Add it: law \"coulomb\" needs it"},
         {"[0, 1]]", "[0, 1, 2]]", "13:36: block \"top\": polygon[3] = [0, 1, 2] (", "has 3 numbers"},
         {"[0, 1]]", "[0, \"1\"]]", "13:40: block \"top\": polygon[3][1] = \"1\" (", "expected a number in m, got text"},
         {"[[0, 0], [1, 0], [1, 1], [0, 1]]", "[[0, 0], [1, 0]]", "13:11: block \"top\": polygon = [[...], [...]] (",
