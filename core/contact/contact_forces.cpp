@@ -229,8 +229,13 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
 void evaluate_with_memory(const ContactGroup& g, Mask impulsive, const std::array<Pack, 2>& share, Pack dt, const RowLanes& rows,
                           MemoryLanes& memory, ContactLanes& l, std::array<std::uint8_t*, 2> regime, Sums& sums)
 {
+    if (!any(!rows.has_memory))
+    {
+        for (int k = 0; k < 2; ++k)
+            evaluate_joints(g, k, impulsive, share[k], dt, rows, l, memory.point[k], l, regime[k], sums);
+        return;
+    }
     const ContactLanes last = l;
-    if (any(!rows.has_memory))
     {
         Sums plain;
         for (int k = 0; k < 2; ++k)

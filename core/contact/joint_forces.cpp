@@ -73,6 +73,12 @@ void take(Mask lanes_of, const Stress& from, Stress& to)
 /// The law of each lane; a lane does not depend on the laws of the others.
 Stress react(const RowLanes& rows, const Step& step, Memory& memory)
 {
+    if (rows.is_uniform)
+    {
+        Stress stress = react_as(rows.kind[0], rows.curve[0], rows.numbers, step, memory);
+        memory.opening = stress.opening;
+        return stress;
+    }
     const Pack zero = 0.0;
     Stress stress{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     Mask left = rows.has_memory;
@@ -121,6 +127,7 @@ void RowLanes::reload(const Index* law)
         is_linear.v[i] = row.curve == CurveKind::linear ? -1 : 0;
         is_bonded.v[i] = row.is_bonded ? -1 : 0;
         any = any || row.has_memory();
+        is_uniform = (i == 0 || is_uniform) && row.has_memory() && kind[i] == kind[0] && curve[i] == curve[0];
         reach.v[i] = row.reach;
         torn_reach.v[i] = row.torn_reach;
         for (int k = 0; k < joint_numbers; ++k)

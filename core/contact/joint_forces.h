@@ -26,7 +26,8 @@ class RowLanes
     Mask has_memory{};  ///< the others are plain
     Mask is_linear{};   ///< of these: with a linear normal spring
     Mask is_bonded{};   ///< JointRow::is_bonded
-    bool any = false;   ///< one of the four has a memory
+    bool any = false;         ///< one of the four has a memory
+    bool is_uniform = false;  ///< all have, and the same law and curve
     Pack reach = 0.0, torn_reach = 0.0;
     BasicJointNumbers<Pack> numbers;
 
