@@ -272,6 +272,19 @@ deviation_deg = 6.0
     expect_sound(generate_rock_mass(case_of(split)));
 }
 
+/// Which blocks a set of short joints cuts is drawn from the same numbers.
+TEST(Regions, AFaultThatPartsNothingChangesNoBlock)
+{
+    const std::string plain = square +
+                              "[[joint_set]]\ndip_deg = 70\nspacing = 0.6\n[[joint_set]]\ndip_deg = -10\nspacing = 0.5\n"
+                              "persistence = 0.5\n" +
+                              laws;
+    const std::string cut = plain + "[[fault]]\nname = \"inner\"\npoints = [[1, 1], [3, 2]]\n";
+    const RockMass rock = generate_rock_mass(case_of(cut));
+    EXPECT_EQ(areas(rock, "rock"), areas(generate_rock_mass(case_of(plain)), "rock"));
+    EXPECT_GT(rock.skipped_cuts, 10);
+}
+
 /// Whatever is drawn: nothing is lost, neighbours meet end to end, and each zone has its area.
 TEST(Regions, FillTheDomainAtRandom)
 {
