@@ -205,14 +205,18 @@ template <Contact4 contact, Joints joints>
 }
 
 /// Tilt forces of both points, and their work in the half step before them.
-inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
+template <Joints joints>
+[[gnu::always_inline]] inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactLanes& l, Sums& sums)
 {
     Pack work = 0.0;
     const Pack pull = length_pull(sums.work, g.length_inverse) * length_growth(g.touch.length, floor);
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<Pack>& p = g.touch.point[k];
-        const Pack tilt = tilt_force(sums.normal[k], g.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
+        const Pack inwards = k == 0 ? pull : -pull;
+        const Pack tilt = joints == Joints::plain ? tilt_force(sums.normal[k], g.touch.slope, inwards, p.inside, p.overlap)
+                                                  : preloaded_tilt_force(sums.normal[k], g.touch.slope, inwards, p.inside,
+                                                                         p.overlap, max(g.preload[k], Pack(0.0)));
         // It acts on the surface of inc, half of the overlap beyond the point.
         const Pack beyond = Pack(0.5) * p.overlap;
         const Pack v_t = p.v_t - g.w * beyond;
@@ -346,7 +350,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
                 for (int k = 0; k < 2; ++k)
                     evaluate_point<Contact4::any, joints>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
         }
-        add_tilt_forces(g, floor, dt, l, sums);
+        add_tilt_forces<joints>(g, floor, dt, l, sums);
         store_lane(l.last_length, g.length);
         friction += sums.friction;
         changes += sums.changes;

@@ -170,11 +170,8 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
         if (from.parts.size() > 1)
         {
             merge_convex_parts(from.parts);
-            if (!def.trace_cells.cells.empty())
-            {
-                drop_straight_vertices(from.parts, mass.tolerance);
-            }
         }
+        drop_straight_vertices(from.parts, mass.tolerance);
         blocks.push_back(finished(from, regions, domain));
         places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
         from = {};  // a million of them need not wait

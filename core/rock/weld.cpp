@@ -53,7 +53,7 @@ bool is_straight(const CutPolygon& part, std::size_t i, double tolerance)
 {
     const std::size_t n = part.vertices.size();
     const std::size_t before = previous(i, n);
-    if (part.edges[i].source != part.edges[before].source || part.edges[i].source < 0)
+    if (part.edges[i].source != part.edges[before].source || (part.edges[i].source < 0 && part.edges[i].source != edge_outline))
         return false;
     const Vec2& from = part.vertices[before];
     const Vec2 way = part.vertices[next(i, n)] - from;

@@ -13,7 +13,7 @@ namespace hdem
 /// to meet is computed more than once, in ways that may differ in the last bit.
 void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines);
 
-/// Vertices at which a part goes straight on along one joint are left out, so that its side is one edge: a joint that crosses several parts
-/// of a block leaves some where parts are put together again, and a contact would bear along one of the edges only.
+/// Vertices at which a part goes straight on along one joint or outline are left out, so that its side is one edge: slivers that were merged, and joints
+/// that cross several parts of a block, leave some. A contact would bear along one of the edges only.
 void drop_straight_vertices(std::vector<CutPolygon>& parts, double tolerance);
 }  // namespace hdem

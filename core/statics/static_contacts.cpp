@@ -185,7 +185,8 @@ void put_loads(IndexRange range, const Model& model, const State& state, const s
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = v.touch.point[k];
-            const double tilt = tilt_force(r[k].normal, v.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
+            const double tilt = preloaded_tilt_force(r[k].normal, v.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap,
+                                                     v.preload[k]);
             const double beyond = 0.5 * p.overlap;
             f_t += r[k].shear + tilt;
             f_m -= r[k].normal;
@@ -310,7 +311,8 @@ void commit_points(IndexRange range, const Model& model, const std::vector<Stati
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = v.touch.point[k];
-            l.tilt_force[k][lane] = tilt_force(l.normal_force[k][lane], v.touch.slope, k == 0 ? pull : -pull, p.inside, p.overlap);
+            l.tilt_force[k][lane] = preloaded_tilt_force(l.normal_force[k][lane], v.touch.slope, k == 0 ? pull : -pull, p.inside,
+                                                         p.overlap, v.preload[k]);
         }
         l.last_length[lane] = v.length;
     }
