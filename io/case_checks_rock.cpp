@@ -74,6 +74,7 @@ class RockCheck : public CaseCheck
         std::map<std::string, std::string> rock;
         check_name_list("excavation", "excavation", def_.excavations, rock);
         check_name_list("block", "block", def_.blocks, rock);
+        check_name_list("boundary", "boundary", def_.boundaries, rock);
         std::map<std::string, std::string> sets, stages, histories;
         check_name_list("joint_set", "joint set", def_.joint_sets, sets);
         check_name_list("stage", "stage", def_.stages, stages);
