@@ -108,8 +108,7 @@ SectionSpec load_section()
              {.name = "force", .unit = "N", .effect = "At the centroid or at `point`, per metre of thickness.", .range = any_size}),
          field<&LoadDef::point>({.name = "point",
                                  .unit = "m",
-                                 .effect = "Where `force` acts: a point of the block as it is drawn. It moves and turns with the "
-                                           "block, so the force has a moment about the centroid.",
+                                 .effect = "Where `force` acts: a point of the block as drawn, which moves and turns with it.",
                                  .example = "[0.5, 1.0]",
                                  .range = coordinate,
                                  .default_note = "the centroid"}),

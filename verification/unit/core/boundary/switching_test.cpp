@@ -1,5 +1,7 @@
+#include "core/model/block_order.h"
 #include "verification/unit/core/boundary/sides.h"
 
+#include <algorithm>
 #include <map>
 
 namespace hdem
@@ -79,6 +81,36 @@ TEST(Boundary, FixedSideThatEndsFreesItsBlocks)
     run.advance(4000);
     EXPECT_GT(run.displacement("b8").y(), 1e-5) << "the stress of the joint below it moves it";
     EXPECT_LT(ledger_residual(run), 1e-9);
+}
+
+/// Blocks are sorted anew in memory while they move; sides keep theirs.
+TEST(Boundary, KeepsItsBlocksWhenTheyAreSorted)
+{
+    CaseDef scene = square_pattern(4.0, 3.0);
+    scene.boundaries = {side("left", BoundaryKind::roller), side("bottom", BoundaryKind::fixed), pressed("top", 1e6)};
+    Model model = build_model(scene).model;
+    const auto names = [&]
+    {
+        std::vector<std::string> found;
+        for (const Boundary& boundary : model.boundaries)
+        {
+            for (const BoundaryFace& face : boundary.faces)
+                found.push_back(model.name[face.block]);
+            for (const BoundaryWall& wall : boundary.walls)
+                found.push_back(model.name[wall.block]);
+            for (const BoundaryForce& force : boundary.forces)
+                found.push_back(model.name[force.block]);
+            for (const Index block : boundary.holds)
+                found.push_back(model.name[block]);
+        }
+        return found;
+    };
+    const std::vector<std::string> before = names();
+    EXPECT_EQ(before.size(), 3U + 1U + 4U + 4U + 4U + 4U);
+    std::vector<Index> order = model.user_number;
+    std::reverse(order.begin(), order.end());
+    reorder_blocks(order, model);
+    EXPECT_EQ(names(), before);
 }
 }  // namespace
 }  // namespace hdem
