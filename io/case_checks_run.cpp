@@ -34,6 +34,7 @@ class RunCheck : public CaseCheck
 
     void check_load(const LoadDef& load, const std::string& path, const std::string& object)
     {
+        check_point(load, path, object);
         const bool any = std::any_of(std::begin(effects), std::end(effects),
                                      [&](const char* key) { return given(path + "." + key); });
         if (!any)
@@ -71,6 +72,18 @@ class RunCheck : public CaseCheck
                                   "Fix it with the block's key fixed, or use a force.");
             }
         }
+    }
+
+    void check_point(const LoadDef& load, const std::string& path, const std::string& object)
+    {
+        if (!given(path + ".point"))
+            return;
+        if (!given(path + ".force") && !problems_.has(path + ".force"))
+            problems_.add(path + ".point", object, "point", "belongs to force, which is not given",
+                          "Give force, or remove this key.");
+        if (load.blocks.size() > 1 || std::ranges::count(load.blocks, "*") > 0)
+            problems_.add(path + ".point", object, "point", "is that of one block, and the load names several",
+                          "Write a [[load]] for each block.");
     }
 
     void check_settings()
@@ -117,7 +130,10 @@ class RunCheck : public CaseCheck
             return;
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
-        if (stage.excavate.empty())
+        const bool ends = std::ranges::any_of(
+            def_.boundaries, [&](const BoundaryDef& boundary)
+            { return !boundary.stages.empty() && !std::ranges::count(boundary.stages, stage.name); });
+        if (stage.excavate.empty() && !ends)
             refuse("nothing is excavated", "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)

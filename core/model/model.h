@@ -6,6 +6,7 @@
 /// Coordinates are relative to `origin`, so that a model at 1e6 m keeps its digits.
 
 #include "core/joint/coulomb_slip.h"
+#include "core/model/boundary.h"
 #include "core/model/case_def.h"
 #include "core/state/blocks.h"
 
@@ -43,6 +44,7 @@ struct JointTable
     std::vector<Index> of_joint_set;  ///< per joint set, and for all traces: law, or no_index
     std::vector<Index> of_materials;  ///< materials x materials: law
     Index materials = 0;
+    Index of_walls = no_index;  ///< law of the walls of [[boundary]], on whatever they press
 
     /// @return position of a copy without cohesion
     Index add_unbonded(Index law);
@@ -57,6 +59,7 @@ struct Load
     std::vector<Index> blocks;
     Vec2 acceleration = {0.0, 0.0};          ///< [m/s2]
     Vec2 force = {0.0, 0.0};                 ///< [N]
+    std::vector<Vec2> arm;                   ///< of the force, per block, in its own frame; empty: it acts at the centroids [m]
     double moment = 0.0;                     ///< [N m]
     std::optional<double> velocity_x;        ///< [m/s]
     std::optional<double> velocity_y;        ///< [m/s]
@@ -101,6 +104,7 @@ struct Model
     std::vector<std::string> excavation_names;
     std::vector<std::string> joint_set_names;  ///< by number of EdgeSources, without the traces
     InsituField insitu;
+    std::vector<Boundary> boundaries;
     JointTable joints;
     std::vector<Load> loads;
     std::vector<StageDef> stages;

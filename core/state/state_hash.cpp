@@ -103,6 +103,15 @@ std::uint64_t model_hash(const Model& model)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
     // A step that the case does not give may have been lowered for its contacts since the model was made.
     add({model.has_step ? model.time_step : model.paper_time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
+    for (const Boundary& boundary : model.boundaries)
+    {
+        add({static_cast<double>(boundary.kind), boundary.velocity.x(), boundary.velocity.y(), boundary.target,
+             boundary.max_velocity});
+        for (const std::uint8_t acts : boundary.in_stage)
+            add({static_cast<double>(acts)});
+        for (const BoundaryForce& force : boundary.forces)
+            add({static_cast<double>(model.user_number[force.block]), force.x, force.y, force.moment});
+    }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;
