@@ -1,10 +1,6 @@
-#include "core/geometry/unit_direction.h"
-#include "core/rock/fault_lines.h"
-#include "io/load_case.h"
-#include "io/traces.h"
 #include "verification/unit/case_run.h"
+#include "verification/unit/core/rock/region_cases.h"
 #include "verification/unit/core/rock/rock_invariants.h"
-#include "verification/unit/io/case_text.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,108 +12,14 @@ namespace hdem
 {
 namespace
 {
+using test::case_of;
 using test::CaseRun;
+using test::laws;
+using test::lens;
+using test::square;
+using test::two_halves;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-const std::string laws = R"([material.rock]
-density = 2700.0
-[material.shale]
-density = 2400.0
-[joint.default]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 30.0
-[joint.fault]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 10.0
-[joint.bedding]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 20.0
-[joint.in_shale]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 15.0
-materials = ["shale", "shale"]
-[[stage]]
-cycles = 1
-)";
-
-const std::string square = "[domain]\npolygon = [[0, 0], [4, 0], [4, 4], [0, 4]]\n";
-
-/// A fault half way up; joints a metre apart above it, which stand upright.
-const std::string two_halves = square + R"([[fault]]
-name = "main"
-points = [[-1, 2], [5, 2]]
-joint = "fault"
-[[region]]
-name = "upper"
-above = "main"
-[[joint_set]]
-name = "columns"
-dip_deg = 90.0
-spacing = 1.0
-origin = [0, 0]
-joint = "bedding"
-region = "upper"
-)" + laws;
-
-/// Shale of 2 m in the middle, in two beds; the rock around it is parted by one upright joint.
-const std::string lens = square + R"([[region]]
-name = "lens"
-polygon = [[1, 1], [3, 1], [3, 3], [1, 3]]
-material = "shale"
-joint = "bedding"
-[[joint_set]]
-name = "beds"
-dip_deg = 0.0
-spacing = 1.0
-origin = [0, 0]
-region = "lens"
-[[joint_set]]
-name = "upright"
-dip_deg = 90.0
-spacing = 2.0
-origin = [0, 0]
-outside = "lens"
-)" + laws;
-
-Vec2 turned(const Vec2& p, const Vec2& by)
-{
-    return {by.x() * p.x() - by.y() * p.y(), by.y() * p.x() + by.x() * p.y()};
-}
-
-void turn_all(Polygon& points, const Vec2& by)
-{
-    for (Vec2& p : points)
-        p = turned(p, by);
-}
-
-/// The case with all of its geometry turned about the origin.
-CaseDef case_of(const std::string& text, double turn_deg = 0.0)
-{
-    CaseDef def = test::read(text);
-    if (turn_deg == 0.0)
-        return def;
-    const Vec2 by = unit_direction(turn_deg);
-    turn_all(def.domain.polygon, by);
-    for (FaultDef& fault : def.faults)
-        turn_all(fault.points, by);
-    for (RegionDef& region : def.regions)
-        turn_all(region.polygon, by);
-    for (ExcavationDef& excavation : def.excavations)
-        excavation.position = turned(excavation.position, by);
-    for (JointSetDef& set : def.joint_sets)
-    {
-        set.dip_deg += turn_deg;
-        if (set.origin)
-            set.origin = turned(*set.origin, by);
-    }
-    def.trace_cells = cut_into_cells(def.domain.polygon, {}, 0.0, source_lines(def));
-    return def;
-}
 
 std::vector<double> areas(const RockMass& rock, const std::string& material)
 {
@@ -139,28 +41,6 @@ std::map<std::string, double> joint_lengths(const CaseDef& def)
         if (const double length = report_contact(run.state(), i).length; length > 0.01)
             lengths[run.model().joints.names[contacts.law[i]]] += length;
     return lengths;
-}
-
-std::vector<std::string> all_warnings(const std::string& text)
-{
-    std::vector<std::string> texts;
-    for (const Problem& problem : load_case(text, NamedFiles{}, "case.toml", {}).warnings)
-        texts.push_back(problem.text);
-    return texts;
-}
-
-/// What is wrong with a legal file's geometry.
-std::string problem_of(const std::string& text)
-{
-    try
-    {
-        (void)load_case(text, NamedFiles{}, "case.toml", {});
-    }
-    catch (const InputError& error)
-    {
-        return error.what();
-    }
-    return {};
 }
 
 class Turned : public testing::TestWithParam<double>
@@ -329,61 +209,6 @@ TEST(Regions, AFaultGoesBeforeASetAndTraces)
     EXPECT_EQ(model.joints.names[model.joints.find(set, 0, 0, 0)], "fault");
     EXPECT_EQ(model.joints.names[model.joints.find(set, edge_plain, 0, 0)], "bedding");
     EXPECT_THAT(model.joint_set_names, ElementsAre("fault main", "outline of upper", "columns"));
-}
-
-TEST(Regions, DeadEndsAreDroppedWithAWarning)
-{
-    const std::string alone = test::with(test::with(two_halves, "[5, 2]]", "[2.5, 2]]"), "region = \"upper\"\n", "");
-    const std::string without_region = test::with(alone, "[[region]]\nname = \"upper\"\nabove = \"main\"\n", "");
-    EXPECT_THAT(all_warnings(without_region),
-                ElementsAre(HasSubstr("fault \"main\": points (2.5 m end inside a block and part nothing: they are dropped)")));
-    EXPECT_EQ(generate_rock_mass(case_of(without_region)).blocks.size(), 4u);
-    EXPECT_THAT(problem_of(alone), HasSubstr("case.toml:7:1: region \"upper\": block around (2, 2) (it lies on both sides of fault "
-                                             "\"main\", which ends inside it)"));
-    // Beyond the fault that it meets it is left out, and the part before it is cut.
-    const std::string held = without_region + "[[fault]]\nname = \"cross\"\npoints = [[2, -1], [2, 5]]\n";
-    EXPECT_THAT(all_warnings(held), ElementsAre(HasSubstr("(0.5 m end inside a block")));
-    EXPECT_EQ(generate_rock_mass(case_of(held)).blocks.size(), 6u);
-}
-
-TEST(Regions, WhatCannotBeCutIsRefused)
-{
-    const auto with_points = [](const std::string& points)
-    { return problem_of(test::with(two_halves, "[[-1, 2], [5, 2]]", points)); };
-    EXPECT_THAT(with_points("[[5, 5], [6, 7]]"),
-                HasSubstr("case.toml:5:10: fault \"main\": points: from (5, 5) to (6, 7) (the fault lies "
-                          "outside the domain, which spans (0, 0) to (4, 4)). Move it."));
-    EXPECT_THAT(with_points("[[1, 1], [1, 1], [3, 2]]"), HasSubstr("points 0 and 1 are the same"));
-    EXPECT_THAT(with_points("[[0, 0], [3, 3], [3, 0], [0, 3]]"), HasSubstr("the stretches from points 0 and 2 meet"));
-    EXPECT_THAT(with_points("[[0, 0], [3, 3], [1, 1]]"), HasSubstr("the stretches from points 0 and 1 meet"));
-    EXPECT_THAT(with_points("[[1, -1], [2, 2], [1, 5]]"),
-                HasSubstr("region \"upper\": above = \"main\" (the fault ends straight above"));
-    EXPECT_THAT(with_points("[[1, 1], [3, 1], [3, 3], [2, 3], [2, 2]]"), HasSubstr("(the fault winds"));
-    EXPECT_THAT(with_points("[[-1, 2], [5, 2], [5, 2.000005], [-2, 2.000005]]"), HasSubstr("a sliver of "));
-    const auto with_polygon = [](const std::string& polygon)
-    { return problem_of(test::with(lens, "[[1, 1], [3, 1], [3, 3], [1, 3]]", polygon)); };
-    EXPECT_THAT(with_polygon("[[1, 1], [3, 3], [3, 1], [1, 3]]"), HasSubstr("region \"lens\": polygon: edges 0 and 2 meet"));
-    EXPECT_THAT(with_polygon("[[5, 5], [6, 5], [6, 6]]"),
-                HasSubstr("region \"lens\": blocks = 0 (nothing of the domain lies in it)"));
-}
-
-TEST(Regions, KeysAreChecked)
-{
-    const auto problems = [](const std::string& text, const std::string& old, const std::string& by)
-    { return testing::PrintToString(test::problems_of(test::with(text, old, by))); };
-    EXPECT_THAT(problems(two_halves, "[[-1, 2], [5, 2]]", "[[-1, 2]]"), HasSubstr("has 1 points, a line has at least 2"));
-    EXPECT_THAT(problems(two_halves, "above = \"main\"", "above = \"mian\""),
-                HasSubstr("(no fault has this name; did you mean 'main'?)"));
-    EXPECT_THAT(problems(two_halves, "region = \"upper\"", "region = \"uper\""), HasSubstr("did you mean 'upper'?"));
-    EXPECT_THAT(problems(two_halves, "joint = \"fault\"", "joint = \"falut\""), HasSubstr("did you mean 'fault'?"));
-    EXPECT_THAT(problems(lens, "material = \"shale\"\njoint", "material = \"slate\"\njoint"),
-                HasSubstr("no material has this name"));
-    EXPECT_THAT(problems(two_halves, "above = \"main\"", "above = \"main\"\njoint = \"fault\""),
-                HasSubstr("belongs to polygon, which is not given"));
-    EXPECT_THAT(problem_of(test::with(two_halves, "above = \"main\"\n", "")),
-                HasSubstr("region \"upper\": polygon, above and below (none is given)"));
-    EXPECT_THAT(test::problems_of(test::two_blocks + "[[fault]]\nname = \"f\"\npoints = [[0, 0], [1, 1]]\n"),
-                ElementsAre(HasSubstr("[[fault]] (cuts the domain only, and there is no [domain])")));
 }
 }  // namespace
 }  // namespace hdem
