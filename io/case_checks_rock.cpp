@@ -20,6 +20,7 @@ class RockCheck : public CaseCheck
         check_names();
         for (std::size_t i = 0; i < def_.excavations.size(); ++i)
             check_excavation(def_.excavations[i], fmt::format("excavation[{}]", i));
+        check_regions();
         check_joints();
         if (def_.insitu.given)
             check_insitu();
@@ -32,7 +33,7 @@ class RockCheck : public CaseCheck
         if (!def_.domain.given && def_.blocks.empty() && def_.blocks_file.empty() && !meant)
             problems_.add("domain", "case", "[domain], [[block]] and blocks_file", "none is given: there is no rock",
                           "Give a [domain], or at least one [[block]].");
-        for (const char* list : {"joint_set", "excavation"})
+        for (const char* list : {"fault", "region", "joint_set", "excavation"})
             if (given(list) && !def_.domain.given && !problems_.has("domain"))
                 problems_.add(list, "case", fmt::format("[[{}]]", list), "cuts the domain only, and there is no [domain]",
                               "Give a [domain], or cut the blocks yourself.");
@@ -75,7 +76,9 @@ class RockCheck : public CaseCheck
         check_name_list("excavation", "excavation", def_.excavations, rock);
         check_name_list("block", "block", def_.blocks, rock);
         check_name_list("boundary", "boundary", def_.boundaries, rock);
-        std::map<std::string, std::string> sets, stages, histories;
+        std::map<std::string, std::string> faults, regions, sets, stages, histories;
+        check_name_list("fault", "fault", def_.faults, faults);
+        check_name_list("region", "region", def_.regions, regions);
         check_name_list("joint_set", "joint set", def_.joint_sets, sets);
         check_name_list("stage", "stage", def_.stages, stages);
         check_name_list("history", "history", def_.histories, histories);
@@ -122,6 +125,44 @@ class RockCheck : public CaseCheck
         const bool arc = excavation.shape == OutlineShape::horseshoe || excavation.shape == OutlineShape::circle;
         if (!arc && given(path + ".arc_segments"))
             problems_.add(path + ".arc_segments", object, "arc_segments", fmt::format("a {} has no arc", shape), "Remove it.");
+    }
+
+    void check_regions()
+    {
+        Names faults, regions;
+        for (const FaultDef& fault : def_.faults)
+            faults.insert(fault.name);
+        for (const RegionDef& region : def_.regions)
+            regions.insert(region.name);
+        const auto check =
+            [&](const std::string& key, const std::string& object, const std::string& name, const char* what, const Names& known)
+        {
+            if (!name.empty() && !problems_.has(what))
+                check_reference(key, object, name, what, known);
+        };
+        for (std::size_t i = 0; i < def_.faults.size(); ++i)
+            check(fmt::format("fault[{}].joint", i), fmt::format("fault \"{}\"", printable(def_.faults[i].name)),
+                  def_.faults[i].joint, "joint", joints_);
+        for (std::size_t i = 0; i < def_.regions.size(); ++i)
+        {
+            const RegionDef& region = def_.regions[i];
+            const std::string path = fmt::format("region[{}]", i);
+            const std::string object = fmt::format("region \"{}\"", printable(region.name));
+            check(path + ".above", object, region.above, "fault", faults);
+            check(path + ".below", object, region.below, "fault", faults);
+            check(path + ".material", object, region.material, "material", materials_);
+            check(path + ".joint", object, region.joint, "joint", joints_);
+            if (!region.joint.empty() && !given(path + ".polygon"))
+                problems_.add(path + ".joint", object, "joint", "belongs to polygon, which is not given",
+                              "Give the fault its joint, or remove this key.");
+        }
+        for (std::size_t i = 0; i < def_.joint_sets.size(); ++i)
+        {
+            const JointSetDef& set = def_.joint_sets[i];
+            const std::string object = fmt::format("joint set \"{}\"", printable(set.name));
+            check(fmt::format("joint_set[{}].region", i), object, set.region, "region", regions);
+            check(fmt::format("joint_set[{}].outside", i), object, set.outside, "region", regions);
+        }
     }
 
     void check_insitu()

@@ -91,8 +91,9 @@ constexpr std::string_view semantics = R"md(## What the words mean
 **Dip.** `dip_deg` is the angle from the x axis to the joint's trace, positive anticlockwise: 30 rises to the right, -30 falls to the
 right, 90 is vertical. 30 and -150 are the same joint.
 
-**Which joint acts at a contact.** When the touching face was cut by a joint set that names a `joint`, that one; else the
-[joint.NAME] whose `materials` are the two blocks' materials, in either order; else [joint.default].
+**Which joint acts at a contact.** When the touching face was cut by a fault, an outline of a region, a joint set or a trace that names
+a `joint`, that one (in this order, where the two faces differ); else the [joint.NAME] whose `materials` are the two blocks' materials,
+in either order; else [joint.default].
 
 **Fixed.** A fixed component (x, y or rotation) of a block is never changed by forces: it keeps the velocity it starts with, 0 unless `velocity`
 or a load prescribes another. A block with all three fixed and no velocity is a support. `domain.fixed` fixes all three of each block
@@ -110,6 +111,57 @@ Contacts keep their forces from stage to stage. Cycles and seconds count on from
 `until_cycle = 6000` makes the 6000th its last. Times are compared with the time at the start of the cycle.
 
 **Random numbers.** Deviations and persistence are the only random things, and follow from `generator.seed` alone.
+
+## Faults and regions
+
+Rock with other joints on each side of a fault:
+
+```toml
+[[fault]]
+name = "main"
+points = [[-1, 4], [12, 9], [31, 11]]   # begins and ends outside the domain
+joint = "fault"
+
+[[region]]
+name = "hanging_wall"
+above = "main"
+
+[[joint_set]]                           # above the fault only
+dip_deg = 60.0
+spacing = 1.5
+region = "hanging_wall"
+
+[[joint_set]]                           # below it only
+dip_deg = -20.0
+spacing = 2.0
+outside = "hanging_wall"
+```
+
+A zone of another rock, with its own joint properties:
+
+```toml
+[[region]]
+name = "weak"
+polygon = [[10, 0], [20, 0], [20, 8], [10, 8]]
+material = "shale"
+joint = "contact"                       # along the outline
+
+[joint.in_shale]                        # at joints of sets that name no joint, inside the zone
+materials = ["shale", "shale"]
+```
+
+A set that names a `joint` takes it everywhere. To give one set two joints, write it twice, once with `region = "weak"` and once with
+`outside = "weak"`, each with its own `joint`. Give both the same `origin` and `seed`: then they are the same lines.
+
+**Above and below.** Above is the left side of a fault that is walked from its lower x to its higher x. The fault goes on straight at its ends. A fault
+that ends at another one parts the rock only up to there: give such a region both faults, or a polygon. A fault that ends straight above
+its beginning has no upper side: a polygon along it cuts no second joint there.
+
+**Dead ends.** A fault that ends inside the domain, and not at another line, parts nothing beyond the last line it meets: that piece is left out, with a
+warning that gives its length. Joint sets come later, and do not hold it.
+
+**In-situ stress** of [insitu] by `surface` takes the density of domain.material; `hdem check` tells how far a region of another density is out of
+equilibrium.
 
 ## The blocks file
 
@@ -177,6 +229,7 @@ std::string type_column(const KeySpec& key)
     case ValueType::stress:
         return "[xx, yy, xy]";
     case ValueType::polygon:
+    case ValueType::line:
         return "list of [x, y]";
     case ValueType::boolean_or_texts:
         return "true, false or list";

@@ -66,9 +66,10 @@ Json value_schema(const KeySpec& key)
     case ValueType::stress:
         return vector_schema(key, 3);
     case ValueType::polygon:
+    case ValueType::line:
     {
         Json schema = list_of(vector_schema(key, 2));
-        schema["minItems"] = 3;
+        schema["minItems"] = key.type == ValueType::line ? 2 : 3;
         return schema;
     }
     case ValueType::boolean_or_texts:

@@ -122,14 +122,14 @@ Complaints check_items(const KeySpec& key, const TomlNode& node, CheckItem check
     return {};
 }
 
-Complaints check_polygon(const KeySpec& key, const TomlNode& node)
+Complaints check_points(const KeySpec& key, const TomlNode& node, std::size_t least, const char* what)
 {
     auto found = check_items(key, node,
                              [](const KeySpec& k, const TomlNode& point, const std::string& item)
                              { return check_vector(k, point, 2, item); });
-    if (found.empty() && node.items()->size() < 3)
-        found.push_back({"", &node, fmt::format("has {} vertices, a polygon has at least 3", node.items()->size()),
-                         "Write [[x, y], [x, y], [x, y], ...]."});
+    if (found.empty() && node.items()->size() < least)
+        found.push_back({"", &node, fmt::format("has {} {} has at least {}", node.items()->size(), what, least),
+                         fmt::format("Write [[x, y], [x, y], {}...].", least > 2 ? "[x, y], " : "")});
     return found;
 }
 }  // namespace
@@ -210,7 +210,9 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
     case ValueType::stress:
         return check_vector(key, value, 3);
     case ValueType::polygon:
-        return check_polygon(key, value);
+        return check_points(key, value, 3, "vertices, a polygon");
+    case ValueType::line:
+        return check_points(key, value, 2, "points, a line");
     case ValueType::boolean_or_texts:
         return value.boolean() != nullptr ? Complaints{} : check_items(key, value, check_item_text);
     case ValueType::number_or_text:
@@ -249,6 +251,7 @@ std::string describe_type(const KeySpec& key)
     case ValueType::stress:
         return "[xx, yy, xy]" + in;
     case ValueType::polygon:
+    case ValueType::line:
         return "a list of points [x, y]" + in;
     case ValueType::boolean_or_texts:
         return "true, false or a list from " + choices;

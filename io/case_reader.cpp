@@ -1,5 +1,6 @@
 #include "io/case_reader.h"
 
+#include "core/rock/fault_lines.h"
 #include "core/rock/rock_checks.h"
 #include "io/case_checks.h"
 #include "io/case_problems.h"
@@ -253,11 +254,13 @@ std::vector<Polygon> traces_of(CaseFile& read, const std::filesystem::path& case
 /// Only a domain without problems can be cut.
 void cut_domain(CaseDef& def, const std::vector<Polygon>& traces, const CaseSource& source)
 {
-    if (traces.empty() || !find_rock_problems(def).empty())
+    if ((traces.empty() && def.faults.empty() && def.regions.empty()) || !find_rock_problems(def).empty())
         return;
     try
     {
-        def.trace_cells = cut_into_cells(domain_polygon(def.domain), traces, def.domain.traces_snap);
+        const std::vector<SourceLine> lines = source_lines(def);
+        if (!traces.empty() || !lines.empty())
+            def.trace_cells = cut_into_cells(domain_polygon(def.domain), traces, def.domain.traces_snap, lines);
     }
     catch (const InputError& error)
     {

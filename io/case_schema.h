@@ -26,6 +26,7 @@ enum class ValueType
     vector,            ///< [x, y]
     stress,            ///< [xx, yy, xy]
     polygon,           ///< [[x, y], [x, y], [x, y], ...]
+    line,              ///< [[x, y], [x, y], ...], not closed
     boolean_or_texts,  ///< true, false or a list of choices
     number_or_text,    ///< a number or one of the choices
     pair_or_text       ///< two numbers or one of the choices

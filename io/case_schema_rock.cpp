@@ -144,7 +144,16 @@ SectionSpec joint_set_section()
                                         .default_note = "from generator.seed and the set's number"}),
              field<&JointSetDef::joint>({.name = "joint",
                                          .effect = "Name of the [joint.NAME] for contacts on faces that this set cut.",
-                                         .default_note = "by the materials of the two blocks"})},
+                                         .default_note = "by the materials of the two blocks"}),
+             field<&JointSetDef::region>({.name = "region",
+                                          .effect = "Name of the [[region]] whose blocks this set cuts. Its joints are the same "
+                                                    "lines with and without it.",
+                                          .example = "\"hanging_wall\"",
+                                          .default_note = "the whole domain"}),
+             field<&JointSetDef::outside>({.name = "outside",
+                                           .effect = "Name of a [[region]] whose blocks this set does not cut.",
+                                           .example = "\"weak\"",
+                                           .default_note = "the whole domain"})},
             append<&CaseDef::joint_sets>};
 }
 

@@ -13,6 +13,10 @@ SectionSpec generator_section();
 SectionSpec excavation_section();
 SectionSpec block_section();
 
+// case_schema_regions.cpp
+SectionSpec fault_section();
+SectionSpec region_section();
+
 // case_schema_laws.cpp: materials, joints, loads, method, time step
 SectionSpec material_section();
 SectionSpec joint_section();

@@ -1,9 +1,11 @@
 #include "core/geometry/polygon.h"
+#include "core/rock/fault_lines.h"
 #include "io/traces.h"
 
 #include <fmt/format.h>
 #include <geos_c.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 
@@ -40,14 +42,6 @@ class Geos
             GEOSCoordSeq_setXY_r(context_, sequence, i, points[i].x(), points[i].y());
         return own(GEOSGeom_createLineString_r(context_, sequence));
     }
-    [[nodiscard]] Geometry area(Polygon ring) const
-    {
-        ring.push_back(ring.front());
-        GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context_, static_cast<unsigned>(ring.size()), 2);
-        for (unsigned i = 0; i < ring.size(); ++i)
-            GEOSCoordSeq_setXY_r(context_, sequence, i, ring[i].x(), ring[i].y());
-        return own(GEOSGeom_createPolygon_r(context_, GEOSGeom_createLinearRing_r(context_, sequence), nullptr, 0));
-    }
     [[nodiscard]] Geometry lines(const std::vector<Polygon>& all) const
     {
         std::vector<GEOSGeometry*> parts;
@@ -67,6 +61,16 @@ class Geos
         return points;
     }
 
+    /// A point inside an area, or on a line.
+    [[nodiscard]] Vec2 point_on(const GEOSGeometry* geometry) const
+    {
+        const Geometry point = own(GEOSPointOnSurface_r(context_, geometry));
+        Vec2 place;
+        GEOSGeomGetX_r(context_, point.get(), &place.x());
+        GEOSGeomGetY_r(context_, point.get(), &place.y());
+        return place;
+    }
+
   private:
     static void remember(const char* message, void* self) { static_cast<Geos*>(self)->message_ = message; }
 
@@ -83,17 +87,65 @@ Polygon lengthened(Polygon trace, double by)
     return trace;
 }
 
-/// Lines of a collection that are longer than what lengthening may have left over.
-std::int64_t count_longer(const Geos& geos, const GEOSGeometry* lines, double least)
+/// The first two points of a line.
+std::pair<Vec2, Vec2> begin_of(const Geos& geos, const GEOSGeometry* line)
 {
-    std::int64_t count = 0;
-    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), lines); ++i)
+    std::pair<Vec2, Vec2> begin;
+    const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(geos.get(), line);
+    GEOSCoordSeq_getXY_r(geos.get(), sequence, 0, &begin.first.x(), &begin.first.y());
+    GEOSCoordSeq_getXY_r(geos.get(), sequence, 1, &begin.second.x(), &begin.second.y());
+    return begin;
+}
+
+double distance(const Vec2& p, const TraceSegment& segment)
+{
+    const Vec2 way = segment.to - segment.from;
+    const double along = std::clamp(way.dot(p - segment.from) / way.squaredNorm(), 0.0, 1.0);
+    return (p - segment.from - along * way).norm();
+}
+
+/// Middle of the first straight stretch of a line.
+Vec2 middle(const Geos& geos, const GEOSGeometry* line)
+{
+    const auto [first, second] = begin_of(geos, line);
+    return 0.5 * (first + second);
+}
+
+/// Of which of the lines that come first a dropped stretch is; no_index for a trace.
+std::int32_t source_of(const Geos& geos, const GEOSGeometry* stretch, const TraceCells& cells, double slack)
+{
+    const auto [first, second] = begin_of(geos, stretch);
+    for (const TraceSegment& segment : cells.segments)
+        if (segment.source == no_index)
+            break;
+        else if (std::max(distance(first, segment), distance(second, segment)) < 0.01 * slack)
+            return segment.source;
+    return no_index;
+}
+
+/// Stretches inside the domain that part nothing and are longer than what lengthening may have left over.
+void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygon& domain, double least, TraceCells& result)
+{
+    const double slack = line_slack(domain);
+    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), stretches); ++i)
     {
+        const GEOSGeometry* stretch = GEOSGetGeometryN_r(geos.get(), stretches, i);
         double length = 0.0;
-        GEOSLength_r(geos.get(), GEOSGetGeometryN_r(geos.get(), lines, i), &length);
-        count += length > least ? 1 : 0;
+        GEOSLength_r(geos.get(), stretch, &length);
+        const std::int32_t source = source_of(geos, stretch, result, slack);
+        if (length <= (source == no_index ? least : 2.0 * slack) || !contains(domain, middle(geos, stretch)))
+            continue;
+        if (source == no_index)
+            ++result.dead_ends;
+        else
+            result.dropped[static_cast<std::size_t>(source)] += length - slack;  // of its free end
     }
-    return count;
+}
+
+void add_segments(const Polygon& points, std::int32_t source, std::vector<TraceSegment>& segments)
+{
+    for (std::size_t i = 1; i < points.size(); ++i)
+        segments.push_back({points[i - 1], points[i], source});
 }
 
 /// Outer rings of a collection's areas, anticlockwise.
@@ -109,22 +161,27 @@ std::vector<Polygon> rings_of(const Geos& geos, const GEOSGeometry* areas)
 }
 }  // namespace
 
-TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap)
+TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap,
+                          const std::vector<SourceLine>& lines)
 {
     const Geos geos;
     TraceCells result;
     std::vector<Polygon> all;
+    for (const SourceLine& line : lines)
+    {
+        all.push_back(line.points);
+        add_segments(line.points, line.source, result.segments);
+        result.dropped.resize(std::max(result.dropped.size(), static_cast<std::size_t>(line.source) + 1), 0.0);
+    }
     for (const Polygon& trace : traces)
     {
         all.push_back(snap > 0.0 ? lengthened(trace, snap) : trace);
-        for (std::size_t i = 1; i < all.back().size(); ++i)
-            result.segments.push_back({all.back()[i - 1], all.back()[i]});
+        add_segments(all.back(), no_index, result.segments);
     }
-    const auto area = geos.area(domain);
-    const auto inside = geos.own(
-        GEOSIntersection_r(geos.get(), geos.own(GEOSUnaryUnion_r(geos.get(), geos.lines(all).get())).get(), area.get()));
-    const auto boundary = geos.own(GEOSBoundary_r(geos.get(), area.get()));
-    const auto noded = geos.own(GEOSUnion_r(geos.get(), inside.get(), boundary.get()));
+    // All at once, and what lies outside the domain left out later: lines cut off at the boundary before may end a rounding short of it.
+    all.push_back(domain);
+    all.back().push_back(domain.front());
+    const auto noded = geos.own(GEOSUnaryUnion_r(geos.get(), geos.lines(all).get()));
     GEOSGeometry* bridges = nullptr;
     GEOSGeometry* ends = nullptr;
     GEOSGeometry* invalid = nullptr;
@@ -133,10 +190,13 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     const auto owned_ends = geos.own(ends);
     const auto owned_invalid = geos.own(invalid);
     result.traces = static_cast<std::int64_t>(traces.size());
-    result.dead_ends = count_longer(geos, ends, snap * (1.0 + 1e-9)) + count_longer(geos, bridges, 0.0);
+    count_dropped(geos, ends, domain, snap * (1.0 + 1e-9), result);
+    count_dropped(geos, bridges, domain, 0.0, result);
     for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), cells.get()); ++i)
     {
         const GEOSGeometry* cell = GEOSGetGeometryN_r(geos.get(), cells.get(), i);
+        if (!contains(domain, geos.point_on(cell)))
+            continue;
         const bool has_hole = GEOSGetNumInteriorRings_r(geos.get(), cell) > 0;
         result.cells.push_back(
             rings_of(geos, has_hole ? geos.own(GEOSConstrainedDelaunayTriangulation_r(geos.get(), cell)).get() : cell));

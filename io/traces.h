@@ -33,6 +33,8 @@ std::variant<Polygon, std::string> parse_wkt_line(std::string_view text);
 /// nothing: they are dropped and counted. A cell around a ring of traces that meets no other trace has a hole, and comes in triangles. A
 /// trace is lengthened by `snap` at both ends first, what is too long then goes uncounted. Throws InputError when the library cannot cut.
 /// @param domain simple
+/// @param lines faults and outlines of regions; they are cut as they are. Of those the length that is dropped is found
 /// @see verification/unit/io/traces_test.cpp
-TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap);
+TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap,
+                          const std::vector<SourceLine>& lines = {});
 }  // namespace hdem

@@ -9,7 +9,7 @@
 namespace hdem
 {
 /// What a block edge came from. Contacts take their joint from it.
-/// >= 0: number of the joint set; the rest as named.
+/// >= 0: number of a fault, outline, joint set or trace, see model/edge_sources.h; the rest as named.
 enum EdgeSource : std::int32_t
 {
     edge_internal = -1,  ///< between two convex parts of one block: never touches anything

@@ -38,6 +38,25 @@ struct DomainDef
     double traces_snap = 0.0;  ///< a trace that ends nearer than this to another one meets it [m]
 };
 
+/// [[fault]]: one long joint, cut before all joint sets.
+struct FaultDef
+{
+    std::string name;
+    Polygon points;     ///< at least two; it runs from the first to the last [m]
+    std::string joint;  ///< name of a [joint.NAME] for contacts along it; "" = by materials
+};
+
+/// [[region]]: a part of the domain with joint sets or a material of its own; what lies in all that is given.
+struct RegionDef
+{
+    std::string name;
+    Polygon polygon;       ///< its outline is cut into the rock; empty: none [m]
+    std::string above;     ///< name of the fault it lies above; "" = none
+    std::string below;     ///< name of the fault it lies below; "" = none
+    std::string material;  ///< of its blocks; "" = that of the domain
+    std::string joint;     ///< name of a [joint.NAME] for contacts along the outline; "" = by materials
+};
+
 /// [[joint_set]]: parallel joints at a regular spacing.
 struct JointSetDef
 {
@@ -49,6 +68,8 @@ struct JointSetDef
     std::optional<Vec2> origin;         ///< one (undeviated) joint passes through this point [m]; default: centre of the domain
     std::optional<std::uint64_t> seed;  ///< of this set's random stream; default: derived from generator.seed and the set's number
     std::string joint;                  ///< name of a [joint.NAME] for contacts on this set's faces; "" = by materials
+    std::string region;                 ///< only blocks in the region of this name are cut; "" = all
+    std::string outside;                ///< only blocks outside the region of this name are cut; "" = all
 };
 
 /// [generator]
@@ -311,7 +332,9 @@ struct CaseDef
 {
     std::string title;
     DomainDef domain;
-    TraceCells trace_cells;  ///< what domain.traces_file cuts the domain into, found by io/; empty without
+    TraceCells trace_cells;  ///< what faults, outlines and traces cut the domain into, found by io/; empty without
+    std::vector<FaultDef> faults;
+    std::vector<RegionDef> regions;
     std::vector<JointSetDef> joint_sets;
     GeneratorDef generator;
     std::vector<ExcavationDef> excavations;

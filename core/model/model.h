@@ -24,7 +24,7 @@ struct Shapes
     std::vector<Vec2> vertex;               ///< body frame [m]; edge i runs from vertex i to the next of its part
     std::vector<Vec2> edge_tangent;         ///< per vertex: unit vector along edge i [-]; outward normal = tangent turned right
     std::vector<double> edge_length;        ///< per vertex [m]
-    std::vector<std::int32_t> edge_source;  ///< per vertex: EdgeSource, or number of the joint set; traces are one more
+    std::vector<std::int32_t> edge_source;  ///< per vertex: EdgeSource, or a number of EdgeSources (model/edge_sources.h)
     std::vector<Vec2> part_centre;          ///< per part: centre of its bounding circle, body frame [m]
     std::vector<double> part_radius;        ///< per part: of that circle [m]
 
@@ -102,7 +102,7 @@ struct Model
 
     std::vector<std::string> material_names;
     std::vector<std::string> excavation_names;
-    std::vector<std::string> joint_set_names;
+    std::vector<std::string> joint_set_names;  ///< by number of EdgeSources, without the traces
     InsituField insitu;
     std::vector<Boundary> boundaries;
     JointTable joints;

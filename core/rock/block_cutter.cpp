@@ -53,7 +53,7 @@ BlockCut plan(const Cutter& cutter, const Parts& parts, const CutLine& line)
         const Side side = side_of(part.vertices, line, cutter.mass.tolerance);
         if (side == Side::crossed)
         {
-            out.cuts.push_back(plan_cut(part, line, cutter.joints.set, cutter.mass.chords, cutter.mass.tolerance));
+            out.cuts.push_back(plan_cut(part, line, cutter.joints.source, cutter.mass.chords, cutter.mass.tolerance));
         }
         else
         {
@@ -152,7 +152,7 @@ std::vector<Parts> make(BlockCut& cut, Cutter& cutter)
     {
         for (CutPolygon& b : cut.right)
         {
-            set_shared_source(a, b, cutter.joints.set, cutter.mass.chords, cutter.mass.tolerance);
+            set_shared_source(a, b, cutter.joints.source, cutter.mass.chords, cutter.mass.tolerance);
         }
     }
     for (ConvexCut& part : cut.cuts)
@@ -245,7 +245,8 @@ CutMass uncut_mass(const Polygon& domain, double tolerance)
     return mass;
 }
 
-void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts)
+void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts,
+                const std::function<bool(const CutBlock&)>& is_meant)
 {
     Cutter cutter = {mass,      joints, set,
                      generator, counts, boost::random::mt19937_64(stream_seed(generator, set, joints.set, RandomUse::persistence))};
@@ -253,6 +254,11 @@ void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set
     out.reserve(2 * mass.blocks.size());
     for (CutBlock& block : mass.blocks)
     {
+        if (is_meant && !is_meant(block))
+        {
+            out.push_back(std::move(block));
+            continue;
+        }
         cut_one_block(cutter, std::move(block.parts), out);
     }
     mass.blocks = std::move(out);

@@ -6,6 +6,7 @@
 #include "core/rock/joint_sets.h"
 #include "core/rock/rock_mass.h"
 
+#include <functional>
 #include <vector>
 
 namespace hdem
@@ -38,5 +39,8 @@ CutMass uncut_mass(const Polygon& domain, double tolerance);
 /// cut or left as one; each connected piece becomes a block.
 ///
 /// Every block looks only at the joints that can reach it: the time is proportional to the number of blocks.
-void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts);
+///
+/// @param is_meant  blocks for which it says no stay as they are; empty: all are cut
+void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts,
+                const std::function<bool(const CutBlock&)>& is_meant = {});
 }  // namespace hdem

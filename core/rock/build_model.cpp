@@ -172,6 +172,10 @@ void add_joints(const CaseDef& def, Model& model)
         const Index b = material_number(def, def.joints[j].materials[1]);
         table.of_materials[a * n + b] = table.of_materials[b * n + a] = static_cast<Index>(j);
     }
+    for (const FaultDef& fault : def.faults)  // in the order of EdgeSources
+        table.of_joint_set.push_back(fault.joint.empty() ? no_index : joint_named(fault.joint));
+    for (const RegionDef& region : def.regions)
+        table.of_joint_set.push_back(region.joint.empty() ? no_index : joint_named(region.joint));
     for (const JointSetDef& set : def.joint_sets)
         table.of_joint_set.push_back(set.joint.empty() ? no_index : joint_named(set.joint));
     table.of_joint_set.push_back(def.domain.traces_joint.empty() ? no_index
@@ -287,6 +291,10 @@ Setup build_model(const CaseDef& def)
     for (const ExcavationDef& excavation : def.excavations)
         model.excavation_names.push_back(excavation.name);
     add_joints(def, model);
+    for (const FaultDef& fault : def.faults)
+        model.joint_set_names.push_back("fault " + fault.name);
+    for (const RegionDef& region : def.regions)
+        model.joint_set_names.push_back("outline of " + region.name);
     for (const JointSetDef& set : def.joint_sets)
         model.joint_set_names.push_back(set.name);
     if (def.insitu.given)

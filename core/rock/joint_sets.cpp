@@ -87,7 +87,7 @@ double count_joints(const JointSetDef& set, const Box& box)
 JointTraces draw_joints(const JointSetDef& set, std::int32_t number, const GeneratorDef& generator, const Box& box)
 {
     JointTraces traces = undrawn(set, box);
-    traces.set = number;
+    traces.set = traces.source = number;
     const Reach range = reach(corners(box), traces.origin, traces.across, traces.tilt);
     traces.first = static_cast<std::int64_t>(std::ceil(range.low / set.spacing));
     const auto last = static_cast<std::int64_t>(std::floor(range.high / set.spacing));

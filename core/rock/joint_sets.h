@@ -16,7 +16,8 @@ namespace hdem
 /// at right angles to the dip.
 struct JointTraces
 {
-    std::int32_t set = 0;      ///< number of the joint set: the source of the edges it cuts
+    std::int32_t set = 0;      ///< number of the joint set
+    std::int32_t source = 0;   ///< of the edges it cuts
     Vec2 origin = {0.0, 0.0};  ///< [m]
     Vec2 across = {0.0, 1.0};  ///< unit vector of the spacing axis
     double spacing = 1.0;      ///< [m]

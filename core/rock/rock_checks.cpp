@@ -7,6 +7,7 @@
 #include "core/rock/joint_sets.h"
 #include "core/rock/polygon_error.h"
 #include "core/rock/problem_text.h"
+#include "core/rock/region_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -38,6 +39,10 @@ class RockChecker
         if (def_.domain.given && domain_is_good && sets_are_good)
         {
             check_number_of_blocks();
+        }
+        if (domain_is_good)
+        {
+            std::ranges::move(find_region_problems(def_), std::back_inserter(problems_));
         }
         for (std::size_t i = 0; i < def_.excavations.size(); ++i)
         {
@@ -187,7 +192,8 @@ class RockChecker
             for (std::size_t j = 0; j < i; ++j)
             {
                 const double sine = unit_direction(set.dip_deg - def_.joint_sets[j].dip_deg).y();
-                blocks += std::abs(signed_area(polygon) * sine) / (set.spacing * def_.joint_sets[j].spacing);
+                const double area = std::min(cut_area(set, polygon), cut_area(def_.joint_sets[j], polygon));
+                blocks += std::abs(area * sine) / (set.spacing * def_.joint_sets[j].spacing);
             }
         }
         if (blocks > most_blocks)
@@ -195,6 +201,20 @@ class RockChecker
             fail("joint_set[0].spacing", "joint sets: spacings make about " + text(blocks) + " blocks (more than " +
                                              text(most_blocks) + "). Give greater spacings or a smaller domain.");
         }
+    }
+
+    /// At most this is cut by the set [m2].
+    double cut_area(const JointSetDef& set, const Polygon& domain) const
+    {
+        double least = std::abs(signed_area(domain));
+        for (const RegionDef& region : def_.regions)
+        {
+            if (region.name == set.region && region.polygon.size() > 2)
+            {
+                least = std::min(least, std::abs(signed_area(region.polygon)));
+            }
+        }
+        return least;
     }
 
     bool check_excavation(const ExcavationDef& excavation, const std::string& at)

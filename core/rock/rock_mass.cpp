@@ -1,14 +1,16 @@
 #include "core/rock/rock_mass.h"
 
+#include "core/model/edge_sources.h"
 #include "core/rock/block_cutter.h"
 #include "core/rock/excavation.h"
 #include "core/rock/explicit_blocks.h"
 #include "core/rock/joint_sets.h"
 #include "core/rock/problem_text.h"
+#include "core/rock/regions.h"
 #include "core/rock/rock_checks.h"
 #include "core/rock/side_walls.h"
 #include "core/rock/slivers.h"
-#include "core/rock/trace_cells.h"
+#include "core/rock/start_mass.h"
 #include "core/rock/weld.h"
 
 #include <algorithm>
@@ -43,53 +45,13 @@ Domain make_domain(const CaseDef& def)
     return domain;
 }
 
-/// Distance below which a line goes through a vertex: far below the least size of a block, far above the round-off of coordinates.
-double snapping_distance(const CaseDef& def, const Box& box)
-{
-    double size = (box.high - box.low).norm();
-    const double largest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
-    for (const JointSetDef& set : def.joint_sets)
-    {
-        size = std::min(size, set.spacing);
-    }
-    return std::max(1e-9 * size, 64.0 * std::numeric_limits<double>::epsilon() * largest);
-}
-
-/// The domain as one block, or as the cells between its traces.
-CutMass start_mass(const CaseDef& def, const Polygon& domain, RockMass& rock)
-{
-    const TraceCells& traces = def.trace_cells;
-    const double tolerance = snapping_distance(def, bounding_box(domain));
-    if (traces.cells.empty())
-    {
-        return uncut_mass(domain, tolerance);
-    }
-    const auto small = std::count_if(traces.cells.begin(), traces.cells.end(),
-                                     [&](const std::vector<Polygon>& cell)
-                                     {
-                                         double sum = 0.0;
-                                         for (const Polygon& piece : cell)
-                                             sum += signed_area(piece);
-                                         return sum < def.generator.smallest_block_area;
-                                     });
-    if (small > 0)
-    {
-        rock.warnings.push_back({Problem::Severity::warning, "domain.traces_file",
-                                 "[domain]: traces_file (" + std::to_string(small) +
-                                     " cells are smaller than generator.smallest_block_area, " +
-                                     text(def.generator.smallest_block_area) + " m2). Move these traces, or leave some out."});
-    }
-    rock.joints += traces.traces;
-    rock.dead_ends = traces.dead_ends;
-    return traced_mass(domain, traces, static_cast<std::int32_t>(def.joint_sets.size()), tolerance);
-}
-
-void cut_joint_sets(const CaseDef& def, const Polygon& domain, CutMass& mass, RockMass& rock)
+void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& regions, CutMass& mass, RockMass& rock)
 {
     for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
     {
-        const JointTraces joints = draw_joints(def.joint_sets[i], static_cast<std::int32_t>(i), def.generator,
-                                               bounding_box(domain));
+        const JointSetDef& set = def.joint_sets[i];
+        JointTraces joints = draw_joints(set, static_cast<std::int32_t>(i), def.generator, bounding_box(domain));
+        joints.source = EdgeSources(def).set(i);
         const auto crosses = [&](const CutLine& line) { return side_of(domain, line, mass.tolerance) == Side::crossed; };
         const auto crossing = std::count_if(joints.lines.begin(), joints.lines.end(), crosses);
         rock.joints += crossing;
@@ -99,7 +61,22 @@ void cut_joint_sets(const CaseDef& def, const Polygon& domain, CutMass& mass, Ro
                 {Problem::Severity::warning, "joint_set[" + std::to_string(i) + "]",
                  "joint set \"" + def.joint_sets[i].name + "\": no joint crosses the domain. Check its spacing and origin."});
         }
-        cut_blocks(mass, joints, def.joint_sets[i], def.generator, rock);
+        const std::int64_t before = rock.cuts + rock.refused_cuts + rock.skipped_cuts;
+        const bool is_limited = !set.region.empty() || !set.outside.empty();
+        std::function<bool(const CutBlock&)> is_meant;
+        if (is_limited)
+        {
+            is_meant = [&](const CutBlock& block) { return regions.is_meant(set, block); };
+        }
+        cut_blocks(mass, joints, set, def.generator, rock, is_meant);
+        if (is_limited && crossing > 0 && rock.cuts + rock.refused_cuts + rock.skipped_cuts == before)
+        {
+            rock.warnings.push_back(
+                {Problem::Severity::warning, "joint_set[" + std::to_string(i) + "]",
+                 "joint set \"" + set.name + "\": no joint crosses " +
+                     (set.region.empty() ? "the rock outside \"" + set.outside + "\"" : "region \"" + set.region + "\"") +
+                     ". Check its spacing and origin."});
+        }
     }
 }
 
@@ -136,10 +113,10 @@ void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
     weld_vertices(mass, outlines);
 }
 
-RockBlock finished(CutBlock& from, const CaseDef& def, const Domain& domain)
+RockBlock finished(CutBlock& from, const Regions& regions, const Domain& domain)
 {
     RockBlock block;
-    block.material = def.domain.material;
+    block.material = regions.material(from);
     block.excavation = from.excavation;
     bool is_fixed = false;
     for (CutPolygon& part : from.parts)
@@ -167,7 +144,7 @@ RockBlock finished(CutBlock& from, const CaseDef& def, const Domain& domain)
 }
 
 /// Blocks in order of their excavation (none first), then from the bottom up by their centroids, then from the left; names count them.
-void add_generated(const CaseDef& def, const Domain& domain, CutMass& mass, RockMass& rock)
+void add_generated(const CaseDef& def, const Domain& domain, const Regions& regions, CutMass& mass, RockMass& rock)
 {
     struct Place
     {
@@ -184,8 +161,12 @@ void add_generated(const CaseDef& def, const Domain& domain, CutMass& mass, Rock
         if (from.parts.size() > 1)
         {
             merge_convex_parts(from.parts);
+            if (!def.trace_cells.cells.empty())
+            {
+                drop_straight_vertices(from.parts, mass.tolerance);
+            }
         }
-        blocks.push_back(finished(from, def, domain));
+        blocks.push_back(finished(from, regions, domain));
         places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
         from = {};  // a million of them need not wait
     }
@@ -271,9 +252,15 @@ RockMass generate_rock_mass(const CaseDef& def)
         domain = make_domain(def);
         rock.domain_area = signed_area(domain.polygon);
         CutMass mass = start_mass(def, domain.polygon, rock);
-        cut_joint_sets(def, domain.polygon, mass, rock);
+        const Regions regions(def, domain.polygon);
+        problems = regions.find_problems(mass);
+        if (!problems.empty())
+        {
+            throw InputError(std::move(problems));
+        }
+        cut_joint_sets(def, domain.polygon, regions, mass, rock);
         cut_excavations(def, mass, rock);
-        add_generated(def, domain, mass, rock);
+        add_generated(def, domain, regions, mass, rock);
         warn_of_small_blocks(def, rock);
     }
     const double mean_size = std::sqrt(rock.domain_area / static_cast<double>(std::max<std::size_t>(rock.blocks.size(), 1)));

@@ -119,7 +119,10 @@ CutMass traced_mass(const Polygon& domain, const TraceCells& traces, std::int32_
     for (std::size_t i = 0; i < domain.size(); ++i)
         stretches.add(domain[i], domain[next(i, domain.size())], {edge_plain, static_cast<Index>(i)});
     for (const TraceSegment& segment : traces.segments)
-        stretches.add(segment.from, segment.to, {source, mass.chords.add(segment.from, segment.to)});
+    {
+        const std::int32_t own = segment.source == no_index ? source : segment.source;
+        stretches.add(segment.from, segment.to, {own, mass.chords.add(segment.from, segment.to)});
+    }
     for (const std::vector<Polygon>& pieces : traces.cells)
         mass.blocks.push_back({parts_of(pieces, stretches, source, mass.chords), no_index, no_index});
     return mass;

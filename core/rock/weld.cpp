@@ -48,7 +48,29 @@ void drop_repeated_vertices(CutPolygon& part)
         }
     }
 }
+
+bool is_straight(const CutPolygon& part, std::size_t i, double tolerance)
+{
+    const std::size_t n = part.vertices.size();
+    const std::size_t before = previous(i, n);
+    if (part.edges[i].source != part.edges[before].source || part.edges[i].source < 0)
+        return false;
+    const Vec2& from = part.vertices[before];
+    const Vec2 way = part.vertices[next(i, n)] - from;
+    return std::abs(cross(way, part.vertices[i] - from)) < tolerance * way.norm();
+}
 }  // namespace
+
+void drop_straight_vertices(std::vector<CutPolygon>& parts, double tolerance)
+{
+    for (CutPolygon& part : parts)
+        for (std::size_t i = part.vertices.size(); i-- > 0 && part.vertices.size() > 3;)
+            if (is_straight(part, i, tolerance))
+            {
+                part.vertices.erase(part.vertices.begin() + static_cast<std::ptrdiff_t>(i));
+                part.edges.erase(part.edges.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+}
 
 void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines)
 {

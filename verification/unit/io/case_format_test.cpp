@@ -60,6 +60,8 @@ TEST(CaseFormat, EveryKeyHasAnEffectAndAKnownDefault)
 TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
 {
     const std::map<std::string, std::string> section_of = {{"DomainDef", "domain"},
+                                                           {"FaultDef", "fault"},
+                                                           {"RegionDef", "region"},
                                                            {"JointSetDef", "joint_set"},
                                                            {"GeneratorDef", "generator"},
                                                            {"ExcavationDef", "excavation"},

@@ -1,4 +1,5 @@
 #include "core/geometry/polygon.h"
+#include "core/geometry/unit_direction.h"
 #include "io/load_case.h"
 #include "io/traces.h"
 #include "verification/unit/small_run.h"
@@ -94,6 +95,25 @@ TEST(TraceCells, LengtheningMakesMappedTracesMeet)
     const TraceCells cut = cut_into_cells(square, traces, 0.05);
     EXPECT_THAT(cut.cells, SizeIs(3));
     EXPECT_EQ(cut.dead_ends, 0) << "what lengthening left over is not the user's";
+}
+
+/// What crosses a slanted side meets it: cut off there first, it would end a rounding short of it.
+TEST(TraceCells, CloseAtSlantedSides)
+{
+    for (int turn = 1; turn < 90; ++turn)
+    {
+        const Vec2 by = unit_direction(turn);
+        const auto turned = [&](Polygon points)
+        {
+            for (Vec2& p : points)
+                p = {by.x() * p.x() - by.y() * p.y(), by.y() * p.x() + by.x() * p.y()};
+            return points;
+        };
+        const TraceCells cut = cut_into_cells(turned(square), {turned({{-1, 5}, {11, 6}}), turned({{3, -1}, {4, 11}})}, 0.0);
+        EXPECT_THAT(cut.cells, SizeIs(4)) << turn;
+        EXPECT_EQ(cut.dead_ends, 0) << turn;
+        EXPECT_NEAR(total_area(cut.cells), 100.0, 1e-9);
+    }
 }
 
 TEST(TraceCells, ABlockAroundALoneRingComesInTriangles)

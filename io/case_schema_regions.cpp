@@ -1,0 +1,79 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+namespace
+{
+/// Not as a polygon is read: a last point that is the first stays.
+void assign_points(void* object, const TomlNode& value, const KeySpec&)
+{
+    Polygon& points = static_cast<FaultDef*>(object)->points;
+    points.clear();
+    for (const TomlNode& item : *value.items())
+        points.push_back(vector(item));
+}
+}  // namespace
+
+SectionSpec fault_section()
+{
+    KeySpec points = spec({.name = "points",
+                           .unit = "m",
+                           .effect = "Points in order along it, two or more. What lies outside the domain has no effect.",
+                           .example = "[[-1, 4], [12, 9], [31, 11]]",
+                           .range = coordinate,
+                           .required = true},
+                          ValueType::line);
+    return {
+        "fault",
+        SectionKind::array,
+        "fault",
+        "One long joint, straight or with bends, that is cut before all joint sets. Let it begin and end a little outside the "
+        "domain, or beyond another fault: what ends inside a block parts nothing and is dropped, with a warning.",
+        {field<&FaultDef::name>(
+             {.name = "name", .effect = "What regions and messages call it.", .example = "\"fault1\"", .required = true}),
+         with_assign(std::move(points), assign_points),
+         field<&FaultDef::joint>({.name = "joint",
+                                  .effect = "Name of the [joint.NAME] for contacts along it; it goes before that of a joint set.",
+                                  .default_note = "by the materials of the two blocks"})},
+        append<&CaseDef::faults>};
+}
+
+SectionSpec region_section()
+{
+    return {
+        "region",
+        SectionKind::array,
+        "region",
+        "A part of the domain that has joint sets or a material of its own: inside a `polygon`, on one side of a fault, or between "
+        "faults. It is what lies in all that is given.",
+        {field<&RegionDef::name>(
+             {.name = "name", .effect = "What joint sets call it.", .example = "\"hanging_wall\"", .required = true}),
+         field<&RegionDef::polygon>({.name = "polygon",
+                                     .unit = "m",
+                                     .effect = "Vertices. The outline is cut into the rock before the joint sets, except where it "
+                                               "runs along the domain's boundary, a fault or an earlier outline.",
+                                     .example = "[[10, 0], [20, 0], [20, 8], [10, 8]]",
+                                     .range = coordinate,
+                                     .default_note = "no outline"}),
+         field<&RegionDef::above>({.name = "above",
+                                   .effect = "Name of the fault it lies above. The ends of a fault go on straight; it must part "
+                                             "the rock of the region from the rest.",
+                                   .example = "\"fault1\"",
+                                   .default_note = "not limited so"}),
+         field<&RegionDef::below>({.name = "below",
+                                   .effect = "Name of the fault it lies below.",
+                                   .example = "\"fault1\"",
+                                   .default_note = "not limited so"}),
+         field<&RegionDef::material>({.name = "material",
+                                      .effect = "Name of the [material.NAME] of its blocks. Where regions lie in each other, the "
+                                                "first one in the file with a material counts.",
+                                      .default_note = "domain.material"}),
+         field<&RegionDef::joint>({.name = "joint",
+                                   .effect = "Name of the [joint.NAME] for contacts along the outline of the polygon.",
+                                   .default_note = "by the materials of the two blocks"})},
+        append<&CaseDef::regions>};
+}
+}  // namespace hdem

@@ -1,0 +1,214 @@
+#include "verification/unit/case_run.h"
+#include "verification/unit/core/rock/region_cases.h"
+#include "verification/unit/core/rock/rock_invariants.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <map>
+#include <random>
+
+namespace hdem
+{
+namespace
+{
+using test::case_of;
+using test::CaseRun;
+using test::laws;
+using test::lens;
+using test::square;
+using test::two_halves;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<double> areas(const RockMass& rock, const std::string& material)
+{
+    std::vector<double> found;
+    for (const RockBlock& block : rock.blocks)
+        if (block.material == material)
+            found.push_back(std::round(area(block) * 1e6) * 1e-6);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// Names of the joints between blocks that lie on each other, and the total length of each [m].
+std::map<std::string, double> joint_lengths(const CaseDef& def)
+{
+    const CaseRun run(def);
+    const Contacts& contacts = run.state().contacts;
+    std::map<std::string, double> lengths;
+    for (Index i = 0; i < contacts.size(); ++i)
+        if (const double length = report_contact(run.state(), i).length; length > 0.01)
+            lengths[run.model().joints.names[contacts.law[i]]] += length;
+    return lengths;
+}
+
+class Turned : public testing::TestWithParam<double>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Regions, Turned, testing::Values(0.0, 23.0));
+
+TEST_P(Turned, ASetCutsOneSideOfAFault)
+{
+    const CaseDef def = case_of(two_halves, GetParam());
+    const RockMass rock = generate_rock_mass(def);
+    expect_sound(rock);
+    EXPECT_THAT(areas(rock, "rock"), ElementsAre(2.0, 2.0, 2.0, 2.0, 8.0));
+    EXPECT_TRUE(rock.warnings.empty());
+    const auto lengths = joint_lengths(def);
+    ASSERT_EQ(lengths.size(), 2u);
+    EXPECT_NEAR(lengths.at("fault"), 4.0, 1e-6);
+    EXPECT_NEAR(lengths.at("bedding"), 3.0 * 2.0, 1e-6);
+}
+
+TEST_P(Turned, AZoneHasItsMaterialItsSetsAndItsOutline)
+{
+    const CaseDef def = case_of(lens, GetParam());
+    const RockMass rock = generate_rock_mass(def);
+    expect_sound(rock);
+    EXPECT_THAT(areas(rock, "shale"), ElementsAre(2.0, 2.0));
+    EXPECT_THAT(areas(rock, "rock"), ElementsAre(6.0, 6.0));
+    const auto lengths = joint_lengths(def);
+    ASSERT_EQ(lengths.size(), 3u);
+    EXPECT_NEAR(lengths.at("in_shale"), 2.0, 1e-6) << "between the beds";
+    EXPECT_NEAR(lengths.at("bedding"), 8.0, 1e-6) << "along the outline";
+    EXPECT_NEAR(lengths.at("default"), 2.0, 1e-6) << "above and below the lens";
+}
+
+/// An outline along the domain's boundary and a fault adds no joint there, and no sliver.
+TEST_P(Turned, AnOutlineAlongWhatIsThereIsNotCutAgain)
+{
+    const CaseDef def = case_of(test::with(two_halves, "above = \"main\"", "polygon = [[0, 2], [3, 2], [3, 4], [0, 4]]"),
+                                GetParam());
+    ASSERT_EQ(source_lines(def).size(), 2u) << "the fault, and one of four edges";
+    EXPECT_EQ(source_lines(def)[1].points.size(), 2u);
+    const RockMass rock = generate_rock_mass(def);
+    expect_sound(rock);
+    EXPECT_THAT(areas(rock, "rock"), ElementsAre(2.0, 2.0, 2.0, 2.0, 8.0)) << "cut at 1 and 2 by the set, at 3 by the outline";
+}
+
+TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
+{
+    const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");
+    const CaseDef above = case_of(bent, GetParam());
+    const CaseDef below = case_of(test::with(bent, "above =", "below ="), GetParam());
+    expect_sound(generate_rock_mass(above));
+    // The fault rises by 2/3 from 5/3 at the side, so it is at 7/3 a metre from the sides and at 3 in the middle.
+    EXPECT_THAT(areas(generate_rock_mass(above), "rock"),
+                ElementsAre(testing::DoubleNear(4.0 / 3.0, 1e-5), testing::DoubleNear(4.0 / 3.0, 1e-5), 2.0, 2.0, testing::_));
+    EXPECT_THAT(areas(generate_rock_mass(below), "rock").size(), 5u);
+    EXPECT_NEAR(summed_area(generate_rock_mass(below)), 16.0, 1e-9);
+}
+
+/// Where two faults meet, the wedge between them has a set of its own; an excavation takes parts of all.
+TEST(Regions, LieBetweenFaultsAndAreExcavated)
+{
+    const std::string text = test::with(two_halves, "[[region]]\nname = \"upper\"\nabove = \"main\"\n",
+                                        "[[fault]]\nname = \"steep\"\npoints = [[1, 1.5], [3, 5]]\n"
+                                        "[[region]]\nname = \"upper\"\nabove = \"main\"\nbelow = \"steep\"\n"
+                                        "[[excavation]]\nname = \"hole\"\nshape = \"circle\"\nposition = [2, 2]\ndiameter = 2.0\n");
+    const CaseDef def = case_of(text);
+    const RockMass rock = generate_rock_mass(def);
+    expect_sound(rock);
+    std::size_t inside = 0;
+    for (const RockBlock& block : rock.blocks)
+        inside += block.excavation == 0 ? 1 : 0;
+    EXPECT_EQ(inside, 4u) << "below the fault, the wedge left and right of the joint at 2, and the rest above";
+    ASSERT_EQ(rock.warnings.size(), 1u);
+    EXPECT_THAT(rock.warnings[0].text, HasSubstr("fault \"steep\": points (0.575"));
+}
+
+/// Faults and regions come before the sets, and take no numbers from them.
+TEST(Regions, LeaveTheJointsOfSetsAsTheyAre)
+{
+    const std::string plain = square + R"([[joint_set]]
+dip_deg = 80.0
+spacing = 0.7
+deviation_deg = 6.0
+)" + laws;
+    const std::string cut = test::with(plain, "[[joint_set]]",
+                                       "[[region]]\nname = \"lens\"\npolygon = [[1, 1], [3, 1], [3, 2], [1, 2]]\n"
+                                       "[[fault]]\nname = \"main\"\npoints = [[-1, 3], [5, 2.5]]\n[[joint_set]]");
+    std::string split = test::with(cut, "spacing = 0.7",
+                                   "spacing = 0.7\nregion = \"lens\"\nseed = 5\n[[joint_set]]\ndip_deg = 80.0\n"
+                                   "spacing = 0.7\nseed = 5\noutside = \"lens\"");
+    split.replace(split.find("[[joint_set]]"), 13, "[[joint_set]]\ndeviation_deg = 6.0");
+    const auto at_the_bottom = [](const CaseDef& def)
+    {
+        std::set<double> found;
+        for (const RockBlock& block : generate_rock_mass(def).blocks)
+            for (const ConvexPart& part : block.parts)
+                for (const Vec2& p : part.vertices)
+                    if (std::abs(p.y()) < 1e-12)
+                        found.insert(std::round(p.x() * 1e9));
+        return found;
+    };
+    const std::set<double> joints = at_the_bottom(case_of(plain));
+    EXPECT_GT(joints.size(), 5u);
+    EXPECT_EQ(at_the_bottom(case_of(cut)), joints);
+    const std::string seeded = test::with(plain, "spacing = 0.7", "spacing = 0.7\nseed = 5");
+    EXPECT_EQ(at_the_bottom(case_of(split)), at_the_bottom(case_of(seeded)));
+    EXPECT_NE(at_the_bottom(case_of(seeded)), joints);
+    expect_sound(generate_rock_mass(case_of(split)));
+}
+
+/// Which blocks a set of short joints cuts is drawn from the same numbers.
+TEST(Regions, AFaultThatPartsNothingChangesNoBlock)
+{
+    const std::string plain = square +
+                              "[[joint_set]]\ndip_deg = 70\nspacing = 0.6\n[[joint_set]]\ndip_deg = -10\nspacing = 0.5\n"
+                              "persistence = 0.5\n" +
+                              laws;
+    const std::string cut = plain + "[[fault]]\nname = \"inner\"\npoints = [[1, 1], [3, 2]]\n";
+    const RockMass rock = generate_rock_mass(case_of(cut));
+    EXPECT_EQ(areas(rock, "rock"), areas(generate_rock_mass(case_of(plain)), "rock"));
+    EXPECT_GT(rock.skipped_cuts, 10);
+}
+
+/// Whatever is drawn: nothing is lost, neighbours meet end to end, and each zone has its area.
+TEST(Regions, FillTheDomainAtRandom)
+{
+    int made = 0;
+    for (unsigned seed = 0; seed < 40; ++seed)
+    {
+        std::mt19937 random(seed);
+        const auto place = [&](double low, double high)
+        { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; };
+        const auto point = [&](double low, double high) { return fmt::format("[{}, {}]", place(low, high), place(low, high)); };
+        const double x = place(0.5, 2.0), y = place(0.5, 2.0), width = place(0.3, 2.5), height = place(0.3, 2.5);
+        const std::string
+            text = square +
+                   fmt::format("[[fault]]\nname = \"a\"\npoints = [[-1, {}], {}, [5, {}]]\n", place(1, 3), point(1, 3),
+                               place(1, 3)) +
+                   fmt::format("[[fault]]\nname = \"b\"\npoints = [{}, {}]\n", point(-1, 3), point(1, 5)) +
+                   "[[region]]\nname = \"upper\"\nabove = \"a\"\n" +
+                   fmt::format("[[region]]\nname = \"zone\"\npolygon = [[{0}, {1}], [{2}, {1}], [{2}, {3}], [{0}, {3}]]\n", x, y,
+                               std::min(x + width, 4.0), std::min(y + height, 4.0)) +
+                   fmt::format(
+                       "material = \"shale\"\n[[joint_set]]\ndip_deg = {}\nspacing = 0.6\ndeviation_deg = 3\nregion = \"upper\"\n",
+                       place(-90, 90)) +
+                   fmt::format("[[joint_set]]\ndip_deg = {}\nspacing = 0.5\noutside = \"zone\"\n", place(-90, 90)) +
+                   "[[excavation]]\nname = \"hole\"\nshape = \"circle\"\nposition = [2, 2]\ndiameter = 1.5\n" + laws;
+        SCOPED_TRACE(text);
+        const RockMass rock = generate_rock_mass(case_of(text, seed % 2 == 0 ? 0.0 : 23.0));
+        expect_sound(rock);
+        double shale = 0.0;
+        for (const RockBlock& block : rock.blocks)
+            shale += block.material == "shale" ? area(block) : 0.0;
+        EXPECT_NEAR(shale, (std::min(x + width, 4.0) - x) * (std::min(y + height, 4.0) - y), 1e-4);
+        made += static_cast<int>(rock.blocks.size());
+    }
+    EXPECT_GT(made, 2000);
+}
+
+TEST(Regions, AFaultGoesBeforeASetAndTraces)
+{
+    const Model model = build_model(case_of(two_halves)).model;
+    const Index set = 2;  // after the fault and the outline
+    EXPECT_EQ(model.joints.names[model.joints.find(0, set, 0, 0)], "fault");
+    EXPECT_EQ(model.joints.names[model.joints.find(set, 0, 0, 0)], "fault");
+    EXPECT_EQ(model.joints.names[model.joints.find(set, edge_plain, 0, 0)], "bedding");
+    EXPECT_THAT(model.joint_set_names, ElementsAre("fault main", "outline of upper", "columns"));
+}
+}  // namespace
+}  // namespace hdem
