@@ -36,6 +36,8 @@ StoredEnergy stored_energy(const Model& model, const State& state)
 
 double held_energy(const Model& model, const Contact& contact)
 {
+    if (model.joints.has_memory(contact.law))
+        return contact.point[0].energy + contact.point[1].energy;
     const double shear_stiffness = model.joints.laws[contact.law].shear_stiffness * contact.last_length;
     double held = 0.0;
     for (const PointHistory& point : contact.point)
@@ -68,7 +70,8 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
         const double normal = 0.5 * point.normal_force * next;
         const double held = std::max(point.overlap - point.rest_overlap, 0.0) * std::max(next, 0.0);
         energy.normal += normal;
-        energy.pending += normal - 0.5 * joint.normal_stiffness * contact.last_length * held;
+        if (!model.joints.has_memory(contact.law))
+            energy.pending += normal - 0.5 * joint.normal_stiffness * contact.last_length * held;
         energy.shear += 0.5 * point.shear_force * stretch;
     }
     return energy;

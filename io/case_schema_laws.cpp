@@ -31,48 +31,6 @@ SectionSpec material_section()
             append<&CaseDef::materials>};
 }
 
-SectionSpec joint_section()
-{
-    return {
-        "joint",
-        SectionKind::named,
-        "joint",
-        "What acts where two blocks touch. [joint.default] must exist; the others replace it for a joint set (its key `joint`) or "
-        "for a pair of materials (`materials`).",
-        {field<&JointDef::normal_stiffness>({.name = "normal_stiffness",
-                                             .unit = "Pa/m",
-                                             .effect = "Normal stress per overlap. Stiffer joints need a smaller time step.",
-                                             .example = "7e9",
-                                             .range = positive,
-                                             .required = true}),
-         field<&JointDef::shear_stiffness>({.name = "shear_stiffness",
-                                            .unit = "Pa/m",
-                                            .effect = "Shear stress per shear displacement before slip.",
-                                            .example = "5e8",
-                                            .range = positive,
-                                            .required = true}),
-         field<&JointDef::friction_angle_deg>({.name = "friction_angle_deg",
-                                               .unit = "deg",
-                                               .effect = "Slip begins at the shear force F_n tan φ + c L.",
-                                               .example = "30.0",
-                                               .range = {.low = 0, .high = 90, .high_included = false},
-                                               .required = true}),
-         field<&JointDef::cohesion>({.name = "cohesion",
-                                     .unit = "Pa",
-                                     .effect = "c of the same limit; L is the contact length. Only joints that are closed where "
-                                               "the blocks are drawn have it; blocks that meet later do not.",
-                                     .range = non_negative}),
-         field<&JointDef::restitution>({.name = "restitution",
-                                        .effect = "Of impulse contacts on this joint.",
-                                        .range = share,
-                                        .default_note = "contact.restitution"}),
-         field<&JointDef::materials>({.name = "materials",
-                                      .effect = "The two materials (may be the same twice) whose contacts have this joint.",
-                                      .example = "[\"rock\", \"concrete\"]",
-                                      .default_note = "only used by name"})},
-        append<&CaseDef::joints>};
-}
-
 SectionSpec gravity_section()
 {
     return {"gravity",

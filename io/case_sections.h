@@ -19,12 +19,14 @@ SectionSpec region_section();
 
 // case_schema_laws.cpp: materials, joints, loads, method, time step
 SectionSpec material_section();
-SectionSpec joint_section();
 SectionSpec gravity_section();
 SectionSpec load_section();
 SectionSpec contact_section();
 SectionSpec damping_section();
 SectionSpec time_section();
+
+// case_schema_joint.cpp
+SectionSpec joint_section();
 
 // case_schema_stress.cpp
 SectionSpec insitu_section();

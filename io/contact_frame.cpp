@@ -2,7 +2,9 @@
 #include "io/frame_writer.h"
 #include "io/vtkhdf.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hdem
 {
@@ -26,17 +28,36 @@ double slip_of(const Blocks& blocks, const ContactReport& contact)
     const Vec2 moved = displacement_at(blocks, contact.second, middle) - displacement_at(blocks, contact.first, middle);
     return -moved.dot(contact.shear_axis());
 }
+/// What joint laws with a memory remember, the mean of both points.
+void write_memories(Hdf5Writer& file, const Model& model, const State& state, const std::vector<Index>& numbers,
+                    const std::vector<ContactReport>& contacts)
+{
+    const std::size_t n = contacts.size();
+    const auto mean = [&](double JointMemory::*field)
+    { return [&contacts, field](std::size_t i) { return 0.5 * (contacts[i].memory[0].*field + contacts[i].memory[1].*field); }; };
+    const auto damage_of = [&](std::size_t i)
+    {
+        const JointRow& row = model.joints.rows[state.contacts.law[numbers[i]]];
+        return 0.5 * (damage(row, contacts[i].memory[0]) + damage(row, contacts[i].memory[1]));
+    };
+    write_cell_data<float>(file, "plastic_slip", n, mean(&JointMemory::slip));
+    write_cell_data<float>(file, "opening", n, mean(&JointMemory::opening));
+    write_cell_data<float>(file, "broken", n, mean(&JointMemory::broken));
+    write_cell_data<float>(file, "damage", n, damage_of);
+}
 }  // namespace
 
 void write_contact_frame(const std::filesystem::path& name, const Model& model, const State& state)
 {
     std::vector<ContactReport> contacts;
+    std::vector<Index> numbers;
     VtkCells cells{.type = CellType::line, .points = {}};
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
         if (!is_closed_contact(state, i))
             continue;
         contacts.push_back(report_contact(state, i));
+        numbers.push_back(i);
         cells.add_point(model.origin + contacts.back().point[0]);
         cells.add_point(model.origin + contacts.back().point[1]);
         cells.end_cell();
@@ -61,6 +82,11 @@ void write_contact_frame(const std::filesystem::path& name, const Model& model, 
     write_cell_data<float>(file, "traction", n, [&](std::size_t i) { return std::hypot(normal_stress(i), shear_stress(i)); });
     write_cell_data<float>(file, "slip", n, [&](std::size_t i) { return slip_of(state.blocks, contacts[i]); });
     write_cell_data<std::uint8_t>(file, "regime", n, [&](std::size_t i) { return contacts[i].regime; });
+    const auto mobilised = [&](std::size_t i)
+    { return std::atan2(std::abs(contacts[i].shear_force), std::max(contacts[i].normal_force, 0.0)) * 180.0 / std::numbers::pi; };
+    write_cell_data<float>(file, "mobilised_friction", n, mobilised);
+    if (model.joints.has_memory())
+        write_memories(file, model, state, numbers, contacts);
     write_frame_header(file, "hdem-contacts", model, state);
     file.commit({}, Flush::later);
 }

@@ -210,6 +210,19 @@ void exchange_preloads(Archive& archive, std::vector<Contact>& contacts)
 }
 
 template <typename Archive>
+void exchange_memories(Archive& archive, std::vector<Contact>& contacts)
+{
+    for (const int k : {0, 1})
+        archive.template rows<double>("/contacts/memory_" + std::to_string(k), contacts.size(), contacts,
+                                      [k](Contact& c)
+                                      {
+                                          PointHistory& p = c.point[k];
+                                          JointMemory& m = p.memory;
+                                          return std::tie(m.slip, m.state, m.turn, m.opening, m.broken, p.energy, p.stiffness);
+                                      });
+}
+
+template <typename Archive>
 void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
 {
     exchange_run(archive, state);
@@ -217,6 +230,8 @@ void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
     exchange_contacts(archive, unpacked.contacts, unpacked.stale);
     if (state.contacts.has_preload)
         exchange_preloads(archive, unpacked.contacts);
+    if (state.contacts.has_memory)
+        exchange_memories(archive, unpacked.contacts);
 }
 }  // namespace
 
@@ -234,7 +249,8 @@ void save_state(const Model& model, const State& state, Hdf5Writer& file)
 State load_state(const Hdf5Reader& file, Model& model)
 {
     State state;
-    state.contacts.has_preload = model.insitu.given;
+    state.contacts.has_memory = model.joints.has_memory();
+    state.contacts.has_preload = model.insitu.given || state.contacts.has_memory;
     Unpacked unpacked;
     Loader loader(file);
     exchange(loader, model.blocks(), state, unpacked);

@@ -164,8 +164,10 @@ bool has_finite_numbers(const Contact& contact)
     const EdgePair& e = contact.edges;
     const auto is_finite_point = [](const PointHistory& p)
     {
-        return are_finite({p.normal_force, p.shear_force, p.rest_overlap, p.overlap, p.tilt_force, p.preload}) &&
-               p.preload >= 0.0 && p.regime <= Regime::impulse;
+        const JointMemory& m = p.memory;
+        return are_finite({p.normal_force, p.shear_force, p.rest_overlap, p.overlap, p.tilt_force, p.preload, p.energy, p.stiffness,
+                           m.slip, m.state, m.turn, m.opening, m.broken}) &&
+               p.regime <= Regime::impulse;
     };
     return are_finite({e.tx, e.ty, e.start_t, e.start_m, e.length, e.p0x, e.p0y, e.p1x, e.p1y, contact.length_floor,
                        contact.last_length}) &&

@@ -27,6 +27,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
         {
             begin(model);
             list_.has_preload = state.contacts.has_preload;
+            list_.has_memory = state.contacts.has_memory;
             set_margins(model, state.blocks);
         });
     const auto count = static_cast<Index>(chunks_.size());

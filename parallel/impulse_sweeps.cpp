@@ -78,7 +78,7 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
         partition.contacts[i].masses = mass_range(partition.contacts[i].impulses, blocks);
     }
     team.barrier();
-    if (state.contacts.has_preload)
+    if (model.insitu.given)
         team.alone([&] { state.ledger.impulse_loss += start_impulses(impulse_lists(partition), true, blocks); });
     else
         for_colours(team, together, partition,
@@ -100,7 +100,7 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
         ContactPart& part = partition.contacts[i];
         add_correction_springs(part.range, blocks, state.contacts, work.pseudo, part.ledger);
         add_impulse_work(model, part.impulses, blocks, part.ledger);
-        store_impulses(blocks, part.impulses, state.contacts);  // Eqs. (29), (30)
+        store_impulses(model, blocks, part.impulses, state.contacts);  // Eqs. (29), (30)
     }
     team.barrier();
     if (team.is_first())

@@ -166,6 +166,8 @@ const char* name_of(StaticOutcome::Kind kind)
 
 bool can_solve_statics(const Model& model, const State& state)
 {
+    if (model.joints.has_memory())
+        return false;
     for (const std::vector<std::uint8_t>& regimes : state.contacts.regime)
         if (std::ranges::find(regimes, static_cast<std::uint8_t>(Regime::impulse)) != regimes.end())
             return false;

@@ -3,6 +3,7 @@
 #include "core/contact/closing.h"
 #include "core/contact/contact_group.h"
 #include "core/contact/force_law.h"
+#include "core/contact/joint_forces.h"
 #include "core/energy_ledger.h"
 
 namespace hdem
@@ -34,6 +35,15 @@ struct Sums
     Pack used = 0.0, strength = 0.0;  ///< shear force and shear strength of force points
     Pack friction = 0.0, changes = 0.0;
     Pack normal[2], work = 0.0;  ///< normal forces, and the sum of normal force times stretch
+
+    void take(Mask lanes_of, const Sums& from)
+    {
+        for (Pack Sums::*const sum : {&Sums::f_t, &Sums::f_m, &Sums::moment_ref, &Sums::moment_inc, &Sums::used, &Sums::strength,
+                                      &Sums::friction, &Sums::changes, &Sums::work})
+            this->*sum = select(lanes_of, from.*sum, this->*sum);
+        for (int k = 0; k < 2; ++k)
+            normal[k] = select(lanes_of, from.normal[k], normal[k]);
+    }
 };
 
 /// What four contacts need of the laws.
@@ -41,6 +51,14 @@ enum class Contact4
 {
     rests,  ///< springs only, none with a rest overlap, none that closes or opens: so is most rock, at the price of the force method under the hybrid one too
     any
+};
+
+/// What the contacts of a model carry besides springs and Coulomb slip: a loop of its own for each, so that none pays for the others.
+enum class Joints
+{
+    plain,
+    preloaded,  ///< by in-situ stress
+    laws        ///< some with a memory; all may be preloaded
 };
 
 /// Share of the last impulse's force that its spring begins with, from the stretch it was left with.
@@ -52,20 +70,20 @@ inline Pack kept_share(const ContactGroup& g, int k, Pack stretch)
 }
 
 /// Overlap of a point, and what it is pressed by where the blocks are drawn [m].
-template <bool preloaded>
+template <Joints joints>
 [[gnu::always_inline]] inline Pack pressed_by(const ContactGroup& g, int k)
 {
-    if constexpr (preloaded)
+    if constexpr (joints != Joints::plain)
         return g.touch.point[k].overlap + g.preload[k];
     else
         return g.touch.point[k].overlap;
 }
 
 /// The touch with overlaps as pressed_by has them.
-template <bool preloaded>
+template <Joints joints>
 [[gnu::always_inline]] inline decltype(auto) pressed_touch(const ContactGroup& g)
 {
-    if constexpr (preloaded)
+    if constexpr (joints != Joints::plain)
     {
         BasicEdgeTouch<Pack> touch = g.touch;
         for (int k = 0; k < 2; ++k)
@@ -76,7 +94,56 @@ template <bool preloaded>
         return (g.touch);
 }
 
-template <Contact4 contact, bool preloaded>
+/// Laws with a memory at one point of four contacts; plain lanes are left as they are. `last`: the contacts after the last cycle.
+[[gnu::noinline]] void evaluate_joints(const ContactGroup& g, int k, Mask impulsive, Pack share, Pack dt, const RowLanes& rows,
+                                       const ContactLanes& last, MemoryLanes::Point& memory, ContactLanes& l, std::uint8_t* regime,
+                                       Sums& sums)
+{
+    const Pack zero = 0.0, half = 0.5;
+    const Mask own = rows.has_memory;
+    const BasicTouchPoint<Pack>& p = g.touch.point[k];
+    const Pack last_rest = load_lane(last.rest_overlap[k]), last_opening = load_lane(memory.opening);
+    const Pack overlap = pressed_by<Joints::laws>(g, k);
+    const Pack rest = rest_overlap(overlap + last_opening, last_rest, g.recovery);
+    const Pack start = select(g.was_impulse[k], zero, g.last_shear[k]) * g.shear_share;
+    const Pack last_stretch = load_lane(last.overlap[k]) + last_opening - last_rest;
+    const Pack handed = select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, last_stretch), start);
+    const Pack last_normal = select(g.was_impulse[k], zero, g.last_normal[k]);
+    // A spring that closes or opens in this cycle gives a share of its force; one that pulls or dilates gives all.
+    const Mask shares = rows.is_linear & (last_opening == zero) & (overlap - rest > zero);
+    const Mask closed = g.closed[k] & own;
+    JointPoint point;
+    point.length = g.length;
+    point.closure = select(shares, share, 1.0) * (overlap - rest);
+    point.slide = (p.v_t - half * dt * g.turning[k].t) * dt;
+    point.start = handed;
+    point.last_normal = last_normal;
+    point.spring = closed & !impulsive;
+    point.held = closed & impulsive;
+    point.stays = point.spring & (abs(last_normal) + abs(start) > zero);
+    const JointForces f = react_joints(rows, point, memory);
+    const Mask bears = point.spring & (f.bears | (overlap + f.opening - rest > Pack(-closed_gap) * load_lane(l.length_floor)));
+    store_bytes((own.v & ((bears.v & 1) + ((bears & f.slips).v & 1) + (point.held.v & 3))) + (~own.v & load_regimes(regime)),
+                regime);
+    sums.friction += select(own, f.friction, zero);
+    sums.changes += select(own, half * dt * (f.normal * p.v_m - f.shear * p.v_t) + f.lost - f.friction, zero);
+    const Pack held_rest = overlap + f.opening - select(g.last_normal[k] > zero, max(last_stretch, zero), zero);
+    const auto put = [&](ContactLanes::Lane& lane, Pack value) { store_lane(lane, select(own, value, load_lane(lane))); };
+    put(l.rest_overlap[k], select(bears, rest, select(point.held, max(held_rest, zero), zero)));
+    put(l.overlap[k], overlap);
+    put(l.normal_force[k], select(point.held, g.last_normal[k], f.normal));
+    put(l.shear_force[k], select(point.held, g.last_shear[k], f.shear));
+    sums.normal[k] = select(own, f.normal, sums.normal[k]);
+    sums.work += select(own, f.normal * (p.overlap + f.opening - rest), zero);
+    sums.used += select(own, abs(f.shear), zero);
+    sums.strength += select(own, f.strength, zero);
+    sums.f_t += select(own, f.shear, zero);
+    sums.f_m -= select(own, f.normal, zero);
+    sums.moment_inc -= select(own, p.inc_t * f.normal + p.inc_m * f.shear, zero);
+    sums.moment_ref += select(own, p.ref_t * f.normal + p.ref_m * f.shear, zero);
+}
+
+template <Contact4 contact, Joints joints>
 [[gnu::always_inline]] inline void evaluate_point(const ContactGroup& g, int k, Mask impulsive, Pack share, Pack dt,
                                                   ContactLanes& l, std::uint8_t* regime, Sums& sums)
 {
@@ -86,7 +153,7 @@ template <Contact4 contact, bool preloaded>
     const Pack spring_normal = rests ? g.last_normal[k] : select(g.was_impulse[k], zero, g.last_normal[k]);
     const Pack spring_shear = rests ? g.last_shear[k] : select(g.was_impulse[k], zero, g.last_shear[k]);
     const Pack last_rest = rests ? zero : load_lane(l.rest_overlap[k]);
-    const Pack overlap = pressed_by<preloaded>(g, k);
+    const Pack overlap = pressed_by<joints>(g, k);
     const Pack rest = rests ? zero : rest_overlap(overlap, last_rest, g.recovery);
     // A spring handed over from impulses begins with the same share of their shear force as of their normal force.
     const Pack start = spring_shear * g.shear_share;
@@ -158,7 +225,28 @@ inline void add_tilt_forces(const ContactGroup& g, Pack floor, Pack dt, ContactL
     sums.changes -= Pack(0.5) * dt * work;
 }
 
-template <ContactLaw law, bool preloaded>
+/// Both points of four contacts of which one has a law with a memory.
+void evaluate_with_memory(const ContactGroup& g, Mask impulsive, const std::array<Pack, 2>& share, Pack dt, const RowLanes& rows,
+                          MemoryLanes& memory, ContactLanes& l, std::array<std::uint8_t*, 2> regime, Sums& sums)
+{
+    if (!any(!rows.has_memory))
+    {
+        for (int k = 0; k < 2; ++k)
+            evaluate_joints(g, k, impulsive, share[k], dt, rows, l, memory.point[k], l, regime[k], sums);
+        return;
+    }
+    const ContactLanes last = l;
+    {
+        Sums plain;
+        for (int k = 0; k < 2; ++k)
+            evaluate_point<Contact4::any, Joints::laws>(g, k, impulsive, share[k], dt, l, regime[k], plain);
+        sums.take(!rows.has_memory, plain);
+    }
+    for (int k = 0; k < 2; ++k)
+        evaluate_joints(g, k, impulsive, share[k], dt, rows, last, memory.point[k], l, regime[k], sums);
+}
+
+template <ContactLaw law, Joints joints>
 ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                       ContactLoads& loads, const ContactTally& before)
 {
@@ -170,6 +258,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
     const double closing_speed = rule.closing_speed;
     const Pack ways = closing_ways(step);
     LawLanes laws(model.joints.laws);
+    RowLanes rows(model.joints.rows);
     Pack friction = before.friction, changes = before.changes;
     Mask::V closed{}, impulses{}, stale{}, deep{};
     const Pack floors_deep = model.contact.overlap_limit /
@@ -190,6 +279,8 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         g.ref = at_ref;
         g.inc = at_inc;
         g.joint = &laws.load(&contacts.law[i]);
+        if constexpr (joints == Joints::laws)
+            rows.load(&contacts.law[i]);
         const Pack floor = load_lane(l.length_floor);
         g.length = point_length(g.touch.length, floor);
         const Mask::V moved = have_moved(l, view);
@@ -197,9 +288,13 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         stale -= moved;
         for (int k = 0; k < 2; ++k)
         {
-            if constexpr (preloaded)
+            if constexpr (joints != Joints::plain)
                 g.preload[k] = load_lane(contacts.preload_lane[i / lanes].preload[k]);
-            g.closed[k] = is_closed(g.touch.length, pressed_by<preloaded>(g, k), floor);
+            g.closed[k] = is_closed(g.touch.length, pressed_by<joints>(g, k), floor);
+            if constexpr (joints == Joints::laws)
+                if (rows.any)
+                    g.closed[k] = is_closed(
+                        g.touch.length, pressed_by<joints>(g, k) + reach_of(rows, contacts.memory_lane[i / lanes].point[k]), floor);
             g.was_impulse[k] = {load_regimes(&contacts.regime[k][i]) == static_cast<std::int64_t>(Regime::impulse)};
             g.last_normal[k] = load_lane(l.normal_force[k]);
             g.last_shear[k] = load_lane(l.shear_force[k]);
@@ -208,7 +303,11 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         const Mask touching = g.closed[0] | g.closed[1];
         const Mask is_deep = touching & (max(touch.point[0].overlap, touch.point[1].overlap) > floors_deep * floor);
         deep -= is_deep.v;
-        const Mask impulsive = are_impulsive<law>(g, model, blocks, threshold);
+        Mask impulsive = are_impulsive<law>(g, model, blocks, threshold);
+        if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
+            if (rows.any && any(impulsive))
+                impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes].point[0]) |
+                                          keep_springs(rows, contacts.memory_lane[i / lanes].point[1]));
         impulses -= (g.closed[0].v & impulsive.v) + (g.closed[1].v & impulsive.v);
 
         const Pack last_length = load_lane(l.last_length);
@@ -222,25 +321,30 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         Mask shared{};
         if (closing != Closing::whole_cycles)
         {
-            shared = closing == Closing::fast_points ? may_close_or_open(pressed_touch<preloaded>(g).point, ways) : touching;
+            shared = closing == Closing::fast_points ? may_close_or_open(pressed_touch<joints>(g).point, ways) : touching;
             if (closing_speed > 0.0)
                 shared = shared & are_faster(touch.point, closing_speed);
             act = act | shared;
         }
-        if (!any(act))
+        const bool remembers = joints == Joints::laws && rows.any;
+        if (!any(act) && !remembers)
             for (int k = 0; k < 2; ++k)
-                evaluate_point<Contact4::rests, preloaded>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
+                evaluate_point<Contact4::rests, joints>(g, k, impulsive, 1.0, dt, l, &contacts.regime[k][i], sums);
         else
         {
             g.recovery = recovery * floor;
             std::array<Pack, 2> share{1.0, 1.0};
-            if (closing != Closing::whole_cycles)
-                share = closing_shares(blocks, l, at_ref, at_inc, pressed_touch<preloaded>(g),
+            if (closing != Closing::whole_cycles && (!remembers || any(shared)))
+                share = closing_shares(blocks, l, at_ref, at_inc, pressed_touch<joints>(g),
                                        g.joint->law.normal_stiffness * g.length, g.recovery);
             for (Pack& s : share)  // what is slow must not depend on which contacts it is handled with
                 s = select(shared, s, 1.0);
-            for (int k = 0; k < 2; ++k)
-                evaluate_point<Contact4::any, preloaded>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
+            if (remembers)
+                evaluate_with_memory(g, impulsive, share, dt, rows, contacts.memory_lane[i / lanes], l,
+                                     {&contacts.regime[0][i], &contacts.regime[1][i]}, sums);
+            else
+                for (int k = 0; k < 2; ++k)
+                    evaluate_point<Contact4::any, joints>(g, k, impulsive, share[k], dt, l, &contacts.regime[k][i], sums);
         }
         add_tilt_forces(g, floor, dt, l, sums);
         store_lane(l.last_length, g.length);
@@ -270,18 +374,18 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
             before.stale + count(stale),
             before.deep + count(deep)};
 }
-template <bool preloaded>
+template <Joints joints>
 ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
                              ContactLoads& loads, const ContactTally& sums)
 {
     switch (rule.law)
     {
     case ContactLaw::springs:
-        return evaluate<ContactLaw::springs, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate<ContactLaw::springs, joints>(range, model, rule, blocks, contacts, loads, sums);
     case ContactLaw::impulses:
-        return evaluate<ContactLaw::impulses, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate<ContactLaw::impulses, joints>(range, model, rule, blocks, contacts, loads, sums);
     case ContactLaw::by_speed:
-        return evaluate<ContactLaw::by_speed, preloaded>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate<ContactLaw::by_speed, joints>(range, model, rule, blocks, contacts, loads, sums);
     }
     return {};
 }
@@ -290,7 +394,9 @@ ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeR
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
 {
-    return contacts.has_preload ? evaluate_by_law<true>(range, model, rule, blocks, contacts, loads, sums)
-                                : evaluate_by_law<false>(range, model, rule, blocks, contacts, loads, sums);
+    const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws>
+                              : contacts.has_preload ? evaluate_by_law<Joints::preloaded>
+                                                     : evaluate_by_law<Joints::plain>;
+    return evaluate_all(range, model, rule, blocks, contacts, loads, sums);
 }
 }  // namespace hdem

@@ -50,6 +50,7 @@ ContactReport report_contact(const State& state, Index contact)
     {
         const TouchPoint& p = touch.point[k];
         report.point[k] = Vec2(ref.x, ref.y) + p.ref_t * along + p.ref_m * turned_left(along);
+        report.memory[k] = contacts.memory(k, contact);
         report.normal_force += contacts.normal_force(k, contact);
         report.shear_force += contacts.shear_force(k, contact);
         const auto regime = static_cast<Regime>(contacts.regime[k][contact]);

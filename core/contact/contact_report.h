@@ -25,6 +25,7 @@ struct ContactReport
     Regime regime = Regime::open;  ///< the highest of the points'
     int closed_points = 0;
     int impulse_points = 0;
+    std::array<JointMemory, 2> memory{};  ///< of laws that have one
 
     [[nodiscard]] Vec2 shear_axis() const { return turned_left(normal); }
 };

@@ -3,6 +3,8 @@
 #include "core/contact/force_law.h"
 #include "core/contact/impulse_kick.h"
 
+#include <cmath>
+
 namespace hdem
 {
 void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks, EnergyLedger& ledger)
@@ -32,11 +34,29 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
     }
 }
 
-void store_impulses(const Blocks& blocks, const std::vector<ImpulsePoint>& points, Contacts& contacts)
+namespace
+{
+/// Slip at the joint's strength breaks it.
+void break_at_strength(const Model& model, const ImpulsePoint& p, Contacts& contacts)
+{
+    const Index law = contacts.law[p.contact];
+    if (!model.joints.has_memory(law) || !model.joints.rows[law].is_bonded)
+        return;
+    constexpr double nearly = 1.0 - 1e-12;
+    if (std::abs(p.impulse_shear) < nearly * (p.impulse_normal * p.friction + p.cohesive_impulse))
+        return;
+    MemoryLanes::Point& memory = contacts.memory_lane[p.contact / lanes].point[p.end];
+    if (memory.broken[p.contact % lanes] < 0.5)
+        memory.broken[p.contact % lanes] = memory.state[p.contact % lanes] = 1.0;
+}
+}  // namespace
+
+void store_impulses(const Model& model, const Blocks& blocks, const std::vector<ImpulsePoint>& points, Contacts& contacts)
 {
     const double dt = blocks.step.kick();
     for (const ImpulsePoint& p : points)
     {
+        break_at_strength(model, p, contacts);
         contacts.normal_force(p.end, p.contact) = p.impulse_normal / dt;
         contacts.shear_force(p.end, p.contact) = p.impulse_shear / dt;
         const double kept = remaining_force(p.impulse_normal / dt, p.load_velocity, p.restitution, p.approach,

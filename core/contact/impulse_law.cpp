@@ -12,6 +12,21 @@ namespace hdem
 {
 namespace
 {
+/// Friction and cohesion under impulses; a broken point has residual ones.
+struct Grip
+{
+    double friction, cohesion;
+};
+
+Grip grip_of(const Model& model, const Contacts& contacts, Index contact, int end)
+{
+    const Index law = contacts.law[contact];
+    const CoulombSlip& joint = model.joints.laws[law];
+    if (model.joints.has_memory(law) && contacts.memory(end, contact).broken > 0.5)
+        return {model.joints.rows[law].residual_friction, model.joints.rows[law].residual_cohesion};
+    return {joint.friction_coefficient, joint.cohesion};
+}
+
 ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
                         const EdgeTouch& touch)
 {
@@ -39,9 +54,10 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
                         std::numeric_limits<double>::max());
     p.approach = at.v_m;
     p.restitution = joint.restitution;
-    p.friction = joint.friction_coefficient;
-    p.cohesive_impulse = joint.cohesion * point_length(touch.length, contacts.length_floor(contact)) * dt;
-    const double preload = contacts.preload(end, contact);
+    const Grip grip = grip_of(model, contacts, contact, end);
+    p.friction = grip.friction;
+    p.cohesive_impulse = grip.cohesion * point_length(touch.length, contacts.length_floor(contact)) * dt;
+    const double preload = contacts.preload(end, contact) + contacts.opening(end, contact);
     p.overlap = at.overlap;
     p.pressed = at.overlap + preload;
     p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));

@@ -220,8 +220,12 @@ bool carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
     const bool goes_on = along > 0.9 && (old.point[0].regime != Regime::open || old.point[1].regime != Regime::open);
     if (goes_on)
         for (int k = 0; k < 2; ++k)
-            contact.point[k]
-                .preload = old.point[(after[k] - before[0]).squaredNorm() <= (after[k] - before[1]).squaredNorm() ? 0 : 1].preload;
+        {
+            const bool first = (after[k] - before[0]).squaredNorm() <= (after[k] - before[1]).squaredNorm();
+            contact.point[k].preload = old.point[first ? 0 : 1].preload;
+            contact.point[k].memory = old.point[first ? 0 : 1].memory;
+            contact.point[k].stiffness = old.point[first ? 0 : 1].stiffness;
+        }
     for (int k = 0; k < 2; ++k)
     {
         if (old.point[k].regime == Regime::open)
@@ -229,6 +233,7 @@ bool carry_history(const std::vector<BlockMotion>& motion, const Contact& old, C
         const int nearest = (before[k] - after[0]).squaredNorm() <= (before[k] - after[1]).squaredNorm() ? 0 : 1;
         PointHistory& point = contact.point[nearest];
         point.normal_force += old.point[k].normal_force;
+        point.energy += old.point[k].energy;
         point.shear_force += along > 0.9 ? along * old.point[k].shear_force : 0.0;
         point.tilt_force += along * old.point[k].tilt_force;
         point.rest_overlap = std::max(point.rest_overlap, old.point[k].rest_overlap);
@@ -248,12 +253,28 @@ void start_points(const std::vector<BlockMotion>& motion, double dt, Contact& co
         contact.point[k].overlap = touch.point[k].overlap + contact.point[k].preload - touch.point[k].v_m * dt;
 }
 
+/// Twice the energy of a point's normal spring at a stretch [J].
+double normal_energy(const JointTable& joints, Index law, double length, double stretch)
+{
+    if (joints.has_memory(law))
+        return 2.0 * length * normal_state(joints.rows[law], stretch).energy;
+    return joints.laws[law].normal_stiffness * length * stretch * stretch;
+}
+
+double stretch_under(const JointTable& joints, Index law, double length, double force)
+{
+    return joints.has_memory(law) ? closure_under(joints.rows[law], force / length)
+                                  : force / (joints.laws[law].normal_stiffness * length);
+}
+
 /// Springs of new features hold no more energy than the old ones did. A corner that turns past the middle between its two sides passes from a face over which
 /// it has 0.1 m to one over which it has 0.7 m: with the whole overlap of now its spring would hold seven times the energy, which nobody put in. What is too
 /// much of the overlap becomes rest overlap, as after impulses (contact/force_law.h); where the new springs hold less, the rest is lost.
 /// So too where the old ones held nothing: a corner that slides off one face may be millimetres behind the next.
-void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombSlip& law, Contact& contact)
+void limit_energy(const JointTable& joints, const Contact& old, Contact& contact)
 {
+    const CoulombSlip& old_law = joints.laws[old.law];
+    const CoulombSlip& law = joints.laws[contact.law];
     double old_normal = 0.0, old_shear = 0.0, normal = 0.0, shear = 0.0;  // twice the energies [J]
     for (int k = 0; k < 2; ++k)
     {
@@ -261,17 +282,18 @@ void limit_energy(const CoulombSlip& old_law, const Contact& old, const CoulombS
             return;
         const PointHistory& then = old.point[k];
         const PointHistory& now = contact.point[k];
-        const double overlap = std::max(now.overlap, 0.0);
-        old_normal += then.normal_force * then.normal_force / (old_law.normal_stiffness * old.last_length);
+        const double overlap = std::max(now.overlap + now.memory.opening, 0.0);
+        old_normal += normal_energy(joints, old.law, old.last_length,
+                                    stretch_under(joints, old.law, old.last_length, then.normal_force));
         old_shear += then.shear_force * then.shear_force / (old_law.shear_stiffness * old.last_length);
-        normal += law.normal_stiffness * contact.last_length * overlap * overlap;
+        normal += normal_energy(joints, contact.law, contact.last_length, overlap);
         shear += now.shear_force * now.shear_force / (law.shear_stiffness * contact.last_length);
     }
     const double kept = normal > old_normal ? std::sqrt(old_normal / normal) : 1.0;
     const double kept_shear = shear > old_shear ? std::sqrt(old_shear / shear) : 1.0;
     for (PointHistory& point : contact.point)
     {
-        point.rest_overlap = std::max(point.overlap, 0.0) * (1.0 - kept);
+        point.rest_overlap = std::max(point.overlap + point.memory.opening, 0.0) * (1.0 - kept);
         point.shear_force *= kept_shear;
     }
 }
@@ -339,9 +361,12 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         const Index law = joint_of(model, contact);
         const bool is_bonded = goes_on && joints.unbonded_of(old.law) != old.law;
         contact.law = is_bonded ? law : joints.unbonded_of(law);
+        if (joints.has_memory() && old.law != contact.law)
+            for (PointHistory& point : contact.point)
+                point.memory = {};
         start_points(motion, blocks.step.last, contact);
         if (old.ref_edge != no_index)
-            limit_energy(model.joints.laws[old.law], old, model.joints.laws[contact.law], contact);
+            limit_energy(model.joints, old, contact);
     }
     remember_view(motion, contact);
     return distance;

@@ -67,6 +67,8 @@ struct BartonBandis
         scaled_strength      ///< JCS_n [Pa], for reports
     };
 
+    static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
+
     /// m over x = delta / delta_p, from 0.3 on.
     template <typename R>
     [[nodiscard]] static R mobilised(R x)
@@ -141,20 +143,31 @@ struct BartonBandis
         const auto open = before.stress <= zero;
 
         const R sigma = max(before.stress, R(1.0));  // [Pa]; nothing is left of the law below
-        const R free_i = n[roughness] * (n[log_strength] - log(sigma));
-        const R i = min(max(free_i, zero), n[greatest_roughness]);
-        const R x = delta / n[peak_displacement], angle = friction_angle(n, x, i), t = tan(angle);
-        // d tau_max / d sigma; i falls as sigma grows.
-        const R mu = max(t - select(i == free_i, (one + t * t) * mobilised(x) * n[roughness], zero), zero);
-        R dilation = zero;
-        if (any(grows))
-            dilation = select(grows, first_dilation(n, m.state, delta, i, angle, t, sigma), zero);
-        const R stiffness = k + before.stiffness * mu * dilation;
-        const R lambda = max(magnitude(trial) - before.stress * t, zero) / stiffness;
+        const R x = delta / n[peak_displacement];
+        R free_i = zero, i = zero;
+        const bool is_rough = any(x > R(first_mobilised));  // else neither roughness nor dilation acts, as in most rock
+        if (is_rough)
+        {
+            free_i = n[roughness] * (n[log_strength] - log(sigma));
+            i = min(max(free_i, zero), n[greatest_roughness]);
+        }
+        const R angle = friction_angle(n, x, i), t = tan(angle);
+        const R excess = magnitude(trial) - before.stress * t;
+        R mu = zero, dilation = zero, lambda = zero;
+        if (any(excess > zero))  // most points of most cycles stick
+        {
+            // d tau_max / d sigma; i falls as sigma grows.
+            mu = max(t - select(i == free_i, (one + t * t) * mobilised(x) * n[roughness], zero), zero);
+            if (is_rough)
+                dilation = select(grows, first_dilation(n, m.state, delta, i, angle, t, sigma), zero);
+            lambda = max(excess, zero) / (k + before.stiffness * mu * dilation);
+        }
 
         BasicJointStress<R> now;
         now.opening = w + dilation * lambda;
-        const BasicCurvePoint<R> after = Curve::at(n, step.closure + now.opening);
+        BasicCurvePoint<R> after = before;
+        if (any(now.opening > w))
+            after = Curve::at(n, step.closure + now.opening);
         now.normal = after.stress;
         now.energy = after.energy;
         now.normal_stiffness = after.stiffness;
@@ -164,7 +177,7 @@ struct BartonBandis
         now.shear_stiffness = k;
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
-        now = unless_open(open, step, now, w);
+        empty_where_open(open, step, w, now);
         m.slip += now.slid;
         m.opening = now.opening;
         m.state = select(open, m.state, delta);

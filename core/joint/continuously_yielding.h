@@ -120,7 +120,7 @@ struct ContinuouslyYielding
         now.shear_stiffness = k;
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
-        now = unless_open(open, step, now, w);
+        empty_where_open(open, step, w, now);
         now.shear_stiffness = select(open, k, stiffness(n, now.normal));
         now.freed += shear_energy(now.shear, k) - shear_energy(now.shear, now.shear_stiffness);
         m.slip += now.slid;

@@ -104,8 +104,10 @@ struct CoulombResidual
 
         const R normal = select(weak, rest.stress, whole.stress);
         const R coupling = mu * select(weak, rest.stiffness, whole.stiffness);
-        const R lambda = slip(n, magnitude(trial) - max(c + mu * normal, zero), safe_ratio(magnitude(trial), k), sign * m.slip, d,
-                              coupling);
+        const R excess = magnitude(trial) - max(c + mu * normal, zero);
+        R lambda = zero;
+        if (any(excess > zero))  // most points of most cycles stick
+            lambda = slip(n, excess, safe_ratio(magnitude(trial), k), sign * m.slip, d, coupling);
         const R slipped = m.slip + sign * lambda;
 
         BasicJointStress<R> now;
@@ -123,7 +125,7 @@ struct CoulombResidual
                                  zero);
         now.heat = slip_heat(step, now, w) - dropped;
         now.freed = dropped;
-        now = unless_open(open, step, now, w);
+        empty_where_open(open, step, w, now);
         now.freed += select(breaks, whole.energy - rest.energy, zero);
 
         m.slip = select(open, m.slip, slipped);

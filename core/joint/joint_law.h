@@ -154,14 +154,15 @@ template <typename R>
 
 /// Where a joint is open it carries nothing, its slip stays, and the shear spring's energy is freed.
 template <typename R, typename M>
-[[nodiscard]] inline BasicJointStress<R> unless_open(M open, const BasicJointStep<R>& step, BasicJointStress<R> now, R last_opening)
+inline void empty_where_open(M open, const BasicJointStep<R>& step, R last_opening, BasicJointStress<R>& now)
 {
+    if (!any(open))
+        return;
     const R zero = 0.0;
     const R released = R(0.5) * step.last_shear * (safe_ratio(step.last_shear, now.shear_stiffness) - step.slide);
     now.freed = select(open, select(step.last_shear == zero, zero, released), now.freed);
     now.opening = select(open, last_opening, now.opening);
     for (R* value : {&now.normal, &now.shear, &now.strength, &now.slid, &now.energy, &now.heat, &now.normal_stiffness})
         *value = select(open, zero, *value);
-    return now;
 }
 }  // namespace hdem

@@ -100,7 +100,7 @@ struct Patton
         now.shear_stiffness = k;
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
-        now = unless_open(open, step, now, w);
+        empty_where_open(open, step, w, now);
         const auto climbs = way[2] + way[3] > zero;
         m.turn = select(climbs & !open, min(safe_ratio(now.opening, magnitude(u)), n[dilation]), m.turn);
         m.slip = select(open, m.slip, u);

@@ -78,7 +78,7 @@ struct Plesha
         now.shear_stiffness = k;
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
-        now = unless_open(open, step, now, w);
+        empty_where_open(open, step, w, now);
         m.state = select(open, m.state, m.state + max(R(0.5) * (step.last_shear + now.shear) * now.slid, zero));
         m.opening = now.opening;
         m.slip = select(open, m.slip, select(passed & (up[0] <= zero) & (left > zero), zero, m.slip + sign * lambda));

@@ -164,7 +164,7 @@ struct SaebAmadei
         now.shear_stiffness = k;
         now.heat = half * ((step.last_shear + now.shear) * now.slid - n[roughness] * (last_lift + end_lift) * (end_u - u));
         now.freed = zero;
-        now = unless_open(open, step, now, last_opening);
+        empty_where_open(open, step, last_opening, now);
         m.slip = select(open, m.slip, end);
         m.state = select(open, m.state, greatest);
         return now;

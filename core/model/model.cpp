@@ -18,13 +18,6 @@ Index JointTable::find(std::int32_t source_a, std::int32_t source_b, Index mater
     return of_materials[material_a * materials + material_b];
 }
 
-Index JointTable::add_unbonded(Index law)
-{
-    laws.push_back(laws[law]);
-    laws.back().cohesion = 0.0;
-    return static_cast<Index>(laws.size()) - 1;
-}
-
 double Model::size(Index block) const
 {
     return std::sqrt(area[block]);

@@ -6,6 +6,7 @@
 /// Coordinates are relative to `origin`, so that a model at 1e6 m keeps its digits.
 
 #include "core/joint/coulomb_slip.h"
+#include "core/joint/joint_row.h"
 #include "core/model/boundary.h"
 #include "core/model/case_def.h"
 #include "core/state/blocks.h"
@@ -40,14 +41,16 @@ struct JointTable
 {
     std::vector<std::string> names;
     std::vector<CoulombSlip> laws;
-    std::vector<Index> unbonded;      ///< per law: the same without cohesion, for blocks that have met since the start
+    std::vector<JointRow> rows;  ///< per law: what it needs beyond that; empty where all are plain
+    std::vector<Index>
+        unbonded;  ///< per law: the same without cohesion, tension and roughness, for blocks that have met since the start
     std::vector<Index> of_joint_set;  ///< per joint set, and for all traces: law, or no_index
     std::vector<Index> of_materials;  ///< materials x materials: law
     Index materials = 0;
     Index of_walls = no_index;  ///< law of the walls of [[boundary]], on whatever they press
 
-    /// @return position of a copy without cohesion
-    Index add_unbonded(Index law);
+    [[nodiscard]] bool has_memory() const { return !rows.empty(); }
+    [[nodiscard]] bool has_memory(Index law) const { return !rows.empty() && rows[law].has_memory(); }
     /// Law of blocks that have met since the start.
     [[nodiscard]] Index unbonded_of(Index law) const { return unbonded.empty() ? law : unbonded[law]; }
     [[nodiscard]] Index find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const;

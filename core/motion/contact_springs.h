@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+
 namespace hdem
 {
 /// Motion or force of a block as (x, y, rotation).
@@ -18,6 +20,13 @@ struct ContactSpring
     double stiffness;  ///< K L of the point [N/m]
     Vec3 ref, inc;     ///< how fast it stretches by a motion of ref, of inc [-, -, m]
 };
+
+/// K_N of a point: of a law with a memory no less than at the last forces [Pa/m].
+[[nodiscard]] inline double present_stiffness(const Model& model, const Contacts& contacts, Index contact, int k)
+{
+    const double least = model.joints.laws[contacts.law[contact]].normal_stiffness;
+    return contacts.has_memory ? std::max(least, contacts.memory_lane[contact / lanes].point[k].stiffness[contact % lanes]) : least;
+}
 
 /// Call `use(touch, k, normal, shear)` for both points of a contact.
 template <typename Use>
@@ -32,7 +41,8 @@ void for_springs(const Model& model, const Blocks& blocks, const Contacts& conta
     {
         const TouchPoint& p = touch.point[k];
         use(touch, k,
-            ContactSpring{joint.normal_stiffness * length, Vec3(-touch.ey, touch.ex, p.ref_t), Vec3(-touch.ey, touch.ex, p.inc_t)},
+            ContactSpring{present_stiffness(model, contacts, contact, k) * length, Vec3(-touch.ey, touch.ex, p.ref_t),
+                          Vec3(-touch.ey, touch.ex, p.inc_t)},
             ContactSpring{joint.shear_stiffness * length, Vec3(touch.ex, touch.ey, -p.ref_m), Vec3(touch.ex, touch.ey, -p.inc_m)});
     }
 }

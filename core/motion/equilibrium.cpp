@@ -14,9 +14,8 @@ double kinetic_energy(const Model& model, const Blocks& blocks, Index block)
 
 double reference_acceleration(Index block, const Model& model, const Vec2& load)
 {
-    constexpr double earth = 9.81;
     const double greatest = std::max(model.gravity.norm(), load.norm() / model.mass[block]);
-    return greatest > 0.0 ? greatest : earth;
+    return greatest > 0.0 ? greatest : earth_gravity;
 }
 
 double unbalance(Index block, const Model& model, const Blocks& blocks)

@@ -6,6 +6,8 @@
 
 namespace hdem
 {
+inline constexpr double earth_gravity = 9.81;  ///< scale of forces where there is no gravity [m/s2]
+
 /// What acts on a block from outside as an acceleration, for scale [m/s2]: the greater of gravity and `load` over mass, of a block in space that of the earth.
 [[nodiscard]] double reference_acceleration(Index block, const Model& model, const Vec2& load);
 
@@ -39,8 +41,12 @@ struct Equilibrium
     Worst unbalanced;               ///< `unbalance` over reference_acceleration [-]
     Worst fastest;                  ///< rim_speed [m/s]
 
-    /// Mean unbalanced force over mean applied force; without any applied force the sum itself is judged against 1 N.
-    [[nodiscard]] double unbalanced_force_ratio() const { return unbalanced_force / (applied_force > 0.0 ? applied_force : 1.0); }
+    /// Mean unbalanced force over mean applied force; without any applied force over the weight that the free blocks would have on earth.
+    [[nodiscard]] double unbalanced_force_ratio() const
+    {
+        const double scale = applied_force > 0.0 ? applied_force : earth_gravity * free_mass;
+        return scale > 0.0 ? unbalanced_force / scale : 0.0;
+    }
     /// Kinetic energy of the free blocks when all move at `speed` [J]; the paper's criterion (sect. 4.4).
     [[nodiscard]] double kinetic_energy_at(double speed) const { return 0.5 * free_mass * speed * speed; }
 };

@@ -31,7 +31,8 @@ double frequency_squared_bound(const Model& model, const Blocks& blocks, const C
     double mobility = 0.0;
     for (const Index b : {contacts.ref[i], contacts.inc[i]})
         mobility += mobility_bound(model, b, inverse_masses(blocks, b));
-    return std::max(joint.normal_stiffness, joint.shear_stiffness) * length * mobility;
+    const double normal = std::max(present_stiffness(model, contacts, i, 0), present_stiffness(model, contacts, i, 1));
+    return std::max(normal, joint.shear_stiffness) * length * mobility;
 }
 
 bool acts(const Contacts& contacts, Index i)

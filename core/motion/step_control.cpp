@@ -106,7 +106,8 @@ class SpringSum
         const CoulombSlip& joint = model_.joints.laws[contacts_.law[contact]];
         const double side = std::min(longest_side(model_.shapes, contacts_.part_a[contact]),
                                      longest_side(model_.shapes, contacts_.part_b[contact]));
-        const double stiffness = std::max(joint.normal_stiffness, joint.shear_stiffness);
+        const double stiffness = std::max({present_stiffness(model_, contacts_, contact, 0),
+                                           present_stiffness(model_, contacts_, contact, 1), joint.shear_stiffness});
         everywhere_ += stiffness * std::max(side, contacts_.length_floor(contact)) *
                        (rim_mobility(block_, model_, blocks_) + rim_mobility(other, model_, blocks_));
     }

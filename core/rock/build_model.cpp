@@ -4,8 +4,8 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
-#include "core/geometry/tangent.h"
 #include "core/motion/time_step.h"
+#include "core/rock/joint_laws.h"
 #include "core/rock/resolve_names.h"
 #include "core/stage/rules.h"
 #include "core/stress/insitu_stress.h"
@@ -131,6 +131,15 @@ void add_block(Model& model, const RockBlock& block, const BlockMoments& moments
     model.shapes.part_begin.push_back(model.shapes.parts());
 }
 
+void add_law_of_walls(Index standard, JointTable& table)
+{
+    table.of_walls = static_cast<Index>(table.laws.size());
+    table.laws.push_back(law_of_walls(table.laws[standard]));
+    table.unbonded.push_back(table.of_walls);
+    if (table.has_memory())
+        table.rows.emplace_back();
+}
+
 void add_joints(const CaseDef& def, Model& model)
 {
     JointTable& table = model.joints;
@@ -138,26 +147,10 @@ void add_joints(const CaseDef& def, Model& model)
     table.materials = n;
     Index fallback = 0;
     for (std::size_t j = 0; j < def.joints.size(); ++j)
-    {
-        const JointDef& joint = def.joints[j];
-        table.names.push_back(joint.name);
-        table.laws.push_back({.normal_stiffness = joint.normal_stiffness,
-                              .shear_stiffness = joint.shear_stiffness,
-                              .friction_coefficient = tangent(radians(joint.friction_angle_deg)),
-                              .cohesion = joint.cohesion,
-                              .restitution = joint.restitution.value_or(def.contact.restitution)});
-        if (joint.name == "default")
+        if (def.joints[j].name == "default")
             fallback = static_cast<Index>(j);
-    }
-    for (Index j = 0; j < static_cast<Index>(def.joints.size()); ++j)
-        table.unbonded.push_back(table.laws[j].cohesion > 0.0 ? table.add_unbonded(j) : j);
     if (!def.boundaries.empty())
-    {
-        table.of_walls = static_cast<Index>(table.laws.size());
-        table.laws.push_back(law_of_walls(table.laws[fallback]));
-    }
-    for (auto j = static_cast<Index>(table.unbonded.size()); j < static_cast<Index>(table.laws.size()); ++j)
-        table.unbonded.push_back(j);
+        add_law_of_walls(fallback, table);
     table.of_materials.assign(static_cast<std::size_t>(n * n), fallback);
     const auto joint_named = [&](const std::string& name)
     {
@@ -290,7 +283,6 @@ Setup build_model(const CaseDef& def)
         model.material_names.push_back(material.name);
     for (const ExcavationDef& excavation : def.excavations)
         model.excavation_names.push_back(excavation.name);
-    add_joints(def, model);
     for (const FaultDef& fault : def.faults)
         model.joint_set_names.push_back("fault " + fault.name);
     for (const RegionDef& region : def.regions)
@@ -302,7 +294,15 @@ Setup build_model(const CaseDef& def)
         const std::string& material = def.domain.given ? def.domain.material : rock.blocks.front().material;
         model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, def.gravity, model.origin);
     }
-    setup.state.contacts.has_preload = def.insitu.given;
+    model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
+    add_laws(def,
+             {.normal_stress = expected_stress(def, model.insitu, box.low.y() - origin.y(), box.high.y() - origin.y()),
+              .block_size = model.mean_size,
+              .restitution = def.contact.restitution},
+             model.joints);
+    add_joints(def, model);
+    setup.state.contacts.has_memory = model.joints.has_memory();
+    setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory();
 
     model.gravity = def.gravity;
     model.contact = def.contact;
@@ -311,7 +311,6 @@ Setup build_model(const CaseDef& def)
     model.output = def.output;
     model.stages = def.stages;
     model.histories = def.histories;
-    model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
 
     add_initial_state(rock, order, moments, origin, model, setup.state);
     std::vector<Problem> problems = resolve_boundaries(def, rock, origin, model, setup.state.blocks);

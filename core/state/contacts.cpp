@@ -17,6 +17,7 @@ void Contacts::resize(Index n)
         column.resize(size);
     lane.resize(groups);
     preload_lane.resize(has_preload ? groups : 0);
+    memory_lane.resize(has_memory ? groups : 0);
     const Contact none{.ref = 0,
                        .inc = 0,
                        .moved_limit = std::numeric_limits<float>::infinity(),
@@ -37,6 +38,7 @@ void Contacts::reserve(Index n)
         column->reserve(groups * lanes);
     lane.reserve(groups);
     preload_lane.reserve(has_preload ? groups : 0);
+    memory_lane.reserve(has_memory ? groups : 0);
 }
 
 EdgePair Contacts::edges(Index i) const
@@ -44,6 +46,15 @@ EdgePair Contacts::edges(Index i) const
     const ContactLanes& l = lane[i / lanes];
     const Index k = i % lanes;
     return {l.tx[k], l.ty[k], l.start_t[k], l.start_m[k], l.length[k], l.p0x[k], l.p0y[k], l.p1x[k], l.p1y[k]};
+}
+
+JointMemory Contacts::memory(int end, Index i) const
+{
+    if (!has_memory)
+        return {};
+    const MemoryLanes::Point& m = memory_lane[i / lanes].point[end];
+    const Index at = i % lanes;
+    return {m.slip[at], m.state[at], m.turn[at], m.opening[at], m.broken[at]};
 }
 
 Contact Contacts::get(Index i) const
@@ -65,8 +76,21 @@ Contact Contacts::get(Index i) const
                     .edges = edges(i),
                     .point = {}};
     for (int k = 0; k < 2; ++k)
-        contact.point[k] = {l.normal_force[k][at], l.shear_force[k][at], l.rest_overlap[k][at], static_cast<Regime>(regime[k][i]),
-                            l.overlap[k][at],      l.tilt_force[k][at],  preload(k, i)};
+    {
+        PointHistory& point = contact.point[k];
+        point.normal_force = l.normal_force[k][at];
+        point.shear_force = l.shear_force[k][at];
+        point.rest_overlap = l.rest_overlap[k][at];
+        point.regime = static_cast<Regime>(regime[k][i]);
+        point.overlap = l.overlap[k][at];
+        point.tilt_force = l.tilt_force[k][at];
+        point.preload = preload(k, i);
+        if (!has_memory)
+            continue;
+        point.memory = memory(k, i);
+        point.energy = memory_lane[i / lanes].point[k].energy[at];
+        point.stiffness = memory_lane[i / lanes].point[k].stiffness[at];
+    }
     return contact;
 }
 
@@ -108,6 +132,17 @@ void Contacts::put(Index i, const Contact& contact)
         regime[k][i] = static_cast<std::uint8_t>(contact.point[k].regime);
         if (has_preload)
             preload_lane[i / lanes].preload[k][at] = contact.point[k].preload;
+        if (!has_memory)
+            continue;
+        MemoryLanes::Point& m = memory_lane[i / lanes].point[k];
+        const JointMemory& from = contact.point[k].memory;
+        m.slip[at] = from.slip;
+        m.state[at] = from.state;
+        m.turn[at] = from.turn;
+        m.opening[at] = from.opening;
+        m.broken[at] = from.broken;
+        m.energy[at] = contact.point[k].energy;
+        m.stiffness[at] = contact.point[k].stiffness;
     }
 }
 }  // namespace hdem

@@ -6,6 +6,7 @@
 /// first axis t runs along the edge (anticlockwise around its block), the second, m, into its block; so an overlap is a
 /// positive m of a point of the incident edge. Forces are given on `inc`: normal along -m, shear along t.
 
+#include "core/joint/joint_law.h"
 #include "core/simd.h"
 #include "core/types.h"
 
@@ -53,7 +54,11 @@ struct PointHistory
     Regime regime = Regime::open;
     double overlap = 0.0;     ///< of the last cycle, with the preload [m]
     double tilt_force = 0.0;  ///< of the last cycle, on inc along t (contact/force_law.h) [N]
-    double preload = 0.0;     ///< >= 0, by which the joint is pressed where the blocks are drawn: in-situ stress over K_N [m]
+    double preload =
+        0.0;  ///< by which the joint is pressed where the blocks are drawn, in-situ stress over K_N; below 0 where it is pulled [m]
+    JointMemory memory;      ///< of a law that has one (core/joint)
+    double energy = 0.0;     ///< that its springs held at the last forces; laws with a memory only [J]
+    double stiffness = 0.0;  ///< d sigma / d closure at the last forces; laws with a memory only [Pa/m]
 };
 
 /// One contact as a value: what moves between arrays when contacts are re-sorted, saved or restarted.
@@ -92,6 +97,17 @@ struct alignas(64) PreloadLanes
     std::array<ContactLanes::Lane, 2> preload;
 };
 
+/// What joint laws with a memory keep of four contacts.
+struct alignas(64) MemoryLanes
+{
+    struct Point
+    {
+        ContactLanes::Lane slip, state, turn, opening, broken;  ///< JointMemory
+        ContactLanes::Lane energy, stiffness;                   ///< PointHistory
+    };
+    std::array<Point, 2> point;
+};
+
 /// All contacts. Arrays are filled up to a multiple of `lanes` with contacts of block 0 with itself that never touch.
 class Contacts
 {
@@ -102,7 +118,9 @@ class Contacts
     std::array<std::vector<std::uint8_t>, 2> regime;
     std::vector<ContactLanes> lane;
     std::vector<PreloadLanes> preload_lane;  ///< empty without in-situ stress
-    bool has_preload = false;                ///< set it while there are no contacts
+    std::vector<MemoryLanes> memory_lane;    ///< empty where all joints are plain
+    bool has_preload = false;                ///< set these two while there are no contacts; memory comes with preload
+    bool has_memory = false;
 
     [[nodiscard]] Index size() const { return size_; }
     void resize(Index n);
@@ -119,6 +137,11 @@ class Contacts
     [[nodiscard]] double preload(int end, Index i) const
     {
         return has_preload ? preload_lane[i / lanes].preload[end][i % lanes] : 0.0;
+    }
+    [[nodiscard]] JointMemory memory(int end, Index i) const;
+    [[nodiscard]] double opening(int end, Index i) const
+    {
+        return has_memory ? memory_lane[i / lanes].point[end].opening[i % lanes] : 0.0;
     }
     [[nodiscard]] double& rest_overlap(int end, Index i) { return lane[i / lanes].rest_overlap[end][i % lanes]; }
     [[nodiscard]] double& normal_force(int end, Index i) { return lane[i / lanes].normal_force[end][i % lanes]; }

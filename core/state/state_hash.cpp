@@ -34,6 +34,27 @@ struct HashedPreload
     std::int64_t low, high;
     std::array<double, 2> preload;
 };
+
+struct HashedMemory
+{
+    std::int64_t low, high;
+    std::array<double, 10> memory;
+};
+
+std::array<double, 10> memory_of(const Contacts& contacts, Index i)
+{
+    const JointMemory a = contacts.memory(0, i), b = contacts.memory(1, i);
+    return {a.slip + 0.0, a.state + 0.0, a.turn + 0.0, a.opening + 0.0, a.broken + 0.0,
+            b.slip + 0.0, b.state + 0.0, b.turn + 0.0, b.opening + 0.0, b.broken + 0.0};
+}
+
+template <typename Rows>
+void add_sorted(Rows& rows, XXH3_state_t* hash)
+{
+    std::sort(rows.begin(), rows.end(),
+              [](const auto& p, const auto& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
+    XXH3_64bits_update(hash, rows.data(), rows.size() * sizeof(rows.front()));
+}
 }  // namespace
 
 std::uint64_t state_hash(const Model& model, const State& state)
@@ -65,16 +86,17 @@ std::uint64_t state_hash(const Model& model, const State& state)
                            contacts.shear_force(1, i) + 0.0, contacts.rest_overlap(0, i) + 0.0, contacts.rest_overlap(1, i) + 0.0},
                           {contacts.regime[0][i], contacts.regime[1][i]}});
     }
-    std::sort(hashed.begin(), hashed.end(),
-              [](const HashedContact& p, const HashedContact& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
-    XXH3_64bits_update(hash, hashed.data(), hashed.size() * sizeof(HashedContact));
+    add_sorted(hashed, hash);
     for (Index i = 0; i < (contacts.has_preload ? contacts.size() : 0); ++i)
         preloads.push_back({std::min(number[contacts.part_a[i]], number[contacts.part_b[i]]),
                             std::max(number[contacts.part_a[i]], number[contacts.part_b[i]]),
                             {contacts.preload(0, i) + 0.0, contacts.preload(1, i) + 0.0}});
-    std::sort(preloads.begin(), preloads.end(),
-              [](const HashedPreload& p, const HashedPreload& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
-    XXH3_64bits_update(hash, preloads.data(), preloads.size() * sizeof(HashedPreload));
+    add_sorted(preloads, hash);
+    std::vector<HashedMemory> memories;
+    for (Index i = 0; i < (contacts.has_memory ? contacts.size() : 0); ++i)
+        memories.push_back({std::min(number[contacts.part_a[i]], number[contacts.part_b[i]]),
+                            std::max(number[contacts.part_a[i]], number[contacts.part_b[i]]), memory_of(contacts, i)});
+    add_sorted(memories, hash);
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;
@@ -101,6 +123,13 @@ std::uint64_t model_hash(const Model& model)
     }
     for (const CoulombSlip& law : model.joints.laws)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
+    for (const JointRow& row : model.joints.rows)
+    {
+        add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension,
+             row.residual_friction, row.residual_cohesion});
+        for (const double number : row.numbers.n)
+            add({number});
+    }
     // A step that the case does not give may have been lowered for its contacts since the model was made.
     add({model.has_step ? model.time_step : model.paper_time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
     for (const Boundary& boundary : model.boundaries)

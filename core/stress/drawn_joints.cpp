@@ -16,7 +16,12 @@ void join_drawn_blocks(const Model& model, const std::vector<std::uint8_t>& amon
         const BlockMotion& inc = state.blocks.motion[contacts.inc[i]];
         if (!lie_on_each_other(touch_edges(contacts.edges(i), ref, inc), contacts.length_floor(i)))
             continue;
-        contacts.law[i] = joint_of(model, contacts.get(i));
+        Contact contact = contacts.get(i);
+        contact.law = joint_of(model, contact);
+        const double broken = model.joints.has_memory(contact.law) && model.joints.rows[contact.law].begins_broken ? 1.0 : 0.0;
+        for (PointHistory& point : contact.point)
+            point.memory = {.state = broken, .broken = broken};
+        contacts.put(i, contact);
         if (model.insitu.given)
             lock_in_stress(model, state, i);
     }

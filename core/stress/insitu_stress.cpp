@@ -3,6 +3,7 @@
 #include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
 #include "core/geometry/convex_part.h"
+#include "core/joint/normal_closure.h"
 #include "core/stress/drawn_joints.h"
 
 #include <algorithm>
@@ -84,6 +85,23 @@ std::string name_of(const Model& model, std::int32_t source)
     return set < model.joint_set_names.size() ? model.joint_set_names[set] : "traces";
 }
 
+/// Greatest shear and tension that a point bears where the blocks are drawn [N].
+struct Strengths
+{
+    double shear, tension;
+};
+
+Strengths strengths(const JointTable& joints, Index law, double normal, double length)
+{
+    const double pressed = std::max(normal, 0.0);
+    if (!joints.has_memory(law))
+        return {shear_strength(joints.laws[law], pressed, length), 0.0};
+    const JointRow& row = joints.rows[law];
+    if (row.begins_broken)
+        return {row.residual_friction * pressed + row.residual_cohesion * length, 0.0};
+    return {peak_strength(row, pressed / length) * length, row.tension * length};
+}
+
 /// What acts on each block: net force and moment, and the sum of all that does.
 struct Acting
 {
@@ -114,6 +132,24 @@ void find_worst(const Model& model, const State& state, const std::vector<Acting
 }
 }  // namespace
 
+namespace
+{
+/// What a point with a memory holds under its force; it bears tension as far as it is intact.
+void lock_in_memory(const JointRow& row, double length, double overlap, const Vec2& force, PointHistory& point)
+{
+    const bool pulls = force.y() < 0.0 && !row.begins_broken && row.tension > 0.0;
+    const double normal = pulls || force.y() > 0.0 ? force.y() / length : 0.0;
+    const double closure = normal != 0.0 ? closure_under(row, normal) : std::max(overlap, 0.0);
+    const NormalState state = normal_state(row, closure);
+    point.normal_force = normal * length;
+    point.shear_force = normal != 0.0 ? force.x() : 0.0;
+    point.preload = normal != 0.0 ? closure - overlap : 0.0;
+    point.energy = normal != 0.0 ? state.energy * length : 0.0;
+    point.stiffness = state.stiffness;
+    point.regime = normal != 0.0 ? Regime::stick : Regime::open;
+}
+}  // namespace
+
 void lock_in_stress(const Model& model, State& state, Index i)
 {
     Contacts& contacts = state.contacts;
@@ -125,12 +161,20 @@ void lock_in_stress(const Model& model, State& state, Index i)
     for (int k = 0; k < 2; ++k)
     {
         PointHistory& point = contact.point[k];
-        point.normal_force = std::max(drawn.force[k].y(), 0.0);
-        point.shear_force = point.normal_force > 0.0 ? drawn.force[k].x() : 0.0;
         const double overlap = drawn.touch.point[k].overlap;
-        point.preload = std::max(point.normal_force / stiffness - overlap, 0.0);
+        if (model.joints.has_memory(contact.law))
+        {
+            lock_in_memory(model.joints.rows[contact.law], length, overlap, drawn.force[k], point);
+            point.energy += 0.5 * point.shear_force * point.shear_force / (model.joints.laws[contact.law].shear_stiffness * length);
+        }
+        else
+        {
+            point.normal_force = std::max(drawn.force[k].y(), 0.0);
+            point.shear_force = point.normal_force > 0.0 ? drawn.force[k].x() : 0.0;
+            point.preload = std::max(point.normal_force / stiffness - overlap, 0.0);
+            point.regime = point.normal_force > 0.0 ? Regime::stick : Regime::open;
+        }
         point.overlap = overlap + point.preload;
-        point.regime = point.normal_force > 0.0 ? Regime::stick : Regime::open;
     }
     contacts.put(i, contact);
 }
@@ -156,7 +200,6 @@ InsituSummary summarise_insitu(const Model& model, const State& state)
         const std::int32_t other = model.shapes.edge_source[contacts.inc_edge[i]];
         const std::int32_t source = std::min(one, other) == edge_wall ? edge_wall : std::max(one, other);
         StressedSet& set = sets[source];
-        const CoulombSlip& law = model.joints.laws[contacts.law[i]];
         const Vec2 t(drawn.touch.ex, drawn.touch.ey), m = turned_left(t);
         const double length = 0.5 * drawn.touch.length;
         bool above = false;
@@ -167,9 +210,9 @@ InsituSummary summarise_insitu(const Model& model, const State& state)
             const Vec2 on_inc = shear * t - normal * m;
             acting[contacts.inc[i]].add(on_inc, -p.inc_t * normal - p.inc_m * shear);
             acting[contacts.ref[i]].add(-on_inc, p.ref_t * normal + p.ref_m * shear);
-            const double strength = shear_strength(law, std::max(drawn.force[k].y(), 0.0), length);
+            const auto [strength, tension] = strengths(model.joints, contacts.law[i], drawn.force[k].y(), length);
             const double used = std::abs(drawn.force[k].x());
-            above = above || used > strength * (1.0 + rounding) || drawn.force[k].y() < 0.0;
+            above = above || used > strength * (1.0 + rounding) || drawn.force[k].y() < -tension * (1.0 + rounding);
             if (strength > 0.0)
                 set.most_used = std::max(set.most_used, used / strength);
         }

@@ -102,6 +102,9 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
         GTEST_SKIP() << "needs python3-h5py";
     const ScratchFolder folder("recorder_page");
     SmallRun run = run_with_histories();
+    run.state.contacts.has_preload = run.state.contacts.has_memory = true;
+    run.state.contacts.resize(run.state.contacts.size());
+    run.model.joints.rows.assign(run.model.joints.laws.size(), {.kind = JointKind::coulomb});
     RunRecorder recorder(folder.path(), run.model, some_provenance());
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);
@@ -117,8 +120,6 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     run.state.not_at_rest = {{.stage = 0, .block = 1}};
     run.state.statics = {{.stage = 0}};
     run.state.came_loose = {{.stage = 0, .block = 2}};
-    run.state.contacts.has_preload = true;
-    run.state.contacts.resize(run.state.contacts.size());
     write_checkpoint(folder.path(), record, run.model, run.state);
     const std::string source = HDEM_SOURCE_DIR;
     const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source +

@@ -47,7 +47,7 @@ TEST_F(HandedOver, SpringsBeginWithTheForceOfTheLastImpulse)
 {
     aim_impulses(pair.state.blocks, points);
     points[0].impulse_normal = 0.3 * half_stiffness * deflection * pair.model.time_step;
-    store_impulses(pair.state.blocks, points, pair.state.contacts);
+    store_impulses(pair.model, pair.state.blocks, points, pair.state.contacts);
     EXPECT_NEAR(spring_force(), 0.3 * half_stiffness * deflection, 1e-6 * half_stiffness * deflection);
 }
 
@@ -58,7 +58,7 @@ TEST_F(HandedOver, SpringsDoNotBeginWithTheImpactsOfOthers)
     ImpulsePoint& p = points[0];
     p.spring_force = 500.0;
     p.impulse_normal = 1000.0 * half_stiffness * deflection * pair.model.time_step;
-    store_impulses(pair.state.blocks, points, pair.state.contacts);
+    store_impulses(pair.model, pair.state.blocks, points, pair.state.contacts);
     const double most = 500.0 + p.mass_normal * pair.model.gravity.norm();
     const double rest = pair.state.contacts.rest_overlap(p.end, 0);
     EXPECT_NEAR(p.stiffness * (p.overlap - rest), most, 1e-6 * most);

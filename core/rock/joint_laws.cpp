@@ -1,0 +1,229 @@
+#include "core/rock/joint_laws.h"
+
+#include "core/geometry/tangent.h"
+#include "core/joint/barton_bandis.h"
+#include "core/joint/continuously_yielding.h"
+#include "core/joint/coulomb_residual.h"
+#include "core/joint/patton.h"
+#include "core/joint/plesha.h"
+#include "core/joint/saeb_amadei.h"
+#include "core/stress/insitu_stress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+struct Curve
+{
+    CurveKind kind = CurveKind::linear;
+    JointNumbers numbers{};
+};
+
+Curve curve_of(const JointDef& joint)
+{
+    if (joint.law == JointLaw::barton_bandis && joint.rock_strength)
+    {
+        const BandisClosure closure = bandis_closure(joint.jrc, joint.jcs, *joint.rock_strength, joint.closure_cycle);
+        return {CurveKind::hyperbolic, Hyperbolic::numbers(closure.stiffness, closure.greatest)};
+    }
+    if (joint.greatest_closure)
+        return {CurveKind::hyperbolic, Hyperbolic::numbers(joint.normal_stiffness, *joint.greatest_closure)};
+    if (joint.normal_exponent)
+        return {CurveKind::power_law, PowerLaw::numbers(joint.normal_stiffness, *joint.normal_exponent, joint.greatest_stiffness)};
+    return {CurveKind::linear, Linear::numbers(joint.normal_stiffness)};
+}
+
+double residual_angle(const JointDef& joint)
+{
+    return joint.residual_friction_angle_deg.value_or(joint.friction_angle_deg);
+}
+
+CoulombInput coulomb_input(const JointDef& joint)
+{
+    return {.shear_stiffness = joint.shear_stiffness,
+            .friction_angle = joint.friction_angle_deg,
+            .residual_friction = residual_angle(joint),
+            .cohesion = joint.cohesion,
+            .residual_cohesion = joint.residual_cohesion.value_or(0.0),
+            .tension = joint.tension.value_or(0.0),
+            .residual_tension = joint.residual_tension.value_or(0.0),
+            .dilation_angle = joint.dilation_angle_deg.value_or(0.0),
+            .dilation_limit = joint.dilation_limit.value_or(no_limit)};
+}
+
+JointKind kind_of(const JointDef& joint)
+{
+    switch (joint.law)
+    {
+    case JointLaw::barton_bandis:
+        return JointKind::barton_bandis;
+    case JointLaw::patton:
+        return JointKind::patton;
+    case JointLaw::continuously_yielding:
+        return JointKind::continuously_yielding;
+    case JointLaw::plesha:
+        return JointKind::plesha;
+    case JointLaw::saeb_amadei:
+        return JointKind::saeb_amadei;
+    case JointLaw::coulomb:
+        break;
+    }
+    return needs_memory(joint) ? JointKind::coulomb : JointKind::plain;
+}
+
+JointNumbers numbers_of(const JointDef& joint, const JointSurroundings& around, const JointNumbers& curve)
+{
+    const double k = joint.shear_stiffness, phi = joint.friction_angle_deg;
+    switch (joint.law)
+    {
+    case JointLaw::barton_bandis:
+        return BartonBandis::numbers({.shear_stiffness = k,
+                                      .roughness = joint.jrc,
+                                      .wall_strength = joint.jcs,
+                                      .residual_friction = residual_angle(joint),
+                                      .length = joint.length.value_or(around.block_size),
+                                      .damage = joint.damage,
+                                      .normal_stress = joint.normal_stress.value_or(around.normal_stress)},
+                                     curve);
+    case JointLaw::patton:
+        return Patton::numbers({.shear_stiffness = k,
+                                .friction = phi,
+                                .roughness = joint.asperity_angle_deg,
+                                .residual_friction = residual_angle(joint),
+                                .cohesion = joint.cohesion,
+                                .dilation_limit = joint.dilation_limit.value_or(no_limit)},
+                               curve);
+    case JointLaw::continuously_yielding:
+        return ContinuouslyYielding::numbers({.shear_stiffness = k,
+                                              .shear_exponent = joint.shear_exponent.value_or(0.0),
+                                              .greatest_stiffness = joint.greatest_stiffness,
+                                              .friction = phi,
+                                              .first_friction = joint.mobilised_angle_deg,
+                                              .roughness = joint.wear_length},
+                                             curve);
+    case JointLaw::plesha:
+        return Plesha::numbers({.shear_stiffness = k, .friction = phi, .roughness = joint.asperity_angle_deg, .wear = joint.wear},
+                               curve);
+    case JointLaw::saeb_amadei:
+        return SaebAmadei::numbers({.shear_stiffness = k,
+                                    .rock_strength = joint.transition_stress,
+                                    .friction = phi,
+                                    .roughness = joint.asperity_angle_deg,
+                                    .rock_cohesion = joint.rock_cohesion,
+                                    .rock_friction = joint.rock_friction_angle_deg,
+                                    .residual_slip = joint.residual_displacement,
+                                    .residual_share = joint.residual_share},
+                                   curve);
+    case JointLaw::coulomb:
+        break;
+    }
+    return CoulombResidual::numbers(coulomb_input(joint), curve);
+}
+
+JointRow row_of(const JointDef& joint, const JointSurroundings& around)
+{
+    const Curve curve = curve_of(joint);
+    JointRow row{.kind = kind_of(joint), .curve = curve.kind, .numbers = numbers_of(joint, around, curve.numbers)};
+    row.residual_friction = tangent(radians(residual_angle(joint)));
+    if (row.kind != JointKind::coulomb)
+        return row;
+    row.residual_cohesion = joint.residual_cohesion.value_or(0.0);
+    constexpr double however_far = 1.0;
+    row.tension = joint.tension.value_or(0.0);
+    row.reach = however_far;
+    row.torn_reach = joint.residual_tension.value_or(0.0) > 0.0 ? however_far : 0.0;
+    row.is_bonded = joint.cohesion > 0.0 || row.tension > 0.0;
+    row.begins_broken = joint.initially == JointStart::broken;
+    return row;
+}
+
+/// What the rest of the code asks of a joint: stiffness for the step, friction and cohesion of impulses.
+CoulombSlip slip_of(const JointDef& joint, const JointRow& row, const JointSurroundings& around)
+{
+    CoulombSlip slip{.normal_stiffness = joint.normal_stiffness,
+                     .shear_stiffness = joint.shear_stiffness,
+                     .friction_coefficient = tangent(radians(joint.friction_angle_deg)),
+                     .cohesion = joint.law == JointLaw::coulomb ? joint.cohesion : 0.0,
+                     .restitution = joint.restitution.value_or(around.restitution)};
+    if (!row.has_memory())
+        return slip;
+    const double stress = joint.normal_stress.value_or(around.normal_stress);
+    slip.normal_stiffness = normal_state(row, closure_under(row, stress)).stiffness;
+    if (joint.law == JointLaw::barton_bandis)
+    {
+        slip.shear_stiffness = row.numbers[BartonBandis::shear_stiffness];
+        slip.friction_coefficient = row.residual_friction;
+    }
+    if (joint.law == JointLaw::continuously_yielding)
+        slip.shear_stiffness = std::min(joint.shear_stiffness * power(stress, joint.shear_exponent.value_or(0.0)),
+                                        joint.greatest_stiffness);
+    return slip;
+}
+
+/// The same of blocks that have met since the start.
+JointRow unbonded_row(const JointDef& joint, const JointRow& row, const CoulombSlip& slip)
+{
+    if (row.curve == CurveKind::linear)
+        return {};
+    const CoulombInput input{.shear_stiffness = slip.shear_stiffness,
+                             .friction_angle = residual_angle(joint),
+                             .residual_friction = residual_angle(joint)};
+    return {.kind = JointKind::coulomb,
+            .curve = row.curve,
+            .numbers = CoulombResidual::numbers(input, row.numbers),
+            .residual_friction = row.residual_friction};
+}
+}  // namespace
+
+bool needs_memory(const JointDef& joint)
+{
+    return joint.law != JointLaw::coulomb || joint.tension || joint.residual_friction_angle_deg || joint.residual_cohesion ||
+           joint.residual_tension || joint.dilation_angle_deg || joint.greatest_closure || joint.normal_exponent ||
+           joint.initially == JointStart::broken;
+}
+
+double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high)
+{
+    double density = 0.0;
+    for (const MaterialDef& material : def.materials)
+        density = std::max(density, material.density);
+    double stress = density * def.gravity.norm() * (high - low);
+    if (insitu.given)
+        for (const double y : {low, high})
+        {
+            const StressDef s = stress_at(insitu, y);
+            stress = std::max(stress, std::max(std::abs(s.xx), std::abs(s.yy)) + std::abs(s.xy));
+        }
+    return stress > 0.0 ? 2.0 * stress : 1e6;
+}
+
+void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& table)
+{
+    std::vector<JointRow> rows;
+    for (const JointDef& joint : def.joints)
+    {
+        table.names.push_back(joint.name);
+        rows.push_back(row_of(joint, around));
+        table.laws.push_back(slip_of(joint, rows.back(), around));
+    }
+    for (std::size_t j = 0; j < def.joints.size(); ++j)
+    {
+        const CoulombSlip slip = table.laws[j];
+        const bool differs = slip.cohesion > 0.0 || rows[j].has_memory();
+        table.unbonded.push_back(differs ? static_cast<Index>(table.laws.size()) : static_cast<Index>(j));
+        if (!differs)
+            continue;
+        table.laws.push_back(slip);
+        table.laws.back().cohesion = 0.0;
+        table.laws.back().friction_coefficient = rows[j].residual_friction;
+        rows.push_back(unbonded_row(def.joints[j], rows[j], slip));
+    }
+    for (auto j = static_cast<Index>(table.unbonded.size()); j < static_cast<Index>(table.laws.size()); ++j)
+        table.unbonded.push_back(j);
+    if (std::ranges::any_of(rows, [](const JointRow& row) { return row.has_memory(); }))
+        table.rows = std::move(rows);
+}
+}  // namespace hdem

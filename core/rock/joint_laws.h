@@ -1,0 +1,26 @@
+#pragma once
+/// From the numbers of [joint.NAME] to joint laws.
+
+#include "core/model/case_def.h"
+#include "core/model/model.h"
+
+namespace hdem
+{
+/// What the numbers of a law depend on besides its own.
+struct JointSurroundings
+{
+    double normal_stress = 0.0;  ///< greatest that is expected, where the joint does not say [Pa]
+    double block_size = 0.0;     ///< [m]
+    double restitution = 0.0;    ///< [-]
+};
+
+/// Greatest normal stress that joints of a case are to be ready for: twice that of [insitu] or of the rock's weight, 1 MPa where there is neither [Pa].
+/// @param low, high  of the rock, local coordinates [m]
+[[nodiscard]] double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high);
+
+/// Does the joint need a memory? Coulomb's law with friction and cohesion alone does not: it slips at the same strength for ever.
+[[nodiscard]] bool needs_memory(const JointDef& joint);
+
+/// The laws of all joints, and behind them those of blocks that have met since the start: no cohesion, no tension, residual friction, no dilation.
+void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& table);
+}  // namespace hdem

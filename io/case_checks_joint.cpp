@@ -1,0 +1,174 @@
+#include "core/model/case_def.h"
+#include "io/case_check.h"
+#include "io/case_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+using Keys = std::vector<const char*>;
+
+/// Which keys a law takes besides those of every joint.
+struct LawKeys
+{
+    const char* name;
+    Keys needed, possible;
+};
+
+const std::array<LawKeys, 6>& law_keys()
+{
+    static const std::array<LawKeys, 6> table{
+        {{"coulomb",
+          {"normal_stiffness", "friction_angle_deg"},
+          {"cohesion", "tension", "residual_friction_angle_deg", "residual_cohesion", "residual_tension", "dilation_angle_deg",
+           "dilation_limit", "initially"}},
+         {"barton_bandis", {"jrc", "jcs", "residual_friction_angle_deg"}, {"length", "damage", "rock_strength", "closure_cycle"}},
+         {"patton",
+          {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg", "residual_friction_angle_deg", "cohesion"},
+          {"dilation_limit"}},
+         {"continuously_yielding",
+          {"normal_stiffness", "friction_angle_deg", "mobilised_angle_deg", "wear_length"},
+          {"shear_exponent"}},
+         {"plesha", {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg"}, {"wear"}},
+         {"saeb_amadei",
+          {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg", "transition_stress"},
+          {"rock_cohesion", "rock_friction_angle_deg", "residual_displacement", "residual_share"}}}};
+    return table;
+}
+
+class JointCheck : public CaseCheck
+{
+  public:
+    JointCheck(const CaseDef& def, const CaseSource& source, CaseProblems& problems, const JointDef& joint)
+        : CaseCheck(def, source, problems),
+          joint_(joint),
+          path_("joint." + joint.name + "."),
+          object_(fmt::format("joint \"{}\"", printable(joint.name)))
+    {
+    }
+
+    void check()
+    {
+        check_keys();
+        check_spring();
+        check_strength();
+        check_method();
+    }
+
+  private:
+    void add(const char* key, const std::string& text, const std::string& remedy)
+    {
+        if (!problems_.has(path_ + key))
+            problems_.add(path_ + key, object_, key, text, remedy);
+    }
+
+    [[nodiscard]] bool has(const char* key) const { return given(path_ + key); }
+
+    [[nodiscard]] bool closes_by_bandis() const
+    {
+        return joint_.law == JointLaw::barton_bandis && joint_.rock_strength.has_value();
+    }
+
+    void check_keys()
+    {
+        const LawKeys& own = law_keys()[static_cast<std::size_t>(joint_.law)];
+        for (const char* key : own.needed)
+            if (!has(key))
+                add(key, "is missing", fmt::format("Add it: law \"{}\" needs it.", own.name));
+        const auto takes = [&](const char* key)
+        {
+            const auto is_key = [&](const char* k) { return std::string_view(k) == key; };
+            return std::ranges::any_of(own.needed, is_key) || std::ranges::any_of(own.possible, is_key) ||
+                   std::string_view(key) == "normal_stiffness";
+        };
+        for (const LawKeys& law : law_keys())
+            for (const Keys& keys : {law.needed, law.possible})
+                for (const char* key : keys)
+                    if (has(key) && !takes(key))
+                        add(key, fmt::format("does not belong to law \"{}\"", own.name),
+                            fmt::format("Remove it, or give law = \"{}\".", law.name));
+    }
+
+    void check_spring()
+    {
+        if (closes_by_bandis())
+            for (const char* key : {"normal_stiffness", "greatest_closure", "normal_exponent"})
+                if (has(key))
+                    add(key, "contradicts rock_strength, which gives the closure by Bandis", "Remove one of the two.");
+        if (joint_.law == JointLaw::barton_bandis && !closes_by_bandis() && !has("normal_stiffness"))
+            add("normal_stiffness", "is missing, and so is rock_strength", "Add one of the two.");
+        exclude("joint." + joint_.name, object_, "greatest_closure", "normal_exponent");
+        if (joint_.law == JointLaw::saeb_amadei && joint_.normal_exponent)
+            add("normal_exponent", "is not possible with saeb_amadei", "Give greatest_closure, or a linear spring.");
+        if (closes_by_bandis() && !(joint_.rock_strength >= joint_.jcs))
+            add("rock_strength", "is less than jcs: the walls of a joint are no stronger than its rock",
+                "Give the greater of the two.");
+        if (has("closure_cycle") && !closes_by_bandis())
+            add("closure_cycle", "belongs to rock_strength, which is not given", "Remove it.");
+    }
+
+    void check_strength()
+    {
+        const double friction = joint_.friction_angle_deg, residual = joint_.residual_friction_angle_deg.value_or(friction);
+        const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
+        if (joint_.law == JointLaw::coulomb)
+        {
+            if (residual > friction)
+                add("residual_friction_angle_deg", "is greater than friction_angle_deg", "Give no more than that.");
+            if (joint_.residual_cohesion.value_or(0.0) > joint_.cohesion)
+                add("residual_cohesion", "is greater than cohesion", "Give no more than that.");
+            if (joint_.residual_tension.value_or(0.0) > joint_.tension.value_or(0.0))
+                add("residual_tension", "is greater than tension", "Give no more than that.");
+            if (joint_.dilation_angle_deg.value_or(0.0) > residual)
+                add("dilation_angle_deg",
+                    fmt::format("is greater than the residual friction angle, {}: slip would make energy", residual),
+                    "Give no more than that.");
+            if (joint_.tension.value_or(0.0) * tangent(friction) > joint_.cohesion * (1.0 + 1e-9))
+                add("tension",
+                    fmt::format("is greater than cohesion / tan(friction) = {:.6g} Pa", joint_.cohesion / tangent(friction)),
+                    "Give less, or more cohesion.");
+            if (has("tension") && joint_.normal_exponent)
+                add("tension", "is not possible with normal_exponent: K_N is 0 at no stress", "Remove one of the two.");
+        }
+        if (joint_.law == JointLaw::patton && friction + joint_.asperity_angle_deg >= 90.0)
+            add("asperity_angle_deg", "and friction_angle_deg are 90 degrees or more together", "Give less.");
+        if (joint_.law == JointLaw::patton && friction + joint_.asperity_angle_deg <= residual)
+            add("residual_friction_angle_deg", "is no less than friction_angle_deg and asperity_angle_deg together", "Give less.");
+        if ((joint_.law == JointLaw::plesha || joint_.law == JointLaw::saeb_amadei) && friction + joint_.asperity_angle_deg >= 90.0)
+            add("asperity_angle_deg", "and friction_angle_deg are 90 degrees or more together", "Give less.");
+        if (joint_.law == JointLaw::continuously_yielding && joint_.mobilised_angle_deg < friction)
+            add("mobilised_angle_deg", "is less than friction_angle_deg", "Give no less than that.");
+        if (joint_.law == JointLaw::barton_bandis && residual >= 70.0)
+            add("residual_friction_angle_deg", "is 70 degrees or more: the law ends there", "Give less.");
+    }
+
+    void check_method()
+    {
+        const bool by_impulses = def_.contact.method == Method::impulse ||
+                                 std::ranges::any_of(def_.stages, [](const StageDef& s) { return s.method == Method::impulse; });
+        if (!by_impulses)
+            return;
+        if (joint_.tension.value_or(0.0) > 0.0)
+            add("tension", "cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
+        for (const char* key : {"greatest_closure", "normal_exponent", "rock_strength"})
+            if (has(key))
+                add(key, "cannot be computed by impulses, which know no stiffness",
+                    "Use method \"force\" or \"hybrid\" in all stages.");
+    }
+
+    const JointDef& joint_;
+    std::string path_, object_;
+};
+}  // namespace
+
+void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
+{
+    for (const JointDef& joint : def.joints)
+        JointCheck(def, source, problems, joint).check();
+}
+}  // namespace hdem

@@ -1,0 +1,220 @@
+/// Joint laws in the cycle: direct shear, tension and what a restart keeps of them. The laws themselves: verification/unit/core/joint.
+
+#include "core/contact/contact_report.h"
+#include "core/joint/coulomb_residual.h"
+#include "verification/unit/case_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+constexpr double speed = 0.01, pressure = 1e6;  // [m/s], [Pa]
+
+JointDef bedding()
+{
+    return {.name = "default",
+            .normal_stiffness = 1e10,
+            .shear_stiffness = 1e9,
+            .friction_angle_deg = 30.0,
+            .cohesion = 1e5,
+            .residual_friction_angle_deg = 25.0,
+            .dilation_angle_deg = 10.0,
+            .dilation_limit = 0.005};
+}
+
+/// A block of `width` under constant pressure on `pieces` fixed ones, held against turning and moved to the right.
+CaseDef shear_box(const JointDef& joint, int pieces = 1, double width = 1.0)
+{
+    CaseDef scene = scenes::empty_scene();
+    const double piece = (width + (pieces > 1 ? 0.0 : 2.0)) / pieces, begin = -0.5 * piece * pieces;
+    for (int i = 0; i < pieces; ++i)
+        scenes::add_fixed_block(scene, "base" + std::to_string(i),
+                                scenes::rectangle({begin + i * piece, -1.0}, {begin + (i + 1) * piece, 0.0}));
+    scenes::add_block(scene, "block", scenes::rectangle({-0.5 * width, 0.0}, {0.5 * width, 0.5}));
+    scene.joints = {joint};
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::force;
+    BlockDef& block = scene.blocks.back();
+    block.fix_rotation = true;
+    block.fix_x = true;
+    scene.loads = {{.blocks = {"block"}, .force = {0.0, -pressure * width}},
+                   {.blocks = {"block"}, .velocity_x = speed, .interval = {.from_time = 0.1}}};
+    scene.stages = {{.name = "shear", .cycles = 1}};
+    return scene;
+}
+
+struct Box
+{
+    double normal = 0.0, shear = 0.0, way = 0.0, opening = 0.0;
+};
+
+Box look(const CaseRun& run, double width = 1.0)
+{
+    Box box;
+    const Contacts& contacts = run.state().contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+        for (int k = 0; k < 2; ++k)
+        {
+            box.normal += contacts.normal_force(k, i) / width;
+            box.shear += std::abs(contacts.shear_force(k, i)) / width;
+        }
+    const Vec2 moved = run.state().blocks.displacement(run.model().find_block("block"));
+    box.way = moved.x();
+    box.opening = moved.y() + pressure / 1e10;
+    return box;
+}
+
+std::int64_t cycles_until(const CaseRun& run, double way)
+{
+    return static_cast<std::int64_t>((way / speed + 0.1) / run.model().time_step) - run.state().cycle;
+}
+
+TEST(JointForces, PeakDropAndDilationInDirectShear)
+{
+    for (const auto& [pieces, width] : {std::pair{1, 1.0}, std::pair{2, 8.0}, std::pair{16, 16.0}})
+    {
+        CaseRun run(shear_box(bedding(), pieces, width));
+        const double peak = 1e5 + pressure * std::tan(radians(30.0));
+        run.advance(cycles_until(run, 0.99 * peak / 1e9));
+        Box box = look(run, width);
+        EXPECT_NEAR(box.shear, 1e9 * box.way, 1e-4 * peak) << pieces;
+        run.advance(cycles_until(run, 1.05 * peak / 1e9));
+        box = look(run, width);
+        EXPECT_LT(box.shear / box.normal, std::tan(radians(25.0)) + 1e-9) << pieces;
+        run.advance(cycles_until(run, 10e-3));
+        box = look(run, width);
+        EXPECT_NEAR(box.normal, pressure, 0.02 * pressure) << pieces;  // it trembles
+        EXPECT_NEAR(box.shear / box.normal, 0.466308, 1e-6) << pieces;
+        EXPECT_NEAR(box.opening, 0.881635e-3, 2e-3 * 0.881635e-3) << pieces;
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6) << pieces;
+    }
+}
+/// Ten cycles of +-5 mm.
+TEST(JointForces, KeepTheLedgerOverTenReversals)
+{
+    const auto laws = std::to_array<JointDef>({bedding(),
+                                               {.name = "default",
+                                                .law = JointLaw::barton_bandis,
+                                                .shear_stiffness = 1e9,
+                                                .residual_friction_angle_deg = 30.0,
+                                                .jrc = 10.0,
+                                                .jcs = 1e8,
+                                                .length = 1.0,
+                                                .rock_strength = 1.2e8},
+                                               {.name = "default",
+                                                .law = JointLaw::patton,
+                                                .normal_stiffness = 1e10,
+                                                .shear_stiffness = 5e9,
+                                                .friction_angle_deg = 30.0,
+                                                .cohesion = 1e6,
+                                                .residual_friction_angle_deg = 35.0,
+                                                .asperity_angle_deg = 15.0},
+                                               {.name = "default",
+                                                .law = JointLaw::continuously_yielding,
+                                                .normal_stiffness = 1e10,
+                                                .shear_stiffness = 1e9,
+                                                .friction_angle_deg = 30.0,
+                                                .mobilised_angle_deg = 50.0,
+                                                .wear_length = 5e-4},
+                                               {.name = "default",
+                                                .law = JointLaw::plesha,
+                                                .normal_stiffness = 1e10,
+                                                .shear_stiffness = 2e9,
+                                                .friction_angle_deg = 30.0,
+                                                .asperity_angle_deg = 15.0,
+                                                .wear = 2e-5},
+                                               {.name = "default",
+                                                .law = JointLaw::saeb_amadei,
+                                                .normal_stiffness = 1e10,
+                                                .shear_stiffness = 5e9,
+                                                .friction_angle_deg = 30.0,
+                                                .greatest_closure = 3e-4,
+                                                .asperity_angle_deg = 15.0,
+                                                .transition_stress = 5e7,
+                                                .rock_cohesion = 5e6,
+                                                .rock_friction_angle_deg = 40.0}});
+    for (const JointDef& joint : laws)
+    {
+        CaseDef scene = shear_box(joint);
+        scene.loads.pop_back();
+        for (int i = 0; i < 20; ++i)  // 5 mm there, 10 mm back
+            scene.loads.push_back({.blocks = {"block"},
+                                   .velocity_x = i % 2 == 0 ? 0.1 : -0.1,
+                                   .interval = {.from_time = i == 0 ? 0.05 : 0.1 * i, .until_time = 0.1 * (i + 1)}});
+        CaseRun run(scene);
+        run.advance(static_cast<std::int64_t>(2.0 / run.model().time_step));
+        const int law = static_cast<int>(joint.law);
+        EXPECT_GT(run.state().ledger.friction, 1e3) << law;
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6) << law;
+        EXPECT_LT(std::abs(run.state().ledger.contact_changes), 0.2 * run.state().ledger.friction) << law;
+    }
+}
+
+/// rho g H = 26 487 Pa pull at its joint.
+CaseDef hung_block(double tension, Method method)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "roof", scenes::rectangle({-1.0, 1.0}, {2.0, 2.0}));
+    scenes::add_block(scene, "block", scenes::rectangle({0.0, 0.0}, {1.0, 1.0}));
+    scene.joints[0].cohesion = 1e6;
+    scene.joints[0].tension = tension;
+    scene.contact.method = method;
+    scene.insitu = {.given = true, .stress = StressDef{}, .gradient = {0.0, 2700.0 * 9.81, 0.0}};
+    return scene;
+}
+
+TEST(JointForces, TensionHoldsABlockAtARoof)
+{
+    for (const Method method : {Method::force, Method::hybrid})
+        for (const double tension : {26000.0, 26900.0, 50000.0})
+        {
+            CaseRun run(hung_block(tension, method));
+            run.advance(20000);
+            const double way = run.state().blocks.displacement(run.model().find_block("block")).norm();
+            if (tension > 26487.0)
+                EXPECT_LT(way, 1e-9) << tension;
+            else
+                EXPECT_GT(way, 0.5) << tension;
+        }
+}
+
+/// The pull acts at once: the block swings to twice its stretch, less what damping takes.
+TEST(JointForces, ABlockHungSuddenlyAsksForMore)
+{
+    CaseDef scene = hung_block(50000.0, Method::force);
+    scene.insitu = {};
+    CaseRun holds(scene);
+    holds.advance(20000);
+    EXPECT_NEAR(holds.state().blocks.displacement(holds.model().find_block("block")).y(), -26487.0 / 7e9, 1e-3 * 26487.0 / 7e9);
+    scene.joints[0].tension = 26900.0;
+    scene.damping.preset = DampingPreset::dynamic;
+    CaseRun falls(scene);
+    falls.advance(20000);
+    EXPECT_GT(falls.state().blocks.displacement(falls.model().find_block("block")).norm(), 0.5);
+}
+
+/// A push of 30 kN for a moment breaks a joint that bears 50 kN at rest: then T_r counts.
+TEST(JointForces, ABrokenJointHasItsResidualTension)
+{
+    for (const double residual : {0.0, 20000.0, 30000.0})
+    {
+        CaseDef scene = hung_block(50000.0, Method::force);
+        scene.joints[0].residual_tension = residual;
+        scene.loads = {{.blocks = {"block"}, .force = {0.0, -30000.0}, .interval = {.from_cycle = 100, .until_cycle = 400}}};
+        CaseRun run(scene);
+        run.advance(20000);
+        const double way = run.state().blocks.displacement(run.model().find_block("block")).norm();
+        if (residual > 26487.0)
+            EXPECT_LT(way, 0.1) << residual;
+        else
+            EXPECT_GT(way, 0.5) << residual;
+    }
+}
+}  // namespace
+}  // namespace hdem
