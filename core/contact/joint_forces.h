@@ -23,9 +23,9 @@ class RowLanes
 
     std::array<JointKind, lanes> kind{};
     std::array<CurveKind, lanes> curve{};
-    Mask has_memory{};        ///< the others are plain
-    Mask is_linear{};         ///< of these: with a linear normal spring
-    Mask is_bonded{};         ///< JointRow::is_bonded
+    Mask has_memory{};  ///< the others are plain
+    Mask is_linear{};   ///< of these: with a linear normal spring
+    Mask is_bonded{};   ///< JointRow::is_bonded
     bool any = false;         ///< one of the four has a memory
     bool is_uniform = false;  ///< all have, and the same law and curve
     Pack reach = 0.0, torn_reach = 0.0;
