@@ -27,10 +27,10 @@ auto with_curve(CurveKind kind, const Use& use)
     return use(Linear{});
 }
 
-double barton_peak(const JointNumbers& n, double stress)
+double barton_roughness(const JointNumbers& n, double stress)
 {
     const double free = n[BartonBandis::roughness] * (n[BartonBandis::log_strength] - log(max(stress, 1.0)));
-    return stress * tan(n[BartonBandis::residual_friction] + min(max(free, 0.0), n[BartonBandis::greatest_roughness]));
+    return min(max(free, 0.0), n[BartonBandis::greatest_roughness]);
 }
 }  // namespace
 
@@ -47,6 +47,24 @@ NormalState normal_state(const JointRow& row, double closure)
                           const BasicCurvePoint<double> p = decltype(curve)::at(row.numbers, closure);
                           return NormalState{p.stress, p.stiffness, p.energy};
                       });
+}
+
+JointMemory drawn_memory(const JointRow& row, double normal_stress, double shear_stress)
+{
+    const double broken = row.begins_broken ? 1.0 : 0.0;
+    JointMemory memory{.state = broken, .broken = broken};
+    if (row.kind != JointKind::barton_bandis || normal_stress <= 0.0)
+        return memory;
+    const double i = barton_roughness(row.numbers, normal_stress);
+    double low = 0.0, high = 1.0;  // of delta / delta_p
+    for (int k = 0; k < 60; ++k)
+    {
+        const double x = 0.5 * (low + high);
+        const bool bears = normal_stress * tan(BartonBandis::friction_angle(row.numbers, x, i)) >= magnitude(shear_stress);
+        (bears ? high : low) = x;
+    }
+    memory.state = shear_stress == 0.0 ? 0.0 : high * row.numbers[BartonBandis::peak_displacement];
+    return memory;
 }
 
 double damage(const JointRow& row, const JointMemory& memory)
@@ -79,7 +97,7 @@ double peak_strength(const JointRow& row, double stress)
     switch (row.kind)
     {
     case JointKind::barton_bandis:
-        return barton_peak(n, stress);
+        return stress * tan(n[BartonBandis::residual_friction] + barton_roughness(n, stress));
     case JointKind::patton:
         return Patton::strength(n, stress);
     case JointKind::continuously_yielding:

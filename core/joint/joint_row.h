@@ -40,6 +40,9 @@ struct NormalState
 };
 [[nodiscard]] NormalState normal_state(const JointRow& row, double closure);
 
+/// Memory of a joint that bears a shear stress where it is drawn: barton_bandis has been displaced as far as that stress asks for.
+[[nodiscard]] JointMemory drawn_memory(const JointRow& row, double normal_stress, double shear_stress);
+
 /// How far a joint has lost its roughness or its bond: 0 as drawn, 1 nothing left [-].
 [[nodiscard]] double damage(const JointRow& row, const JointMemory& memory);
 

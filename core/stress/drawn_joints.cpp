@@ -18,9 +18,8 @@ void join_drawn_blocks(const Model& model, const std::vector<std::uint8_t>& amon
             continue;
         Contact contact = contacts.get(i);
         contact.law = joint_of(model, contact);
-        const double broken = model.joints.has_memory(contact.law) && model.joints.rows[contact.law].begins_broken ? 1.0 : 0.0;
         for (PointHistory& point : contact.point)
-            point.memory = {.state = broken, .broken = broken};
+            point.memory = model.joints.has_memory() ? drawn_memory(model.joints.rows[contact.law], 0.0, 0.0) : JointMemory{};
         contacts.put(i, contact);
         if (model.insitu.given)
             lock_in_stress(model, state, i);

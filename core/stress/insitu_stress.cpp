@@ -141,6 +141,7 @@ void lock_in_memory(const JointRow& row, double length, double overlap, const Ve
     const double normal = pulls || force.y() > 0.0 ? force.y() / length : 0.0;
     const double closure = normal != 0.0 ? closure_under(row, normal) : std::max(overlap, 0.0);
     const NormalState state = normal_state(row, closure);
+    point.memory = drawn_memory(row, normal, force.x() / length);
     point.normal_force = normal * length;
     point.shear_force = normal != 0.0 ? force.x() : 0.0;
     point.preload = normal != 0.0 ? closure - overlap : 0.0;

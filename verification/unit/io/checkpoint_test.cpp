@@ -4,6 +4,7 @@
 #include "io/checkpoint.h"
 #include "parallel/stages.h"
 #include "verification/scenes/scenes.h"
+#include "verification/unit/sample_joints.h"
 #include "verification/unit/small_run.h"
 
 #include <fmt/ranges.h>
@@ -180,6 +181,22 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfSides)
         run_until(scene, cycle, folder.path());
         for (const int threads : {1, 2, 3})
             EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
+TEST(Checkpoint, GivesTheUnbrokenRunOfEachJointLaw)
+{
+    for (const JointDef& joint : test::sample_joints())
+    {
+        const ScratchFolder folder("checkpoint_laws");
+        CaseDef scene = tunnel(Method::hybrid);
+        scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
+        scene.joints = {joint};
+        const Ended unbroken = run_unbroken(scene);
+        run_until(scene, 310, folder.path());
+        for (const int threads : {1, 2, 3, 8})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken)
+                << "law " << static_cast<int>(joint.law) << ", threads " << threads;
     }
 }
 

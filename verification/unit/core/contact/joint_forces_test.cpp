@@ -3,6 +3,7 @@
 #include "core/contact/contact_report.h"
 #include "core/joint/coulomb_residual.h"
 #include "verification/unit/case_run.h"
+#include "verification/unit/sample_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -15,18 +16,6 @@ namespace
 using test::CaseRun;
 
 constexpr double speed = 0.01, pressure = 1e6;  // [m/s], [Pa]
-
-JointDef bedding()
-{
-    return {.name = "default",
-            .normal_stiffness = 1e10,
-            .shear_stiffness = 1e9,
-            .friction_angle_deg = 30.0,
-            .cohesion = 1e5,
-            .residual_friction_angle_deg = 25.0,
-            .dilation_angle_deg = 10.0,
-            .dilation_limit = 0.005};
-}
 
 /// A block of `width` under constant pressure on `pieces` fixed ones, held against turning and moved to the right.
 CaseDef shear_box(const JointDef& joint, int pieces = 1, double width = 1.0)
@@ -79,7 +68,7 @@ TEST(JointForces, PeakDropAndDilationInDirectShear)
 {
     for (const auto& [pieces, width] : {std::pair{1, 1.0}, std::pair{2, 8.0}, std::pair{16, 16.0}})
     {
-        CaseRun run(shear_box(bedding(), pieces, width));
+        CaseRun run(shear_box(test::sample_joints()[0], pieces, width));
         const double peak = 1e5 + pressure * std::tan(radians(30.0));
         run.advance(cycles_until(run, 0.99 * peak / 1e9));
         Box box = look(run, width);
@@ -98,48 +87,7 @@ TEST(JointForces, PeakDropAndDilationInDirectShear)
 /// Ten cycles of +-5 mm.
 TEST(JointForces, KeepTheLedgerOverTenReversals)
 {
-    const auto laws = std::to_array<JointDef>({bedding(),
-                                               {.name = "default",
-                                                .law = JointLaw::barton_bandis,
-                                                .shear_stiffness = 1e9,
-                                                .residual_friction_angle_deg = 30.0,
-                                                .jrc = 10.0,
-                                                .jcs = 1e8,
-                                                .length = 1.0,
-                                                .rock_strength = 1.2e8},
-                                               {.name = "default",
-                                                .law = JointLaw::patton,
-                                                .normal_stiffness = 1e10,
-                                                .shear_stiffness = 5e9,
-                                                .friction_angle_deg = 30.0,
-                                                .cohesion = 1e6,
-                                                .residual_friction_angle_deg = 35.0,
-                                                .asperity_angle_deg = 15.0},
-                                               {.name = "default",
-                                                .law = JointLaw::continuously_yielding,
-                                                .normal_stiffness = 1e10,
-                                                .shear_stiffness = 1e9,
-                                                .friction_angle_deg = 30.0,
-                                                .mobilised_angle_deg = 50.0,
-                                                .wear_length = 5e-4},
-                                               {.name = "default",
-                                                .law = JointLaw::plesha,
-                                                .normal_stiffness = 1e10,
-                                                .shear_stiffness = 2e9,
-                                                .friction_angle_deg = 30.0,
-                                                .asperity_angle_deg = 15.0,
-                                                .wear = 2e-5},
-                                               {.name = "default",
-                                                .law = JointLaw::saeb_amadei,
-                                                .normal_stiffness = 1e10,
-                                                .shear_stiffness = 5e9,
-                                                .friction_angle_deg = 30.0,
-                                                .greatest_closure = 3e-4,
-                                                .asperity_angle_deg = 15.0,
-                                                .transition_stress = 5e7,
-                                                .rock_cohesion = 5e6,
-                                                .rock_friction_angle_deg = 40.0}});
-    for (const JointDef& joint : laws)
+    for (const JointDef& joint : test::sample_joints())
     {
         CaseDef scene = shear_box(joint);
         scene.loads.pop_back();
