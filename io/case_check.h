@@ -28,6 +28,8 @@ class CaseCheck
             blocks_.insert(block.name);
         for (const auto& excavation : def.excavations)
             excavations_.insert(excavation.name);
+        for (const auto& stage : def.stages)
+            stages_.insert(stage.name);
     }
 
   protected:
@@ -69,6 +71,6 @@ class CaseCheck
     const CaseDef& def_;
     const CaseSource& source_;
     CaseProblems& problems_;
-    Names materials_, joints_, blocks_, excavations_;
+    Names materials_, joints_, blocks_, excavations_, stages_;
 };
 }  // namespace hdem

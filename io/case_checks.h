@@ -12,6 +12,8 @@ namespace hdem
 ///
 /// Of domain, joint sets, excavations, blocks, materials and joints, and all names:
 void check_rock_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Of boundaries:
+void check_boundary_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Which numbers the law of each joint takes, and what they may be:
 void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Of loads, settings, stages and histories:

@@ -75,6 +75,7 @@ class RockCheck : public CaseCheck
         std::map<std::string, std::string> rock;
         check_name_list("excavation", "excavation", def_.excavations, rock);
         check_name_list("block", "block", def_.blocks, rock);
+        check_name_list("boundary", "boundary", def_.boundaries, rock);
         std::map<std::string, std::string> faults, regions, sets, stages, histories;
         check_name_list("fault", "fault", def_.faults, faults);
         check_name_list("region", "region", def_.regions, regions);

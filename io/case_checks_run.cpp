@@ -34,6 +34,7 @@ class RunCheck : public CaseCheck
 
     void check_load(const LoadDef& load, const std::string& path, const std::string& object)
     {
+        check_point(load, path, object);
         const bool any = std::any_of(std::begin(effects), std::end(effects),
                                      [&](const char* key) { return given(path + "." + key); });
         if (!any)
@@ -71,6 +72,18 @@ class RunCheck : public CaseCheck
                                   "Fix it with the block's key fixed, or use a force.");
             }
         }
+    }
+
+    void check_point(const LoadDef& load, const std::string& path, const std::string& object)
+    {
+        if (!given(path + ".point"))
+            return;
+        if (!given(path + ".force") && !problems_.has(path + ".force"))
+            problems_.add(path + ".point", object, "point", "belongs to force, which is not given",
+                          "Give force, or remove this key.");
+        if (load.blocks.size() > 1 || std::ranges::count(load.blocks, "*") > 0)
+            problems_.add(path + ".point", object, "point", "is that of one block, and the load names several",
+                          "Write a [[load]] for each block.");
     }
 
     void check_settings()
@@ -111,14 +124,27 @@ class RunCheck : public CaseCheck
             warn("no stage runs until converged under the default damping", "Remove it, or give fraction instead.");
     }
 
+    /// Does a boundary act in the stage before this one, and no more in this one?
+    [[nodiscard]] bool ends_a_boundary(const StageDef& stage) const
+    {
+        if (&stage == def_.stages.data())
+            return false;
+        const StageDef& before = *(&stage - 1);
+        return std::ranges::any_of(def_.boundaries,
+                                   [&](const BoundaryDef& boundary) {
+                                       return std::ranges::count(boundary.stages, before.name) > 0 &&
+                                              std::ranges::count(boundary.stages, stage.name) == 0;
+                                   });
+    }
+
     void check_relaxation(const StageDef& stage, const std::string& path, const std::string& object)
     {
         if (stage.relax_cycles == 0)
             return;
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
-        if (stage.excavate.empty())
-            refuse("nothing is excavated", "Add excavate, or remove relax_cycles.");
+        if (stage.excavate.empty() && !ends_a_boundary(stage))
+            refuse("nothing is excavated, and no boundary ends", "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)
             refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),

@@ -103,7 +103,8 @@ that has an edge on the named side. A stage can fix and free blocks later.
 remove either. Blocks that are cut from the domain get names when they are made; `hdem check` and the block frames show them.
 In a load, `"*"` stands for all blocks that are free at that moment; it can stand beside names.
 
-**Order of stages.** Stages run in the order of the file. At its start a stage first removes what `excavate` names, then fixes, then frees.
+**Order of stages.** Stages run in the order of the file. At its start a stage first ends and begins what acts on the sides ([[boundary]]),
+then removes what `excavate` names, then fixes, then frees.
 Contacts keep their forces from stage to stage. Cycles and seconds count on from the start of the run, also for loads.
 
 **When a load acts.** With `from_cycle = 5000` a load is there from the 5001st cycle on: when 5000 cycles are done. Likewise
@@ -234,6 +235,8 @@ std::string type_column(const KeySpec& key)
         return "true, false or list";
     case ValueType::number_or_text:
         return "number or text";
+    case ValueType::pair_or_text:
+        return "two numbers or text";
     }
     return "";
 }

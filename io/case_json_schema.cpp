@@ -76,6 +76,8 @@ Json value_schema(const KeySpec& key)
         return {{"anyOf", Json::array({Json{{"type", "boolean"}}, list_of(text_schema(key))})}};
     case ValueType::number_or_text:
         return {{"anyOf", Json::array({number_schema(key, "number"), text_schema(key)})}};
+    case ValueType::pair_or_text:
+        return {{"anyOf", Json::array({vector_schema(key, 2), text_schema(key)})}};
     }
     return {};
 }

@@ -49,7 +49,8 @@ std::string kind_of(const TomlNode& node)
 std::string give(const KeySpec& key)
 {
     std::string text = "Give " + describe_type(key);
-    if (const auto range = key.range.describe(); !range.empty() && key.type != ValueType::number_or_text)
+    if (const auto range = key.range.describe();
+        !range.empty() && key.type != ValueType::number_or_text && key.type != ValueType::pair_or_text)
         text += ", " + range;
     return text + (key.example.empty() ? "." : fmt::format(", e.g. {} = {}.", key.name, key.example));
 }
@@ -216,6 +217,8 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
         return value.boolean() != nullptr ? Complaints{} : check_items(key, value, check_item_text);
     case ValueType::number_or_text:
         return value.text() != nullptr ? check_text(key, value) : check_number(key, value);
+    case ValueType::pair_or_text:
+        return value.text() != nullptr ? check_text(key, value) : check_vector(key, value, 2);
     }
     return {};
 }
@@ -254,6 +257,8 @@ std::string describe_type(const KeySpec& key)
         return "true, false or a list from " + choices;
     case ValueType::number_or_text:
         return "a number" + in + " or " + choices;
+    case ValueType::pair_or_text:
+        return "two numbers" + in + " or " + choices;
     }
     return "";
 }

@@ -290,6 +290,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
         add_blocks_file(result, file, files, problems, located);
     const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);
     check_rock_keys(result.def, source, problems);
+    check_boundary_keys(result.def, source, problems);
     check_joint_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
 

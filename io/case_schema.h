@@ -1,6 +1,6 @@
 #pragma once
 /// The one table of every key a case file may have. It drives reading, defaults, range checks, io/case_format.md and the
-/// JSON Schema: to add a key, add the field to core/model/case_def.h and one entry to io/case_schema_*.cpp.
+/// JSON Schema: to add a key, add the field to core/model/case_def.h and one entry to one of the case_schema_*.cpp.
 
 #include "core/model/case_def.h"
 #include "io/toml_tree.h"
@@ -28,7 +28,8 @@ enum class ValueType
     polygon,           ///< [[x, y], [x, y], [x, y], ...]
     line,              ///< [[x, y], [x, y], ...], not closed
     boolean_or_texts,  ///< true, false or a list of choices
-    number_or_text     ///< a number or one of the choices
+    number_or_text,    ///< a number or one of the choices
+    pair_or_text       ///< two numbers or one of the choices
 };
 
 /// Interval that a number, or each number of a list, lies in.

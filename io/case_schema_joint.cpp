@@ -85,11 +85,12 @@ std::vector<KeySpec> coulomb_keys()
              .effect = "c_r: of a broken joint. coulomb.",
              .range = non_negative,
              .default_note = "0; a joint with friction_angle_deg and cohesion alone keeps its cohesion while it slips"}),
-        field<&JointDef::residual_tension>({.name = "residual_tension",
-                                            .unit = "Pa",
-                                            .effect = "T_r: at which a broken joint is held while it opens. coulomb.",
-                                            .range = non_negative,
-                                            .default_note = "0"}),
+        field<&JointDef::residual_tension>(
+            {.name = "residual_tension",
+             .unit = "Pa",
+             .effect = "T_r: at which a broken joint is held while it opens, up to half of the skin of [contact]. coulomb.",
+             .range = non_negative,
+             .default_note = "0"}),
         field<&JointDef::dilation_angle_deg>(
             {.name = "dilation_angle_deg",
              .unit = "deg",

@@ -126,7 +126,7 @@ SectionSpec stage_section()
                   "With excavate: the forces of the removed blocks on their neighbours are taken off evenly over so many cycles. "
                   "0: at once, as in a blast. Rock next to an opening that is made at once swings, slips and opens joints that "
                   "stand when it is made slowly. A stage with until ends after that. A static solution takes them off in eight "
-                  "parts.",
+                  "parts. Likewise for a [[boundary]] that ends.",
               .example = "2000",
               .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::fix>({.name = "fix",

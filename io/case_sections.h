@@ -31,6 +31,9 @@ SectionSpec joint_section();
 // case_schema_stress.cpp
 SectionSpec insitu_section();
 
+// case_schema_boundary.cpp
+SectionSpec boundary_section();
+
 // case_schema_run.cpp: stages and results
 SectionSpec convergence_section();
 SectionSpec stage_section();

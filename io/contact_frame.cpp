@@ -33,11 +33,8 @@ void write_memories(Hdf5Writer& file, const Model& model, const State& state, co
                     const std::vector<ContactReport>& contacts)
 {
     const std::size_t n = contacts.size();
-    const auto mean = [&](double JointMemory::* field)
-    {
-        return [&contacts, field](std::size_t i)
-        { return 0.5 * (contacts[i].memory[0].*field + contacts[i].memory[1].*field); };
-    };
+    const auto mean = [&](double JointMemory::*field)
+    { return [&contacts, field](std::size_t i) { return 0.5 * (contacts[i].memory[0].*field + contacts[i].memory[1].*field); }; };
     const auto damage_of = [&](std::size_t i)
     {
         const JointRow& row = model.joints.rows[state.contacts.law[numbers[i]]];

@@ -1,5 +1,7 @@
 #include "parallel/cycle.h"
 
+#include "core/boundary/servo.h"
+#include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
 #include "core/contact/impulse_law.h"
@@ -76,13 +78,32 @@ void CycleRunner::prepare(const Model& model, const State& state)
         has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
     }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
+    prepare_forces(model, state);
     for (BlockPart& part : partition_.blocks)
+    {
         find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
+        std::erase_if(part.flying, [&](Index b) { return std::ranges::binary_search(part.pushed, b); });
+    }
     work_.loads.resize(state.contacts.stale.size());
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
-    work_.external.assign(rules_.has_loads ? static_cast<std::size_t>(blocks) : 0, {});
     prepared_ = true;
+    prepared_stage_ = state.stage;
     first_evaluation_ = state.cycle;
+}
+
+void CycleRunner::prepare_forces(const Model& model, const State& state)
+{
+    const auto blocks = static_cast<std::size_t>(state.blocks.size());
+    work_.constant = constant_forces(model, state);
+    work_.external = work_.constant;
+    work_.external.resize(rules_.has_loads ? blocks : work_.constant.size());
+    for (BlockPart& part : partition_.blocks)
+    {
+        part.pushed.clear();
+        for (Index b = part.range.begin; !work_.constant.empty() && b < part.range.end; ++b)
+            if (const Triple& force = work_.constant[b]; force.x != 0.0 || force.y != 0.0 || force.w != 0.0)
+                part.pushed.push_back(b);
+    }
 }
 
 Index CycleRunner::find_unstable_contact() const
@@ -101,7 +122,8 @@ bool CycleRunner::found_deep_overlap() const
 Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
     const StageRules rules = find_rules_(model, state);
-    const bool same = prepared_ && rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
+    const bool same = prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) &&
+                      rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
                       rules.has_loads == rules_.has_loads;
     rules_ = rules;
     if (!same)
@@ -153,14 +175,14 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.
     const bool step_changes = state.blocks.step.last != state.blocks.step.next;
-    if (rules_.has_loads)
+    if (rules_.has_loads || rules_.moves_walls)
         team.alone(
             [&]
             {
-                prescribe_motions(model, state.cycle, state.blocks, state.ledger);
-                clear_released_forces(state, work_.external);
-                apply_loads(model, state.cycle, state.blocks, work_.external, work_.loaded);
-                apply_released_forces(model, state, work_.external, work_.released);
+                if (rules_.moves_walls)
+                    drive_servos(model, work_.block_contacts, state);
+                if (rules_.has_loads)
+                    take_loads(model, state);
             });
     clock.lap(CycleStage::update);
 
@@ -192,6 +214,14 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     if (rules_.step.varies || rules_.rest.leaves_out || step_changes)
         team.barrier();  // all read the step and who rests
     return goes_on;
+}
+
+void CycleRunner::take_loads(const Model& model, State& state)
+{
+    prescribe_motions(model, state.cycle, state.blocks, state.ledger);
+    clear_released_forces(state, work_.constant, work_.external);
+    apply_loads(model, state.cycle, state.blocks, work_.constant, work_.external, work_.loaded);
+    apply_released_forces(model, state, work_.external, work_.released);
 }
 
 void CycleRunner::close_cycle(const Model& model, State& state)

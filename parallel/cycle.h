@@ -54,6 +54,8 @@ class CycleRunner
     bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
     void close_cycle(const Model& model, State& state);
     void prepare(const Model& model, const State& state);
+    void prepare_forces(const Model& model, const State& state);
+    void take_loads(const Model& model, State& state);
     [[nodiscard]] Index find_unstable_contact() const;
     [[nodiscard]] StageSamples& samples_of(const Team& team);
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
@@ -74,6 +76,7 @@ class CycleRunner
     FindRules find_rules_;
     StageRules rules_;  ///< of the running stage
     bool prepared_ = false;
+    Index prepared_stage_ = no_index;
     std::int64_t first_evaluation_ = 0;  ///< cycle in which all contacts take part: they were found then, or a run goes on
     bool has_stiff_contacts_ = false;
 };

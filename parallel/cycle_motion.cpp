@@ -1,5 +1,6 @@
 /// The second half of a cycle: velocities, impulses, positions.
 
+#include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 #include "core/motion/flight.h"
 #include "core/motion/integrator.h"
@@ -16,6 +17,7 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
 {
     part.ledger = {};
     part.rest_changed = false;
+    add_work_before(part.pushed, work_.constant, state.blocks, part.ledger);
     VelocityWorks works;
     for (const IndexRange& range : part.active)
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
@@ -30,6 +32,7 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
 
 double CycleRunner::change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo)
 {
+    add_work_after(part.pushed, work_.constant, state.blocks, part.ledger);
     double way = 0.0;
     for (const IndexRange& range : part.active)
         way = std::max(way, update_positions(range, model, state.blocks, pseudo));

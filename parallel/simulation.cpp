@@ -1,5 +1,7 @@
 #include "parallel/simulation.h"
 
+#include "core/boundary/servo.h"
+#include "core/boundary/switch_boundaries.h"
 #include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
@@ -141,13 +143,31 @@ void Simulation::excavate(const std::string& name)
     state_.excavation_cycle = state_.cycle;
 }
 
-void Simulation::change_blocks(const StageDef& stage)
+void Simulation::change_sides(const BoundaryChange& sides)
+{
+    if (!sides.ends.empty() && model_.stages[state_.stage].relax_cycles > 0)
+        release_forces(sides.ends, state_);
+    remove_walls(sides.ends, state_);
+    place_walls(model_, state_);
+    for (const Index block : sides.held)
+        set_mobility(model_, block, false, state_.blocks);
+    for (const Index block : sides.freed)
+        if (state_.blocks.present[block] != 0)
+            set_mobility(model_, block, true, state_.blocks);
+    if (sides.any())
+        state_.contacts_outdated = true;
+}
+
+void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& sides)
 {
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
     std::vector<std::uint8_t> was_fixed;
     for (Index i = 0; i < model_.blocks(); ++i)
         was_fixed.push_back(state_.blocks.is_free(i) ? 0 : 1);
+    for (const Index wall : sides.begins)
+        was_fixed[wall] = 0;  // it touches the rock without force
+    change_sides(sides);
     for (const std::string& name : stage.excavate)
         excavate(name);
     for (const std::string& name : stage.fix)
@@ -158,7 +178,7 @@ void Simulation::change_blocks(const StageDef& stage)
         state_.contacts_outdated = true;
     if (state_.contacts_outdated)
         renew_contacts();
-    if (!stage.free.empty())  // between two fixed blocks there was no contact
+    if (!stage.free.empty() || !sides.freed.empty())  // between two fixed blocks there was no contact
         join_drawn_blocks(model_, was_fixed, state_);
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
@@ -166,6 +186,8 @@ void Simulation::change_blocks(const StageDef& stage)
 void Simulation::begin_stage(Index stage)
 {
     const StageDef& def = model_.stages[stage];
+    const Index before = state_.stage;
+    const BoundaryChange sides = boundary_change(model_, before, stage);
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
@@ -178,8 +200,11 @@ void Simulation::begin_stage(Index stage)
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
     wake_all(state_.blocks);
-    if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty())
-        change_blocks(def);
+    if (def.relax_cycles > 0)
+        release_tractions(model_, before, stage, state_);
+    if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
+        change_blocks(def, sides);
+    start_walls(model_, state_);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);
     for (Index i = 0; i < model_.blocks(); ++i)
@@ -320,6 +345,8 @@ bool Simulation::check_rest()
     }
     if (state_.quiet_since < 0.0)
         state_.quiet_since = state_.time;
+    if (resolve_rules(model_, state_).moves_walls && !servos_press(model_, state_))
+        return false;
     const bool must_last = std::ranges::find(convergence.criteria, "every_block") != convergence.criteria.end();
     return !must_last || state_.time - state_.quiet_since >= convergence.hold_time;
 }

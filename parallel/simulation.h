@@ -19,6 +19,8 @@ struct ContactCounts
     [[nodiscard]] Index closed() const { return points[1] + points[2] + points[3]; }
 };
 
+struct BoundaryChange;
+
 /// Threads to use when the user names no number: OMP_NUM_THREADS, else the processors this process may run on.
 [[nodiscard]] int default_threads();
 
@@ -71,7 +73,8 @@ class Simulation
     void find_default_step();
     [[nodiscard]] bool needs_stable_step() const;
     /// What the stage excavates, fixes and frees.
-    void change_blocks(const StageDef& stage);
+    void change_blocks(const StageDef& stage, const BoundaryChange& sides);
+    void change_sides(const BoundaryChange& sides);
     void excavate(const std::string& name);
     void renew_contacts();
     void solve_statics();

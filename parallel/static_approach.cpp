@@ -1,5 +1,6 @@
 #include "parallel/static_approach.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
 #include "core/stage/rules.h"
@@ -76,7 +77,9 @@ bool approach_balance(const Model& model, State& state, int threads, const Stati
     few.most_iterations = iterations_a_round;
     while (static_cast<int>(ratios.size()) < most_rounds)
     {
-        StaticSearch search(model, state, threads, few);
+        const std::vector<Triple> given = constant_forces(model, state);
+        const std::vector<BlockMotion> from = state.blocks.motion;
+        StaticSearch search(model, state, threads, few, given);
         search.find_contacts();
         search.advance();
         ++outcome.searches;
@@ -86,6 +89,7 @@ bool approach_balance(const Model& model, State& state, int threads, const Stati
             return false;
         search.commit();
         state.ledger.friction += search.friction();
+        state.ledger.load_work += work_of(given, from, state.blocks.motion);
         stop_all(state.blocks);
         if (search.ratio() < near_balance)
             return true;

@@ -1,5 +1,6 @@
 #include "parallel/static_solver.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
 #include "core/energy_ledger.h"
@@ -83,22 +84,16 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
     return outcome;
 }
 
-/// A share of what excavated blocks have given to those that stay.
-std::vector<Triple> share_of_released(const State& state, double share)
+/// Tractions on sides, and a share of what excavated blocks have given to those that stay.
+std::vector<Triple> given_forces(const Model& model, const State& state, double share)
 {
+    if (share == 0.0)
+        return constant_forces(model, state);
     std::vector<Triple> given(static_cast<std::size_t>(state.blocks.size()));
     for (const ReleasedForce& force : state.released)
         given[force.block] = {share * force.x, share * force.y, share * force.moment};
+    add_constant_forces(model, state, given);
     return given;
-}
-
-double work_of(const std::vector<Triple>& given, const std::vector<BlockMotion>& from, const std::vector<BlockMotion>& to)
-{
-    double work = 0.0;
-    for (std::size_t b = 0; b < given.size(); ++b)
-        work += given[b].x * (to[b].x - from[b].x) + given[b].y * (to[b].y - from[b].y) +
-                given[b].w * (to[b].angle - from[b].angle);
-    return work;
 }
 
 /// In balance at each share of the forces of excavated blocks, the last of which is none.
@@ -108,8 +103,7 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
     StaticOutcome all;
     for (int part = 1; part <= parts; ++part)
     {
-        const std::vector<Triple> given = part == parts ? std::vector<Triple>()
-                                                        : share_of_released(trial, 1.0 - static_cast<double>(part) / parts);
+        const std::vector<Triple> given = given_forces(model, trial, 1.0 - static_cast<double>(part) / parts);
         const std::vector<BlockMotion> from = trial.blocks.motion;
         StaticOutcome outcome = search_balance(model, trial, threads, rule, given);
         trial.ledger.load_work += work_of(given, from, trial.blocks.motion);

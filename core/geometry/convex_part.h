@@ -14,7 +14,8 @@ enum EdgeSource : std::int32_t
 {
     edge_internal = -1,  ///< between two convex parts of one block: never touches anything
     edge_plain = -2,     ///< edge of an explicit block or of the domain
-    edge_outline = -3    ///< cut by an excavation outline
+    edge_outline = -3,   ///< cut by an excavation outline
+    edge_wall = -4       ///< of a wall behind a side of the domain
 };
 
 /// Convex, anticlockwise; edge i runs from vertex i to vertex i+1 and came from source[i].

@@ -29,6 +29,20 @@ Shapes permuted(const std::vector<Index>& from, const Shapes& old)
     }
     return shapes;
 }
+void reorder_sides(const std::vector<Index>& to, std::vector<Boundary>& boundaries)
+{
+    for (Boundary& boundary : boundaries)
+    {
+        for (BoundaryFace& face : boundary.faces)
+            face.block = to[face.block];
+        for (BoundaryWall& wall : boundary.walls)
+            wall.block = to[wall.block];
+        for (BoundaryForce& force : boundary.forces)
+            force.block = to[force.block];
+        for (Index& block : boundary.holds)
+            block = to[block];
+    }
+}
 }  // namespace
 
 void reorder_blocks(const std::vector<Index>& user_number, Model& model)
@@ -53,6 +67,7 @@ void reorder_blocks(const std::vector<Index>& user_number, Model& model)
     for (Load& load : model.loads)
         for (Index& block : load.blocks)
             block = to[block];
+    reorder_sides(to, model.boundaries);
     model.user_number = user_number;
     for (std::size_t i = 0; i < user_number.size(); ++i)
         model.slot_of_user[user_number[i]] = static_cast<Index>(i);

@@ -207,6 +207,32 @@ struct InsituDef
     double ratio_offset = 0.0;        ///< horizontal compression besides [Pa]
 };
 
+// ---- sides ----------------------------------------------------------------------------------------------------------
+
+enum class BoundaryKind
+{
+    fixed,     ///< blocks with an edge on the side do not move
+    roller,    ///< a wall without friction
+    stress,    ///< a given traction
+    velocity,  ///< a wall that moves as prescribed
+    servo      ///< a wall that moves until it presses with a given stress
+};
+
+/// [[boundary]]: what holds or presses a side of the domain.
+struct BoundaryDef
+{
+    std::string name;        ///< "boundary1", ... when not given
+    std::string side;        ///< of a rectangle: "left", "right", "bottom" or "top"
+    std::vector<int> edges;  ///< or of domain.polygon, 0 = first to second vertex
+    BoundaryKind kind = BoundaryKind::fixed;
+    bool is_insitu = false;              ///< stress: sigma n of [insitu]
+    std::optional<Vec2> stress;          ///< or compression, and shear along the side anticlockwise [Pa]
+    double target = 0.0;                 ///< servo: compression [Pa]
+    std::optional<double> max_velocity;  ///< servo; not given: convergence.mean_speed [m/s]
+    Vec2 velocity = {0.0, 0.0};          ///< velocity [m/s]
+    std::vector<std::string> stages;     ///< in which it acts; empty: all
+};
+
 // ---- loads, method, time --------------------------------------------------------------------------------------------
 
 /// From when until when, in cycles or in seconds (both may be open).
@@ -223,7 +249,8 @@ struct LoadDef
 {
     std::vector<std::string> blocks;   ///< names; "*" = all free blocks
     Vec2 acceleration = {0.0, 0.0};    ///< body acceleration [m/s2]
-    Vec2 force = {0.0, 0.0};           ///< at the centroid, per metre of thickness [N]
+    Vec2 force = {0.0, 0.0};           ///< per metre of thickness [N]
+    std::optional<Vec2> point;         ///< of the block as drawn, where the force acts; not given: the centroid [m]
     double moment = 0.0;               ///< [N m]
     std::optional<double> velocity_x;  ///< prescribed, needs the block's x to be fixed [m/s]
     std::optional<double> velocity_y;
@@ -360,6 +387,7 @@ struct CaseDef
     std::vector<MaterialDef> materials;
     std::vector<JointDef> joints;
     InsituDef insitu;
+    std::vector<BoundaryDef> boundaries;
     Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
     std::vector<LoadDef> loads;
     ContactDef contact;

@@ -1,5 +1,7 @@
 #include "core/model/model.h"
 
+#include "core/geometry/convex_part.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,8 @@ namespace hdem
 {
 Index JointTable::find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const
 {
+    if (std::min(source_a, source_b) == edge_wall)
+        return of_walls;
     // Two edges of two sets: the set listed first, whichever block's edge is the reference.
     for (const std::int32_t source : {std::min(source_a, source_b), std::max(source_a, source_b)})
         if (source >= 0 && of_joint_set[source] != no_index)

@@ -7,6 +7,7 @@
 
 #include "core/joint/coulomb_slip.h"
 #include "core/joint/joint_row.h"
+#include "core/model/boundary.h"
 #include "core/model/case_def.h"
 #include "core/state/blocks.h"
 
@@ -40,11 +41,13 @@ struct JointTable
 {
     std::vector<std::string> names;
     std::vector<CoulombSlip> laws;
-    std::vector<JointRow> rows;       ///< per law: what it needs beyond that; empty where all are plain
-    std::vector<Index> unbonded;      ///< per law: the same without cohesion, tension and roughness, for blocks that have met since the start
+    std::vector<JointRow> rows;  ///< per law: what it needs beyond that; empty where all are plain
+    std::vector<Index>
+        unbonded;  ///< per law: the same without cohesion, tension and roughness, for blocks that have met since the start
     std::vector<Index> of_joint_set;  ///< per joint set, and for all traces: law, or no_index
     std::vector<Index> of_materials;  ///< materials x materials: law
     Index materials = 0;
+    Index of_walls = no_index;  ///< law of the walls of [[boundary]], on whatever they press
 
     [[nodiscard]] bool has_memory() const { return !rows.empty(); }
     [[nodiscard]] bool has_memory(Index law) const { return !rows.empty() && rows[law].has_memory(); }
@@ -59,6 +62,7 @@ struct Load
     std::vector<Index> blocks;
     Vec2 acceleration = {0.0, 0.0};          ///< [m/s2]
     Vec2 force = {0.0, 0.0};                 ///< [N]
+    std::vector<Vec2> arm;                   ///< of the force, per block, in its own frame; empty: it acts at the centroids [m]
     double moment = 0.0;                     ///< [N m]
     std::optional<double> velocity_x;        ///< [m/s]
     std::optional<double> velocity_y;        ///< [m/s]
@@ -103,6 +107,7 @@ struct Model
     std::vector<std::string> excavation_names;
     std::vector<std::string> joint_set_names;  ///< by number of EdgeSources, without the traces
     InsituField insitu;
+    std::vector<Boundary> boundaries;
     JointTable joints;
     std::vector<Load> loads;
     std::vector<StageDef> stages;

@@ -41,7 +41,8 @@ void for_springs(const Model& model, const Blocks& blocks, const Contacts& conta
     {
         const TouchPoint& p = touch.point[k];
         use(touch, k,
-            ContactSpring{present_stiffness(model, contacts, contact, k) * length, Vec3(-touch.ey, touch.ex, p.ref_t), Vec3(-touch.ey, touch.ex, p.inc_t)},
+            ContactSpring{present_stiffness(model, contacts, contact, k) * length, Vec3(-touch.ey, touch.ex, p.ref_t),
+                          Vec3(-touch.ey, touch.ex, p.inc_t)},
             ContactSpring{joint.shear_stiffness * length, Vec3(touch.ex, touch.ey, -p.ref_m), Vec3(touch.ex, touch.ey, -p.inc_m)});
     }
 }

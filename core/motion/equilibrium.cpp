@@ -34,15 +34,22 @@ double rim_speed(Index block, const Model& model, const Blocks& blocks)
 
 namespace
 {
-/// Loads on each block of `range` that acted in the last cycle [N].
-std::vector<Vec2> loads_on(IndexRange range, const Model& model, std::int64_t cycle)
+/// Loads on each block of `range` that acted in the last cycle [N]. Tractions on sides count only without gravity: they are part of the stress in the rock, beside which
+/// its weight is small.
+std::vector<Vec2> loads_on(IndexRange range, const Model& model, const State& state)
 {
+    const std::int64_t cycle = state.cycle;
     std::vector<Vec2> loads(static_cast<std::size_t>(range.size()), Vec2::Zero());
     for (const Load& load : model.loads)
         if (load.from < cycle && cycle <= load.until)
             for (const Index i : load.blocks)
                 if (i >= range.begin && i < range.end)
                     loads[i - range.begin] += model.mass[i] * load.acceleration + load.force;
+    if (model.gravity.isZero())
+        for (const Boundary& boundary : model.boundaries)
+            for (const BoundaryForce& force : boundary.forces)
+                if (boundary.acts(state.stage) && force.block >= range.begin && force.block < range.end)
+                    loads[force.block - range.begin] += Vec2(force.x, force.y);
     return loads;
 }
 }  // namespace
@@ -50,7 +57,7 @@ std::vector<Vec2> loads_on(IndexRange range, const Model& model, std::int64_t cy
 void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums)
 {
     const Blocks& blocks = state.blocks;
-    const std::vector<Vec2> loads = loads_on(range, model, state.cycle);
+    const std::vector<Vec2> loads = loads_on(range, model, state);
     const bool only_standing = which == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {

@@ -9,6 +9,13 @@ bool acts(const Load& load, std::int64_t cycle)
     return cycle >= load.from && cycle < load.until;
 }
 
+/// Of a force about the centroid. Its arm turns with the block [N m].
+double moment_of(const Vec2& force, const Vec2& arm, const BlockMotion& motion)
+{
+    const Vec2 turned(motion.c * arm.x() - motion.s * arm.y(), motion.s * arm.x() + motion.c * arm.y());
+    return cross(turned, force);
+}
+
 /// Set one prescribed component. @return change of kinetic energy [J]
 double prescribe(double& velocity, const std::optional<double>& value, double mass)
 {
@@ -43,26 +50,28 @@ void prescribe(const Load& load, const Model& model, Blocks& blocks, EnergyLedge
 }
 }  // namespace
 
-void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, std::vector<Triple>& external,
-                 std::vector<Triple>& before)
+void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& constant,
+                 std::vector<Triple>& external, std::vector<LoadedBlock>& before)
 {
     before.clear();
     for (const Load& load : model.loads)
         for (const Index i : load.blocks)
-            external[i] = {};
+            external[i] = constant.empty() ? Triple{} : constant[i];
     for (const Load& load : model.loads)
     {
         if (!acts(load, cycle))
             continue;
-        for (const Index i : load.blocks)
+        for (std::size_t k = 0; k < load.blocks.size(); ++k)
         {
+            const Index i = load.blocks[k];
             if (blocks.present[i] == 0)
                 continue;
+            const BlockMotion& motion = blocks.motion[i];
+            const double moment = load.moment + (load.arm.empty() ? 0.0 : moment_of(load.force, load.arm[k], motion));
             external[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
             external[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
-            external[i].w += load.moment;
-            const BlockMotion& motion = blocks.motion[i];
-            before.push_back({motion.vx, motion.vy, motion.w});
+            external[i].w += moment;
+            before.push_back({motion.vx, motion.vy, motion.w, moment});
         }
     }
 }
@@ -78,7 +87,7 @@ void prescribe_motions(const Model& model, std::int64_t cycle, Blocks& blocks, E
             prescribe(load, model, blocks, ledger, Prescription::acts);
 }
 
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& before,
+void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<LoadedBlock>& before,
                    EnergyLedger& ledger)
 {
     std::size_t at = 0;
@@ -89,11 +98,11 @@ void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks,
                 if (blocks.present[i] == 0)
                     continue;
                 const BlockMotion& motion = blocks.motion[i];
-                const Triple& was = before[at++];
+                const LoadedBlock& was = before[at++];
                 const Vec2 force = model.mass[i] * load.acceleration + load.force;
-                const auto power = [&](double x, double y, double w) { return force.x() * x + force.y() * y + load.moment * w; };
+                const auto power = [&](double x, double y, double w) { return force.x() * x + force.y() * y + was.moment * w; };
                 const double after = 0.5 * blocks.step.next * power(motion.vx, motion.vy, motion.w);
-                ledger.load_work += 0.5 * blocks.step.last * power(was.x, was.y, was.w) + after;
+                ledger.load_work += 0.5 * blocks.step.last * power(was.vx, was.vy, was.w) + after;
                 ledger.coasting -= after;
             }
 }

@@ -82,10 +82,10 @@ std::int64_t released_until(const Model& model, const State& state)
     return state.stage_begin_cycle + model.stages[state.stage].relax_cycles;
 }
 
-void clear_released_forces(const State& state, std::vector<Triple>& external)
+void clear_released_forces(const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external)
 {
     for (const ReleasedForce& force : state.released)
-        external[force.block] = {};
+        external[force.block] = constant.empty() ? Triple{} : constant[force.block];
 }
 
 void apply_released_forces(const Model& model, const State& state, std::vector<Triple>& external, std::vector<Triple>& before)

@@ -16,8 +16,8 @@ void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 /// The cycle from which on nothing is left of them.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);
 
-/// No force on their blocks in `external`: before loads and released forces are put there.
-void clear_released_forces(const State& state, std::vector<Triple>& external);
+/// No force on their blocks in `external` but the `constant` ones (none: empty): before loads and released forces are put there.
+void clear_released_forces(const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external);
 
 /// What is left of them in this cycle, added to `external`, one entry a block. In the n-th cycle of the stage
 ///

@@ -1,5 +1,6 @@
 #include "core/rock/build_model.h"
 
+#include "core/boundary/resolve_boundaries.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 namespace hdem
 {
@@ -34,7 +37,13 @@ BlockMoments block_moments(const RockBlock& block)
     return moments;
 }
 
-Box bounding_box_of(const std::vector<RockBlock>& blocks)
+/// Of the rock, without walls of sides.
+std::span<const RockBlock> rock_of(const RockMass& rock)
+{
+    return {rock.blocks.data(), rock.blocks.size() - rock.walls.size()};
+}
+
+Box bounding_box_of(std::span<const RockBlock> blocks)
 {
     Box box = bounding_box(blocks.front().parts.front().vertices);
     for (const RockBlock& block : blocks)
@@ -47,18 +56,28 @@ Box bounding_box_of(const std::vector<RockBlock>& blocks)
 }
 
 /// A model far from the user's origin would lose digits of every centroid.
-void move_blocks(std::vector<RockBlock>& blocks, const Vec2& way)
+void move_blocks(RockMass& rock, const Vec2& way)
 {
-    for (RockBlock& block : blocks)
+    const auto move = [&](SideEdge& edge)
+    {
+        edge.from += way;
+        edge.to += way;
+    };
+    for (RockBlock& block : rock.blocks)
+    {
         for (ConvexPart& part : block.parts)
             for (Vec2& vertex : part.vertices)
                 vertex += way;
+        std::ranges::for_each(block.sides, move);
+    }
+    for (RockWall& wall : rock.walls)
+        move(wall.edge);
 }
 
 /// Eq. (28): model area over the area of a block, here the mean one. The model's width and height are those of the smallest
 /// rectangle around it: along the axes of x and y a turned model would have another threshold.
 /// @param origin  of the model in the blocks' coordinates
-double size_ratio(const std::vector<RockBlock>& blocks, const Vec2& origin, double mean_size)
+double size_ratio(std::span<const RockBlock> blocks, const Vec2& origin, double mean_size)
 {
     SmallestRectangle around;
     for (const RockBlock& block : blocks)
@@ -93,6 +112,7 @@ void add_part(Shapes& shapes, const ConvexPart& part, const Vec2& centroid, Inde
     shapes.part_radius.push_back(0.5 * (high - low).norm());
 }
 
+/// @param density  0 of a wall, which nothing but its side moves
 void add_block(Model& model, const RockBlock& block, const BlockMoments& moments, double density, Index material)
 {
     const Index number = model.blocks();
@@ -102,11 +122,22 @@ void add_block(Model& model, const RockBlock& block, const BlockMoments& moments
     model.area.push_back(moments.of.area);
     model.mass.push_back(density * moments.of.area);
     model.inertia.push_back(density * moments.of.polar);
-    model.full_inertia.push_back({1.0 / model.mass.back(), 1.0 / model.mass.back(), 1.0 / model.inertia.back(), 0.0});
+    model.full_inertia.push_back(
+        density > 0.0 ? BlockInertia{1.0 / model.mass.back(), 1.0 / model.mass.back(), 1.0 / model.inertia.back(), 0.0}
+                      : BlockInertia{});
     model.radius.push_back(moments.radius);
     for (const ConvexPart& part : block.parts)
         add_part(model.shapes, part, moments.of.centroid, number);
     model.shapes.part_begin.push_back(model.shapes.parts());
+}
+
+void add_law_of_walls(Index standard, JointTable& table)
+{
+    table.of_walls = static_cast<Index>(table.laws.size());
+    table.laws.push_back(law_of_walls(table.laws[standard]));
+    table.unbonded.push_back(table.of_walls);
+    if (table.has_memory())
+        table.rows.emplace_back();
 }
 
 void add_joints(const CaseDef& def, Model& model)
@@ -118,6 +149,8 @@ void add_joints(const CaseDef& def, Model& model)
     for (std::size_t j = 0; j < def.joints.size(); ++j)
         if (def.joints[j].name == "default")
             fallback = static_cast<Index>(j);
+    if (!def.boundaries.empty())
+        add_law_of_walls(fallback, table);
     table.of_materials.assign(static_cast<std::size_t>(n * n), fallback);
     const auto joint_named = [&](const std::string& name)
     {
@@ -209,7 +242,7 @@ Setup build_model(const CaseDef& def)
         throw InputError(Problem{.key = "domain",
                                  .text = "rock mass: blocks = 0 (nothing to compute). Give a [domain] or at least one [[block]]."});
     Model& model = setup.model;
-    Box box = bounding_box_of(rock.blocks);
+    Box box = bounding_box_of(rock_of(rock));
     model.title = def.title;
     // A whole number of metres, so that subtracting it is exact for coordinates of up to 1e9 m given to a micrometre.
     model.origin = (0.5 * (box.low + box.high)).array().round();
@@ -220,7 +253,7 @@ Setup build_model(const CaseDef& def)
     Vec2 origin = model.origin;
     if (origin.norm() > extent.norm())
     {
-        move_blocks(rock.blocks, -origin);
+        move_blocks(rock, -origin);
         box = {box.low - origin, box.high - origin};
         origin = {0.0, 0.0};
     }
@@ -238,8 +271,9 @@ Setup build_model(const CaseDef& def)
     for (const Index user : order)
     {
         const Index material = material_number(def, rock.blocks[user].material);
-        add_block(model, rock.blocks[user], moments[user], def.materials[material].density, material);
-        total_area += moments[user].of.area;
+        const bool is_rock = static_cast<std::size_t>(user) < rock_of(rock).size();
+        add_block(model, rock.blocks[user], moments[user], is_rock ? def.materials[material].density : 0.0, material);
+        total_area += is_rock ? moments[user].of.area : 0.0;
     }
     model.user_number = order;
     model.slot_of_user.resize(order.size());
@@ -260,11 +294,12 @@ Setup build_model(const CaseDef& def)
         const std::string& material = def.domain.given ? def.domain.material : rock.blocks.front().material;
         model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, def.gravity, model.origin);
     }
-    model.mean_size = std::sqrt(total_area / static_cast<double>(order.size()));
+    model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
     add_laws(def,
              {.normal_stress = expected_stress(def, model.insitu, box.low.y() - origin.y(), box.high.y() - origin.y()),
               .block_size = model.mean_size,
-              .restitution = def.contact.restitution},
+              .restitution = def.contact.restitution,
+              .reach = 0.5 * def.contact.skin * model.mean_size},
              model.joints);
     add_joints(def, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
@@ -279,22 +314,24 @@ Setup build_model(const CaseDef& def)
     model.histories = def.histories;
 
     add_initial_state(rock, order, moments, origin, model, setup.state);
+    std::vector<Problem> problems = resolve_boundaries(def, rock, origin, model, setup.state.blocks);
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
-    const double smallest = smallest_free_mass(model, setup.state.blocks);
+    const Blocks free_at_times = with_freed_sides(model, setup.state.blocks);
+    const double smallest = smallest_free_mass(model, free_at_times);
     const double stiffest = greatest_stiffness(model.joints);
     model.paper_time_step = paper_time_step(smallest, stiffest, def.time.fraction);
     model.default_time_step = takes_paper_step(def) ? model.paper_time_step
-                                                    : default_time_step(model, setup.state.blocks, stiffest, def.time.fraction);
+                                                    : default_time_step(model, free_at_times, stiffest, def.time.fraction);
     model.time_step = def.time.step.value_or(model.default_time_step);
     setup.state.blocks.step = {model.time_step, model.time_step};
     model.is_driven = is_driven(def);
     model.has_step = def.time.step.has_value();
     model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale
-                                                        : size_ratio(rock.blocks, origin, model.mean_size);
+                                                        : size_ratio(rock_of(rock), origin, model.mean_size);
 
-    std::vector<Problem> problems = resolve_names(def, model, setup.state.blocks);
+    std::ranges::move(resolve_names(def, model, setup.state.blocks), std::back_inserter(problems));
     if (!std::isfinite(smallest))
         problems.push_back(
             {.key = "domain.fixed",

@@ -131,10 +131,9 @@ JointRow row_of(const JointDef& joint, const JointSurroundings& around)
     if (row.kind != JointKind::coulomb)
         return row;
     row.residual_cohesion = joint.residual_cohesion.value_or(0.0);
-    constexpr double however_far = 1.0;
     row.tension = joint.tension.value_or(0.0);
-    row.reach = however_far;
-    row.torn_reach = joint.residual_tension.value_or(0.0) > 0.0 ? however_far : 0.0;
+    row.reach = around.reach;
+    row.torn_reach = joint.residual_tension.value_or(0.0) > 0.0 ? around.reach : 0.0;
     row.is_bonded = joint.cohesion > 0.0 || row.tension > 0.0;
     row.begins_broken = joint.initially == JointStart::broken;
     return row;

@@ -12,6 +12,7 @@ struct JointSurroundings
     double normal_stress = 0.0;  ///< greatest that is expected, where the joint does not say [Pa]
     double block_size = 0.0;     ///< [m]
     double restitution = 0.0;    ///< [-]
+    double reach = 0.0;          ///< gap up to which a joint may bear tension: contacts must still be tracked there [m]
 };
 
 /// Greatest normal stress that joints of a case are to be ready for: twice that of [insitu] or of the rock's weight, 1 MPa where there is neither [Pa].

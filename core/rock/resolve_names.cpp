@@ -60,13 +60,14 @@ class Resolver
         Load load{.blocks = {},
                   .acceleration = from.acceleration,
                   .force = from.force,
+                  .arm = {},
                   .moment = from.moment,
                   .velocity_x = from.velocity_x,
                   .velocity_y = from.velocity_y,
                   .angular_velocity = from.angular_velocity};
         for (const std::string& name : from.blocks)
         {
-            if (name == "*")
+            if (name == "*")  // no walls: they are not free
             {
                 for (Index i = 0; i < model_.blocks(); ++i)
                     if (blocks_.is_free(i))
@@ -89,6 +90,14 @@ class Resolver
             need_fixed(load.velocity_y.has_value(), inertia.inverse_mass_y, "velocity_y", "y");
             need_fixed(load.angular_velocity.has_value(), inertia.inverse_inertia, "angular_velocity", "rotation");
         }
+        if (from.point)
+            for (const Index i : load.blocks)
+            {
+                load.arm.push_back(*from.point - model_.origin - Vec2(blocks_.motion[i].x, blocks_.motion[i].y));
+                if (!has_point(i, load.arm.back()))
+                    fail(key + ".point", "load on block \"" + model_.name[i] +
+                                             "\": point (it is not in the block as drawn). Give a point of the block.");
+            }
         const auto cycle_of = [&](double time)
         {
             const double cycle = std::ceil(time / model_.time_step * (1.0 - 1e-12));
@@ -101,6 +110,21 @@ class Resolver
             warn(key, "load: acts from cycle " + std::to_string(load.from) + " until cycle " + std::to_string(load.until) +
                           " (never). Check its times.");
         model_.loads.push_back(std::move(load));
+    }
+
+    /// In one of its parts, or on the outline up to a millionth of its size?
+    [[nodiscard]] bool has_point(Index block, const Vec2& arm) const
+    {
+        const Shapes& shapes = model_.shapes;
+        for (Index part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part)
+        {
+            bool inside = true;
+            for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
+                inside = inside && cross(shapes.edge_tangent[v], arm - shapes.vertex[v]) >= -1e-6 * model_.size(block);
+            if (inside)
+                return true;
+        }
+        return false;
     }
 
     void check_stage(const StageDef& stage, const std::string& key)

@@ -8,6 +8,7 @@
 #include "core/rock/problem_text.h"
 #include "core/rock/regions.h"
 #include "core/rock/rock_checks.h"
+#include "core/rock/side_walls.h"
 #include "core/rock/slivers.h"
 #include "core/rock/start_mass.h"
 #include "core/rock/weld.h"
@@ -28,36 +29,18 @@ struct Domain
 {
     Polygon polygon;
     std::set<Index> fixed_edges;
+    std::vector<std::set<Index>> boundary_edges;  ///< per [[boundary]]
 };
 
-bool is_on_side(const Vec2& a, const Vec2& b, const Box& box, const std::string& side)
+Domain make_domain(const CaseDef& def)
 {
-    const double slack = 1e-9 * (box.high - box.low).maxCoeff();
-    const auto on = [slack](double a_value, double b_value, double limit)
-    { return std::abs(a_value - limit) <= slack && std::abs(b_value - limit) <= slack; };
-    return (side == "left" && on(a.x(), b.x(), box.low.x())) || (side == "right" && on(a.x(), b.x(), box.high.x())) ||
-           (side == "bottom" && on(a.y(), b.y(), box.low.y())) || (side == "top" && on(a.y(), b.y(), box.high.y()));
-}
-
-Domain make_domain(const DomainDef& def)
-{
-    Domain domain{domain_polygon(def), {}};
+    Domain domain{domain_polygon(def.domain), {}, {}};
     const bool reversed = make_anticlockwise(domain.polygon);
-    const std::size_t n = domain.polygon.size();
-    const Box box = bounding_box(domain.polygon);
-    for (std::size_t i = 0; i < n; ++i)
+    domain.fixed_edges = edges_of(domain.polygon, reversed, def.domain.fixed, def.domain.fixed_edges);
+    for (const BoundaryDef& boundary : def.boundaries)
     {
-        const std::size_t as_given = reversed ? (2 * n - 2 - i) % n : i;
-        bool is_fixed = std::find(def.fixed_edges.begin(), def.fixed_edges.end(), static_cast<int>(as_given)) !=
-                        def.fixed_edges.end();
-        for (const std::string& side : def.fixed)
-        {
-            is_fixed = is_fixed || is_on_side(domain.polygon[i], domain.polygon[next(i, n)], box, side);
-        }
-        if (is_fixed)
-        {
-            domain.fixed_edges.insert(static_cast<Index>(i));
-        }
+        const std::vector<std::string> sides(boundary.side.empty() ? 0 : 1, boundary.side);
+        domain.boundary_edges.push_back(edges_of(domain.polygon, reversed, sides, boundary.edges));
     }
     return domain;
 }
@@ -141,9 +124,17 @@ RockBlock finished(CutBlock& from, const Regions& regions, const Domain& domain)
         ConvexPart out{std::move(part.vertices), {}};
         out.vertices.shrink_to_fit();
         out.source.reserve(part.edges.size());
-        for (const EdgeTag& edge : part.edges)
+        for (std::size_t i = 0; i < part.edges.size(); ++i)
         {
+            const EdgeTag& edge = part.edges[i];
             out.source.push_back(edge.source);
+            for (std::size_t side = 0; edge.source == edge_plain && side < domain.boundary_edges.size(); ++side)
+            {
+                if (domain.boundary_edges[side].count(edge.chord) > 0)
+                {
+                    block.sides.push_back({static_cast<Index>(side), out.vertices[i], out.vertices[next(i, out.vertices.size())]});
+                }
+            }
             is_fixed = is_fixed || (edge.source == edge_plain && domain.fixed_edges.count(edge.chord) > 0);
         }
         block.parts.push_back(std::move(out));
@@ -252,9 +243,10 @@ RockMass generate_rock_mass(const CaseDef& def)
         throw InputError(std::move(problems));
     }
     RockMass rock;
+    Domain domain;
     if (def.domain.given)
     {
-        const Domain domain = make_domain(def.domain);
+        domain = make_domain(def);
         rock.domain_area = signed_area(domain.polygon);
         CutMass mass = start_mass(def, domain.polygon, rock);
         const Regions regions(def, domain.polygon);
@@ -268,7 +260,9 @@ RockMass generate_rock_mass(const CaseDef& def)
         add_generated(def, domain, regions, mass, rock);
         warn_of_small_blocks(def, rock);
     }
+    const double mean_size = std::sqrt(rock.domain_area / static_cast<double>(std::max<std::size_t>(rock.blocks.size(), 1)));
     add_explicit_blocks(def, rock);
+    add_walls(def, domain.polygon, domain.boundary_edges, mean_size, rock);
     return rock;
 }
 }  // namespace hdem

@@ -12,6 +12,21 @@
 
 namespace hdem
 {
+/// An edge of a block on a side of the domain; it runs anticlockwise around the domain.
+struct SideEdge
+{
+    Index boundary = no_index;  ///< number of the [[boundary]] of that side
+    Vec2 from = {0.0, 0.0};     ///< [m]
+    Vec2 to = {0.0, 0.0};
+};
+
+/// A wall behind an edge of the domain, for a [[boundary]].
+struct RockWall
+{
+    SideEdge edge;          ///< of the domain
+    std::size_t block = 0;  ///< position among the blocks
+};
+
 /// A rigid block as cut: a union of convex parts that share internal edges.
 struct RockBlock
 {
@@ -24,11 +39,13 @@ struct RockBlock
     bool fix_rotation = false;
     Vec2 velocity = {0.0, 0.0};     ///< [m/s]
     double angular_velocity = 0.0;  ///< [rad/s]
+    std::vector<SideEdge> sides;    ///< its edges on sides with a [[boundary]]
 };
 
 struct RockMass
 {
-    std::vector<RockBlock> blocks;
+    std::vector<RockBlock> blocks;  ///< walls last
+    std::vector<RockWall> walls;
     double domain_area = 0.0;         ///< of the generated domain [m2], 0 without one
     std::int64_t joints = 0;          ///< traces drawn
     std::int64_t cuts = 0;            ///< block cuts made

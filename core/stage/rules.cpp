@@ -1,5 +1,7 @@
 #include "core/stage/rules.h"
 
+#include "core/boundary/resolve_boundaries.h"
+
 #include <algorithm>
 
 namespace hdem
@@ -51,7 +53,8 @@ StageSetting setting_of(const Model& model, const State& state)
             .has_loads = !model.loads.empty(),
             .releases = !state.released.empty(),
             .is_calm = state.is_calm,
-            .is_driven = model.is_driven,
+            .is_driven = model.is_driven || moves_walls(model, state.stage),
+            .moves_walls = moves_walls(model, state.stage),
             .has_step = model.has_step,
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
 }
@@ -82,6 +85,7 @@ StageRules resolve_rules(const StageSetting& s)
             .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
             .has_loads = s.has_loads || s.releases,
+            .moves_walls = s.moves_walls,
             .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && s.method != Method::impulse && s.gravity > 0.0 &&
                              s.solver == RestSolver::statics};
 }
@@ -116,6 +120,9 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
         setting.preset = stage.damping.value_or(setting.preset);
         setting.until_converged = stage.until_converged;
         setting.solver = stage.solver;
+        setting.moves_walls = std::ranges::any_of(def.boundaries, [&](const BoundaryDef& side)
+                                                  { return moves_walls(side.kind) && acts_in(side, stage.name); });
+        setting.is_driven = is_driven(def) || setting.moves_walls;
         rules.push_back(resolve_rules(setting));
     }
     return rules;

@@ -31,6 +31,7 @@ struct StageSetting
     bool releases = false;         ///< forces of excavated blocks are being taken off
     bool is_calm = false;          ///< no block moves any more; what is out of balance still keeps the stage from ending
     bool is_driven = false;        ///< some motion is prescribed
+    bool moves_walls = false;      ///< by a [[boundary]]
     bool has_step = false;         ///< the case gives the time step
     RestSolver solver = RestSolver::dynamics;
 };
@@ -44,6 +45,7 @@ struct StageRules
     RestRule rest;
     bool ends_at_rest = false;   ///< the stage ends when the rock is at rest
     bool has_loads = false;      ///< there are loads to be looked at in each cycle
+    bool moves_walls = false;    ///< walls of [[boundary]] move
     bool tries_statics = false;  ///< the state of rest is sought by a static solution first, from where the stage begins
 };
 

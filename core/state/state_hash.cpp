@@ -125,13 +125,22 @@ std::uint64_t model_hash(const Model& model)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
     for (const JointRow& row : model.joints.rows)
     {
-        add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension, row.residual_friction,
-             row.residual_cohesion});
+        add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension,
+             row.residual_friction, row.residual_cohesion});
         for (const double number : row.numbers.n)
             add({number});
     }
     // A step that the case does not give may have been lowered for its contacts since the model was made.
     add({model.has_step ? model.time_step : model.paper_time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});
+    for (const Boundary& boundary : model.boundaries)
+    {
+        add({static_cast<double>(boundary.kind), boundary.velocity.x(), boundary.velocity.y(), boundary.target,
+             boundary.max_velocity});
+        for (const std::uint8_t acts : boundary.in_stage)
+            add({static_cast<double>(acts)});
+        for (const BoundaryForce& force : boundary.forces)
+            add({static_cast<double>(model.user_number[force.block]), force.x, force.y, force.moment});
+    }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

@@ -94,13 +94,21 @@ struct Triple
     double x = 0.0, y = 0.0, w = 0.0;
 };
 
+/// A loaded block before the step: its velocities, and the moment of the load about its centroid.
+struct LoadedBlock
+{
+    double vx = 0.0, vy = 0.0, w = 0.0;  ///< [m/s], [rad/s]
+    double moment = 0.0;                 ///< [N m]
+};
+
 struct Workspace
 {
     ContactLoads loads;
     BlockContacts block_contacts;
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
-    std::vector<Triple> external;  ///< forces and moments of the case's loads, per block; empty without loads
-    std::vector<Triple> loaded;    ///< velocities of loaded blocks before the step
-    std::vector<Triple> released;  ///< the same of those on which excavated blocks still act
+    std::vector<Triple> constant;  ///< forces and moments of tractions on sides in the running stage, per block; empty without
+    std::vector<Triple> external;  ///< the same with those of the case's loads; empty without either
+    std::vector<LoadedBlock> loaded;
+    std::vector<Triple> released;  ///< velocities of blocks on which excavated blocks still act, before the step
 };
 }  // namespace hdem

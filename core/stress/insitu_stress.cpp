@@ -1,5 +1,6 @@
 #include "core/stress/insitu_stress.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
 #include "core/geometry/convex_part.h"
 #include "core/joint/normal_closure.h"
@@ -79,7 +80,7 @@ DrawnContact drawn_contact(const Model& model, const State& state, Index i)
 std::string name_of(const Model& model, std::int32_t source)
 {
     if (source < 0)
-        return source == edge_outline ? "outlines" : "other edges";
+        return source == edge_wall ? "walls of sides" : (source == edge_outline ? "outlines" : "other edges");
     const auto set = static_cast<std::size_t>(source);
     return set < model.joint_set_names.size() ? model.joint_set_names[set] : "traces";
 }
@@ -187,14 +188,18 @@ InsituSummary summarise_insitu(const Model& model, const State& state)
     std::map<std::int32_t, StressedSet> sets;
     for (Index b = 0; b < model.blocks(); ++b)
         acting[b].add(model.mass[b] * model.gravity, 0.0);
+    const std::vector<Triple> tractions = constant_forces(model, state);
+    for (std::size_t b = 0; b < tractions.size(); ++b)
+        acting[b].add({tractions[b].x, tractions[b].y}, tractions[b].w);
     const Contacts& contacts = state.contacts;
     for (Index i = 0; i < contacts.size(); ++i)
     {
         const DrawnContact drawn = drawn_contact(model, state, i);
         if (!lie_on_each_other(drawn.touch, drawn.floor))
             continue;
-        const std::int32_t source = std::max(model.shapes.edge_source[contacts.ref_edge[i]],
-                                             model.shapes.edge_source[contacts.inc_edge[i]]);
+        const std::int32_t one = model.shapes.edge_source[contacts.ref_edge[i]];
+        const std::int32_t other = model.shapes.edge_source[contacts.inc_edge[i]];
+        const std::int32_t source = std::min(one, other) == edge_wall ? edge_wall : std::max(one, other);
         StressedSet& set = sets[source];
         const Vec2 t(drawn.touch.ex, drawn.touch.ey), m = turned_left(t);
         const double length = 0.5 * drawn.touch.length;

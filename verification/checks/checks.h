@@ -37,6 +37,8 @@ std::vector<Check> order_checks();
 std::vector<Check> ledger_checks();
 std::vector<Check> recycling_checks();
 std::vector<Check> robust_checks();
+std::vector<Check> insitu_checks();
+std::vector<Check> joint_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();

@@ -146,6 +146,44 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfStressedRock)
     }
 }
 
+/// Walls that begin, end and move, tractions and freed blocks: what acts follows from the number of the stage.
+TEST(Checkpoint, GivesTheUnbrokenRunOfSides)
+{
+    const ScratchFolder folder("checkpoint_sides");
+    CaseDef scene = scenes::joints(16.0, 16.0, 1.0, 3.0);
+    scene.contact.method = Method::hybrid;
+    scene.domain.fixed = {"bottom"};
+    scene.insitu = {.given = true, .surface = 40.0, .ratio = 0.7};
+    const auto add = [&](const char* side, BoundaryKind kind, const std::vector<std::string>& stages)
+    {
+        BoundaryDef& boundary = scene.boundaries.emplace_back();
+        boundary.name = side + std::to_string(scene.boundaries.size());
+        boundary.side = side;
+        boundary.kind = kind;
+        boundary.stages = stages;
+        return &boundary;
+    };
+    add("left", BoundaryKind::roller, {});
+    add("right", BoundaryKind::fixed, {"held"});
+    add("right", BoundaryKind::stress, {"loose"})->stress = Vec2(0.4e6, 0.0);
+    add("right", BoundaryKind::velocity, {"pushed"})->velocity = {-0.01, 0.0};
+    add("top", BoundaryKind::stress, {"held", "loose"})->is_insitu = true;
+    BoundaryDef* servo = add("top", BoundaryKind::servo, {"pushed"});
+    servo->target = 1e6;
+    servo->max_velocity = 0.05;
+    scene.stages = {{.name = "held", .cycles = 300},
+                    {.name = "loose", .until_converged = true, .max_cycles = 400, .relax_cycles = 200},
+                    {.name = "pushed", .cycles = 300}};
+    const Ended unbroken = run_unbroken(scene);
+    EXPECT_EQ(unbroken.cycle, 1000);
+    for (const std::int64_t cycle : {150, 300, 301, 433, 700, 701, 855})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 2, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
 TEST(Checkpoint, GivesTheUnbrokenRunOfEachJointLaw)
 {
     for (const JointDef& joint : test::sample_joints())

@@ -1,0 +1,76 @@
+#include "core/boundary/servo.h"
+
+#include "core/contact/block_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+constexpr double gain = 0.05;    // of the missing force in a cycle
+constexpr double enough = 1e-3;  // of the target
+
+template <typename Action>
+void for_servos(const Model& model, const State& state, const Action& action)
+{
+    for (const Boundary& boundary : model.boundaries)
+        if (boundary.kind == BoundaryKind::servo && boundary.acts(state.stage))
+            for (const BoundaryWall& wall : boundary.walls)
+                action(boundary, wall);
+}
+}  // namespace
+
+WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, const BlockContacts& list)
+{
+    WallForce sum;
+    for (Index e = list.begin[wall]; e < list.begin[wall + 1]; ++e)
+    {
+        const Contact contact = contacts.get(list.entry[e] / 2);
+        for (const PointHistory& point : contact.point)
+            if (point.regime != Regime::open)
+            {
+                sum.normal += point.normal_force;
+                sum.stiffness += model.joints.laws[contact.law].normal_stiffness * contact.last_length;
+            }
+    }
+    return sum;
+}
+
+double servo_velocity(const WallForce& force, double target, double max_velocity, double step)
+{
+    if (force.stiffness <= 0.0)
+        return max_velocity;
+    return std::clamp(gain * (target - force.normal) / (force.stiffness * step), -max_velocity, max_velocity);
+}
+
+void drive_servos(const Model& model, const BlockContacts& list, State& state)
+{
+    for_servos(model, state,
+               [&](const Boundary& boundary, const BoundaryWall& wall)
+               {
+                   const WallForce force = wall_force(wall.block, model, state.contacts, list);
+                   const Vec2 velocity = servo_velocity(force, boundary.target * wall.length, boundary.max_velocity,
+                                                        state.blocks.step.next) *
+                                         wall.inward();
+                   state.blocks.motion[wall.block].vx = velocity.x();
+                   state.blocks.motion[wall.block].vy = velocity.y();
+               });
+}
+
+bool servos_press(const Model& model, const State& state)
+{
+    bool all = true;
+    BlockContacts list;
+    for_servos(model, state,
+               [&](const Boundary& boundary, const BoundaryWall& wall)
+               {
+                   if (list.begin.empty())
+                       list_block_contacts(state.contacts, state.blocks.size(), list);
+                   const double target = boundary.target * wall.length;
+                   all = all && std::abs(wall_force(wall.block, model, state.contacts, list).normal - target) <= enough * target;
+               });
+    return all;
+}
+}  // namespace hdem

@@ -1,0 +1,33 @@
+#pragma once
+/// Walls that move until they press with a given stress.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// What a wall presses with, and how stiff its contacts are.
+struct WallForce
+{
+    double normal = 0.0;     ///< sum over its contacts, compression positive [N]
+    double stiffness = 0.0;  ///< sum of K_N l over its closed points [N/m]
+};
+
+/// By the last forces of its contacts.
+[[nodiscard]] WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, const BlockContacts& list);
+
+/// Velocity of a wall along its inward normal:
+///
+///   v = beta (F_target - F) / (K_wall dt),  |v| <= v_max,  beta = 0.05
+///
+/// With beta near 1 the wall would swing with the rock. A wall that touches nothing comes nearer with v_max.
+/// @see verification/unit/core/boundary/servo_test.cpp
+[[nodiscard]] double servo_velocity(const WallForce& force, double target, double max_velocity, double step);
+
+/// Set the velocities of all servo walls of the running stage, before the contacts are evaluated.
+void drive_servos(const Model& model, const BlockContacts& list, State& state);
+
+/// Does each servo wall of the running stage press with its target, up to 0.1 %?
+[[nodiscard]] bool servos_press(const Model& model, const State& state);
+}  // namespace hdem

@@ -1,0 +1,117 @@
+#include "io/case_check.h"
+#include "io/case_checks.h"
+
+#include <algorithm>
+#include <map>
+
+namespace hdem
+{
+namespace
+{
+class BoundaryCheck : public CaseCheck
+{
+  public:
+    using CaseCheck::CaseCheck;
+
+    void check()
+    {
+        for (std::size_t i = 0; i < def_.boundaries.size(); ++i)
+        {
+            const BoundaryDef& boundary = def_.boundaries[i];
+            const std::string path = fmt::format("boundary[{}]", i);
+            const std::string object = fmt::format("boundary \"{}\"", printable(boundary.name));
+            check_side(boundary, path, object);
+            check_kind(boundary, path, object);
+            check_stages(boundary, path, object);
+            check_twice(i, path, object);
+        }
+    }
+
+  private:
+    void check_side(const BoundaryDef& boundary, const std::string& path, const std::string& object)
+    {
+        if (!def_.domain.given && !problems_.has("domain"))
+        {
+            problems_.add(path, object, "boundary", "is a side of the domain, and there is no [domain]",
+                          "Give a [domain], or fix and load blocks by name.");
+            return;
+        }
+        exclude(path, object, "side", "edges");
+        const bool is_polygon = given("domain.polygon");
+        if (given(path + ".side") && is_polygon)
+            problems_.add(path + ".side", object, "side", "is one of a rectangle, and the domain is a polygon",
+                          "Use edges = [0, ...]: 0 is the edge from the first to the second vertex.");
+        else if (given(path + ".edges") && !is_polygon)
+            problems_.add(path + ".edges", object, "edges", "are those of a polygon, and the domain is a rectangle",
+                          "Use side = \"left\", \"right\", \"bottom\" or \"top\".");
+        else if (given(path + ".edges") && !problems_.has(path + ".edges") && boundary.edges.empty())
+            problems_.add(path + ".edges", object, "edges = []", "names no edge", "Name at least one.");
+        for (const int edge : boundary.edges)
+            if (is_polygon && static_cast<std::size_t>(edge) >= def_.domain.polygon.size() && !problems_.has("domain.polygon"))
+                problems_.add(path + ".edges", object, fmt::format("edges = {}", edge),
+                              fmt::format("the polygon has edges 0 to {}", def_.domain.polygon.size() - 1),
+                              "Give the number of an edge.");
+        if (!given(path + ".side") && !given(path + ".edges") && !problems_.has(path + ".side") && !problems_.has(path + ".edges"))
+            problems_.add(path, object, is_polygon ? "edges" : "side", "is missing",
+                          is_polygon ? "Give edges = [0, ...]." : "Give side = \"left\", \"right\", \"bottom\" or \"top\".");
+    }
+
+    void check_kind(const BoundaryDef& boundary, const std::string& path, const std::string& object)
+    {
+        if (!given(path + ".kind") || problems_.has(path + ".kind"))
+            return;
+        static const std::map<std::string, BoundaryKind> needs = {
+            {"stress", BoundaryKind::stress}, {"velocity", BoundaryKind::velocity}, {"target", BoundaryKind::servo}};
+        for (const auto& [key, kind] : needs)
+            if (boundary.kind == kind && !given(path + "." + key))
+                problems_.add(path + "." + key, object, key, "is missing: this kind needs it", "Add it.");
+            else if (boundary.kind != kind && given(path + "." + key))
+                problems_.add(path + "." + key, object, key, "belongs to another kind", "Remove it, or choose that kind.");
+        if (boundary.kind != BoundaryKind::servo && given(path + ".max_velocity"))
+            problems_.add(path + ".max_velocity", object, "max_velocity", "belongs to kind servo", "Remove it.");
+        if (boundary.is_insitu && !def_.insitu.given && !problems_.has("insitu"))
+            problems_.add(path + ".stress", object, "stress = \"insitu\"", "there is no [insitu]",
+                          "Give [insitu], or stress = [compression, shear].");
+    }
+
+    void check_stages(const BoundaryDef& boundary, const std::string& path, const std::string& object)
+    {
+        if (given(path + ".stages") && !problems_.has(path + ".stages") && boundary.stages.empty())
+            problems_.add(path + ".stages", object, "stages = []", "it would never act", "Name a stage, or remove this key.");
+        for (const std::string& name : boundary.stages)
+            check_reference(path + ".stages", object, name, "stage", stages_);
+    }
+
+    [[nodiscard]] static bool share_a_stage(const BoundaryDef& a, const BoundaryDef& b)
+    {
+        return a.stages.empty() || b.stages.empty() || std::ranges::find_first_of(a.stages, b.stages) != a.stages.end();
+    }
+
+    [[nodiscard]] static bool share_a_side(const BoundaryDef& a, const BoundaryDef& b)
+    {
+        return (!a.side.empty() && a.side == b.side) || std::ranges::find_first_of(a.edges, b.edges) != a.edges.end();
+    }
+
+    /// Two that act on one side at the same time.
+    void check_twice(std::size_t number, const std::string& path, const std::string& object)
+    {
+        const BoundaryDef& boundary = def_.boundaries[number];
+        const std::string key = path + (boundary.side.empty() ? ".edges" : ".side");
+        const std::string said = boundary.side.empty() ? "edges" : fmt::format("side = \"{}\"", printable(boundary.side));
+        const BoundaryDef fixed_sides{
+            .name = "", .side = "", .edges = def_.domain.fixed_edges, .stress = {}, .max_velocity = {}, .stages = {}};
+        if (std::ranges::find(def_.domain.fixed, boundary.side) != def_.domain.fixed.end() || share_a_side(boundary, fixed_sides))
+            problems_.add(key, object, said, "is fixed by [domain]", "Remove it there, or remove this boundary.");
+        for (std::size_t i = 0; i < number; ++i)
+            if (const BoundaryDef& other = def_.boundaries[i]; share_a_side(boundary, other) && share_a_stage(boundary, other))
+                problems_.add(key, object, said, fmt::format("boundary \"{}\" acts there in the same stage", printable(other.name)),
+                              "Keep one of them, or give stages.");
+    }
+};
+}  // namespace
+
+void check_boundary_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
+{
+    BoundaryCheck(def, source, problems).check();
+}
+}  // namespace hdem

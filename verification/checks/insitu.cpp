@@ -1,0 +1,197 @@
+/// Stress in the ground: rock stays where it is drawn, and what a hole does to it.
+
+#include "core/contact/contact_report.h"
+#include "core/stress/insitu_stress.h"
+#include "verification/checks/case_run.h"
+#include "verification/checks/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace hdem::verification
+{
+namespace
+{
+Vec2 turned(const Vec2& p, double angle)
+{
+    return {std::cos(angle) * p.x() - std::sin(angle) * p.y(), std::sin(angle) * p.x() + std::cos(angle) * p.y()};
+}
+
+Polygon turned(Polygon polygon, double angle)
+{
+    for (Vec2& p : polygon)
+        p = turned(p, angle);
+    return polygon;
+}
+
+Override set_stress(const std::string& key, const StressDef& s, double angle)
+{
+    const double c = std::cos(angle), n = std::sin(angle);
+    return {key, fmt::format("[{}, {}, {}]", c * c * s.xx + n * n * s.yy - 2.0 * c * n * s.xy,
+                             n * n * s.xx + c * c * s.yy + 2.0 * c * n * s.xy, c * n * (s.xx - s.yy) + (c * c - n * n) * s.xy)};
+}
+
+/// The case with its rock and its stress turned.
+Overrides turned_rock(const CaseDef& def, const StressDef& stress, double angle)
+{
+    Overrides overrides{set("domain.polygon", turned(def.domain.polygon, angle)), set_stress("insitu.stress", stress, angle)};
+    for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
+    {
+        overrides.push_back(
+            set(fmt::format("joint_set[{}].dip_deg", i), def.joint_sets[i].dip_deg + angle * 180.0 / std::numbers::pi));
+        if (def.joint_sets[i].origin)
+            overrides.push_back(set(fmt::format("joint_set[{}].origin", i), turned(*def.joint_sets[i].origin, angle)));
+    }
+    for (std::size_t i = 0; i < def.excavations.size(); ++i)
+        overrides.push_back(set(fmt::format("excavation[{}].polygon", i), turned(def.excavations[i].polygon, angle)));
+    return overrides;
+}
+
+double greatest_displacement(const CaseRun& run)
+{
+    double greatest = 0.0;
+    for (Index b = 0; b < run.model().blocks(); ++b)
+        greatest = std::max(greatest, run.state().blocks.displacement(b).norm());
+    return greatest;
+}
+
+/// Greatest relative error of the stress on the joints of one dip, as drawn.
+double worst_stress(const CaseRun& run, double dip_deg, double normal, double shear)
+{
+    double worst = 0.0;
+    for (Index i = 0; i < run.state().contacts.size(); ++i)
+    {
+        const ContactReport joint = report_contact(run.state(), i);
+        const Vec2 along = joint.shear_axis();
+        const double off = std::remainder(std::atan2(along.y(), along.x()) * 180.0 / std::numbers::pi - dip_deg, 180.0);
+        if (!is_closed_contact(run.state(), i) || std::abs(off) > 1e-6 || joint.length < 0.1)
+            continue;
+        worst = std::max({worst, std::abs(joint.normal_force / joint.length / normal - 1.0),
+                          std::abs(std::abs(joint.shear_force) / joint.length - std::abs(shear)) / normal});
+    }
+    return worst;
+}
+
+void check_stand(Report& report, const std::string& name, const Overrides& overrides)
+{
+    for (const char* method : all_methods)
+    {
+        const Overrides all = overrides + Overrides{set("contact.method", std::string(method))};
+        const CaseRun drawn("insitu/rock.toml", all);
+        report.require({fmt::format("{}, {}: worst unbalanced share", name, method), "divergence theorem", 1e-12,
+                        summarise_insitu(drawn.model(), drawn.state()).unbalance},
+                       at_most());
+        const CaseRun run(report, "insitu/rock.toml", all);
+        report.require(
+            {fmt::format("{}, {}: moved in 1000 cycles [m]", name, method), "equilibrium", 1e-12, greatest_displacement(run)},
+            at_most());
+    }
+}
+
+void check_uniform(Report& report)
+{
+    const StressDef stress{-8e6, -5e6, 1e6};
+    const CaseRun drawn("insitu/rock.toml", {});
+    constexpr std::array<std::array<double, 3>, 3> joints{
+        {{25.0, 6.301863e6, 1.791854e6}, {60.0, 8.116025e6, 0.799038e6}, {-55.0, 6.073338e6, -1.751559e6}}};
+    for (const auto& [dip, normal, shear] : joints)
+        report.require({fmt::format("dip {:g}°: worst error of σ_n, τ", dip), "t = σ n, seven digits", 2e-7,
+                        worst_stress(drawn, dip, normal, shear)},
+                       at_most());
+    for (const double angle : {0.0, 23.0})
+        check_stand(report, fmt::format("turned {:g}°", angle), turned_rock(drawn.definition(), stress, radians(angle)));
+}
+
+void check_ground(Report& report)
+{
+    check_stand(report, "ground at 0, K0 1.5",
+                {{"insitu", "{surface = 0.0, ratio = 1.5}"}, set("gravity.vector", Vec2(0.0, -9.81))});
+}
+
+/// What a joint of the hole bears.
+struct HoleJoint
+{
+    Vec2 place;      ///< its middle
+    double dip_deg;  ///< 0 or 90
+    double normal;   ///< [MPa]
+    const char* what;
+};
+
+double normal_at(const CaseRun& run, const Vec2& place, double dip)
+{
+    for (Index i = 0; i < run.state().contacts.size(); ++i)
+    {
+        const ContactReport joint = report_contact(run.state(), i);
+        const Vec2 middle = 0.5 * (joint.point[0] + joint.point[1]) + run.model().origin;
+        const double off = std::remainder(std::atan2(joint.shear_axis().y(), joint.shear_axis().x()) - dip, std::numbers::pi);
+        if ((middle - place).norm() < 0.05 && std::abs(off) < 0.01 && joint.length > 0.5)
+            return joint.normal_force / joint.bearing_length;
+    }
+    return std::nan("");
+}
+
+Vec2 displacement_at(const CaseRun& run, const Vec2& place)
+{
+    for (Index b = 0; b < run.model().blocks(); ++b)
+        if ((Vec2(run.state().blocks.motion[b].x, run.state().blocks.motion[b].y) + run.model().origin - place).norm() < 0.1)
+            return run.state().blocks.displacement(b);
+    return {std::nan(""), std::nan("")};
+}
+
+void check_hole(Report& report, const StressDef& stress, const Overrides& overrides, const std::vector<HoleJoint>& joints,
+                const Vec2& crown_and_springline)
+{
+    const CaseRun as_written("insitu/hole.toml", {});
+    for (const double degrees : {0.0, 23.0})
+    {
+        const double angle = radians(degrees);
+        const CaseRun run(report, "insitu/hole.toml", turned_rock(as_written.definition(), stress, angle) + overrides);
+        const std::string turn = fmt::format("turned {:g}°: ", degrees);
+        for (const HoleJoint& joint : joints)
+            report.require({turn + joint.what, "rigid blocks, linear", joint.normal,
+                            1e-6 * normal_at(run, turned(joint.place, angle), radians(joint.dip_deg) + angle)},
+                           relative(0.01));
+        report.require({turn + "crown moves [mm]", "rigid blocks, linear", crown_and_springline.x(),
+                        1e3 * turned(displacement_at(run, turned({0.0, 5.0}, angle)), -angle).y()},
+                       relative(0.01));
+        if (crown_and_springline.y() != 0.0)
+            report.require({turn + "springline moves [mm]", "rigid blocks, linear", crown_and_springline.y(),
+                            1e3 * turned(displacement_at(run, turned({5.0, 0.0}, angle)), -angle).x()},
+                           relative(0.01));
+    }
+}
+
+void check_soft_shear(Report& report)
+{
+    check_hole(report, {-1e6, -0.5e6, 0.0}, {},
+               {{{0.5, 5.0}, 90.0, 1.81320, "hoop stress at (0.5, 5) [MPa]"},
+                {{0.5, 6.0}, 90.0, 1.28120, "hoop stress at (0.5, 6) [MPa]"},
+                {{0.5, 7.0}, 90.0, 1.10063, "hoop stress at (0.5, 7) [MPa]"},
+                {{5.0, 0.5}, 0.0, 0.86016, "hoop stress at (5, 0.5) [MPa]"},
+                {{6.0, 0.5}, 0.0, 0.64171, "hoop stress at (6, 0.5) [MPa]"},
+                {{5.5, 0.0}, 90.0, 0.03605, "radial stress at (5.5, 0) [MPa]"}},
+               {-0.76215, -1.74083});
+}
+
+void check_isotropic(Report& report)
+{
+    check_hole(report, {-1e6, -1e6, 0.0}, {set("joint.default.normal_stiffness", 1e10), set("joint.default.shear_stiffness", 1e10)},
+               {{{0.5, 5.0}, 90.0, 1.64329, "hoop stress at (0.5, 5) [MPa]"},
+                {{0.5, 6.0}, 90.0, 1.52771, "hoop stress at (0.5, 6) [MPa]"},
+                {{0.5, 7.0}, 90.0, 1.38110, "hoop stress at (0.5, 7) [MPa]"}},
+               {-0.369245, 0.0});
+}
+}  // namespace
+
+std::vector<Check> insitu_checks()
+{
+    return {{"insitu.I1", "Uniform stress in rock of three joint sets: on the joints, and nothing moves", check_uniform},
+            {"insitu.I2", "Stress of the ground with K0 1.5: nothing moves", check_ground},
+            {"insitu.I6", "Hole under unequal stress, soft in shear", check_soft_shear},
+            {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic}};
+}
+}  // namespace hdem::verification
