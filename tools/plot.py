@@ -23,6 +23,7 @@ from matplotlib.patches import Patch    # noqa: E402
 from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E402
 from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
 from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
+from plot_rock import JOINTS, draw_crosses, draw_joints    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
@@ -58,6 +59,8 @@ def parse(arguments):
     parser.add_argument("--window", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="only this part [m]")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, in SI units")
     parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
+    parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
+    parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
     parser.add_argument("--title", help="instead of the case's title")
     parser.add_argument("--width", type=float, default=160.0, help="of the picture [mm] (default: 160)")
@@ -188,20 +191,25 @@ def draw_frame(run, options):
     blocks = read_blocks(options.result) if single else run.blocks(options.frame)
     if not len(blocks["id"]):
         raise ResultError("this frame holds no blocks")
-    contacts = run.contacts(options.frame) if options.contacts and not single else None
-    if options.contacts and single:
-        raise ResultError("--contacts needs the run's folder or its results.h5, not a single frame")
+    over = "--contacts" if options.contacts else "--joints" if options.joints else None
+    if over and single:
+        raise ResultError(f"{over} needs the run's folder or its results.h5, not a single frame")
+    contacts = run.contacts(options.frame) if over else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
-    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts))
+    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses))
     figure, axes = figure_for(view, options, field, rows)
     handles = draw_field(axes, blocks, options) if field else draw_classes(axes, blocks, options)
     line = float(np.clip(14.0 / math.sqrt(max(visible(blocks, view), 1)), 0.04, 0.6))
-    axes.add_collection(LineCollection(blocks["edges"], colors="#999999" if contacts else DARK, linewidths=line, capstyle="round", zorder=2))
+    axes.add_collection(LineCollection(blocks["edges"], colors="#999999" if contacts or options.crosses else DARK, linewidths=line, capstyle="round", zorder=2))
     if len(blocks["outline"]):
         axes.add_collection(LineCollection(blocks["outline"], colors="black", linewidths=1.6, capstyle="round", zorder=2.5))
-    if contacts:
+    if options.contacts:
         handles += draw_contacts(axes, blocks, contacts, options.width)
+    if options.joints:
+        handles += draw_joints(axes, contacts, options.joints, options.width)
+    if options.crosses:
+        handles += draw_crosses(axes, blocks, view)
     axes.set_xlim(view[0], view[2])
     axes.set_ylim(view[1], view[3])
     axes.set_aspect("equal")
