@@ -1,3 +1,4 @@
+#include "core/joint/barton_bandis.h"
 #include "core/model/case_def.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
@@ -108,6 +109,15 @@ class JointCheck : public CaseCheck
         if (closes_by_bandis() && !(joint_.rock_strength >= joint_.jcs))
             add("rock_strength", "is less than jcs: the walls of a joint are no stronger than its rock",
                 "Give the greater of the two.");
+        if (closes_by_bandis() && joint_.jrc > 0.0 && joint_.jcs > 0.0)
+        {
+            const BandisClosure closure = bandis_closure(joint_.jrc, joint_.jcs, *joint_.rock_strength, joint_.closure_cycle);
+            if (!(closure.stiffness > 0.0 && closure.greatest > 0.0))
+                add("rock_strength",
+                    fmt::format("gives an initial stiffness of {:.4g} Pa/m and a greatest closure of {:.4g} m by Bandis",
+                                closure.stiffness, closure.greatest),
+                    "The numbers are outside of what was measured: give normal_stiffness and greatest_closure instead.");
+        }
         if (has("closure_cycle") && !closes_by_bandis())
             add("closure_cycle", "belongs to rock_strength, which is not given", "Remove it.");
     }
@@ -143,6 +153,8 @@ class JointCheck : public CaseCheck
             add("asperity_angle_deg", "and friction_angle_deg are 90 degrees or more together", "Give less.");
         if (joint_.law == JointLaw::continuously_yielding && joint_.mobilised_angle_deg < friction)
             add("mobilised_angle_deg", "is less than friction_angle_deg", "Give no less than that.");
+        if (joint_.law == JointLaw::barton_bandis && has("residual_friction_angle_deg") && residual <= 0.0)
+            add("residual_friction_angle_deg", "must be > 0 for barton_bandis", "Give a greater one.");
         if (joint_.law == JointLaw::barton_bandis && residual >= 70.0)
             add("residual_friction_angle_deg", "is 70 degrees or more: the law ends there", "Give less.");
     }

@@ -44,12 +44,13 @@ std::vector<KeySpec> spring_keys()
                                           .default_note = "0"}),
         field<&JointDef::greatest_stiffness>(
             {.name = "greatest_stiffness", .unit = "Pa/m", .effect = "Bound of stiffnesses with an exponent.", .range = positive}),
-        field<&JointDef::normal_stress>({.name = "normal_stress",
-                                         .unit = "Pa",
-                                         .effect = "Greatest normal stress that the joint is to be ready for: time step and K_S "
-                                                   "follow from the stiffness there.",
-                                         .range = positive,
-                                         .default_note = "twice the greatest of [insitu], or of the rock's weight"})};
+        field<&JointDef::normal_stress>(
+            {.name = "normal_stress",
+             .unit = "Pa",
+             .effect = "Greatest normal stress that the joint is to be ready for: time step and K_S "
+                       "follow from the stiffness there, and curves go on as straight lines beyond it.",
+             .range = positive,
+             .default_note = "twice the greatest of [insitu] or of the rock's weight, four times that of loads or sides"})};
 }
 
 std::vector<KeySpec> coulomb_keys()
@@ -111,7 +112,7 @@ std::vector<KeySpec> barton_keys()
 {
     return {field<&JointDef::jrc>({.name = "jrc",
                                    .effect = "JRC_0, joint roughness coefficient on 0.1 m. barton_bandis.",
-                                   .range = {.low = 0, .high = 20},
+                                   .range = {.low = 0, .high = 20, .low_included = false},
                                    .default_note = "must be given for barton_bandis"}),
             field<&JointDef::jcs>({.name = "jcs",
                                    .unit = "Pa",

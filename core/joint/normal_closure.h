@@ -82,17 +82,18 @@ struct Linear
 ///
 /// K_ni stiffness at no stress [Pa/m]   V_m greatest closure [m]
 ///
-/// Differs from the source: a straight line beyond x = 0.95, so K_N is at most 400 K_ni. Unloads along the same curve.
+/// Differs from the source: a straight line beyond x = 0.95, so K_N is at most 400 K_ni, or beyond a stress that is given. Unloads along the same curve.
 struct Hyperbolic
 {
     static constexpr double greatest_share = 0.95;
 
-    [[nodiscard]] static JointNumbers numbers(double stiffness, double greatest_closure)
+    /// @param straight_from  stress from which on the curve is a straight line [Pa]
+    [[nodiscard]] static JointNumbers numbers(double stiffness, double greatest_closure, double straight_from = no_limit)
     {
         JointNumbers n{};
         n[curve_stiffness] = stiffness;
         n[curve_scale] = greatest_closure;
-        n[curve_cap] = greatest_share * greatest_closure;
+        n[curve_cap] = min(greatest_share, straight_from / (stiffness * greatest_closure + straight_from)) * greatest_closure;
         const BasicCurvePoint<double> cap = curve(n, n[curve_cap]);
         n[curve_cap_stress] = cap.stress;
         n[curve_cap_stiffness] = cap.stiffness;

@@ -22,17 +22,20 @@ struct Curve
     JointNumbers numbers{};
 };
 
-Curve curve_of(const JointDef& joint)
+/// Curves that stiffen are straight lines from the greatest expected stress on: no point can become stiffer than the time step allows.
+Curve curve_of(const JointDef& joint, double stress)
 {
     if (joint.law == JointLaw::barton_bandis && joint.rock_strength)
     {
         const BandisClosure closure = bandis_closure(joint.jrc, joint.jcs, *joint.rock_strength, joint.closure_cycle);
-        return {CurveKind::hyperbolic, Hyperbolic::numbers(closure.stiffness, closure.greatest)};
+        return {CurveKind::hyperbolic, Hyperbolic::numbers(closure.stiffness, closure.greatest, stress)};
     }
     if (joint.greatest_closure)
-        return {CurveKind::hyperbolic, Hyperbolic::numbers(joint.normal_stiffness, *joint.greatest_closure)};
+        return {CurveKind::hyperbolic, Hyperbolic::numbers(joint.normal_stiffness, *joint.greatest_closure, stress)};
     if (joint.normal_exponent)
-        return {CurveKind::power_law, PowerLaw::numbers(joint.normal_stiffness, *joint.normal_exponent, joint.greatest_stiffness)};
+        return {CurveKind::power_law, PowerLaw::numbers(joint.normal_stiffness, *joint.normal_exponent,
+                                                        std::min(joint.greatest_stiffness,
+                                                                 joint.normal_stiffness * power(stress, *joint.normal_exponent)))};
     return {CurveKind::linear, Linear::numbers(joint.normal_stiffness)};
 }
 
@@ -125,7 +128,7 @@ JointNumbers numbers_of(const JointDef& joint, const JointSurroundings& around, 
 
 JointRow row_of(const JointDef& joint, const JointSurroundings& around)
 {
-    const Curve curve = curve_of(joint);
+    const Curve curve = curve_of(joint, joint.normal_stress.value_or(around.normal_stress));
     JointRow row{.kind = kind_of(joint), .curve = curve.kind, .numbers = numbers_of(joint, around, curve.numbers)};
     row.residual_friction = tangent(radians(residual_angle(joint)));
     if (row.kind != JointKind::coulomb)
@@ -184,7 +187,7 @@ bool needs_memory(const JointDef& joint)
            joint.initially == JointStart::broken;
 }
 
-double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high)
+double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high, double block_size)
 {
     double density = 0.0;
     for (const MaterialDef& material : def.materials)
@@ -196,7 +199,14 @@ double expected_stress(const CaseDef& def, const InsituField& insitu, double low
             const StressDef s = stress_at(insitu, y);
             stress = std::max(stress, std::max(std::abs(s.xx), std::abs(s.yy)) + std::abs(s.xy));
         }
-    return stress > 0.0 ? 2.0 * stress : 1e6;
+    constexpr double concentration = 2.0, of_loads = 4.0;
+    stress *= concentration;
+    for (const LoadDef& load : def.loads)
+        stress = std::max(stress, of_loads * (load.force.norm() / block_size + density * load.acceleration.norm() * (high - low)));
+    for (const BoundaryDef& boundary : def.boundaries)
+        stress = std::max(stress,
+                          of_loads * std::max(boundary.stress.value_or(Vec2(0.0, 0.0)).lpNorm<1>(), std::abs(boundary.target)));
+    return stress > 0.0 ? stress : 1e7;
 }
 
 void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& table)

@@ -15,9 +15,10 @@ struct JointSurroundings
     double reach = 0.0;          ///< gap up to which a joint may bear tension: contacts must still be tracked there [m]
 };
 
-/// Greatest normal stress that joints of a case are to be ready for: twice that of [insitu] or of the rock's weight, 1 MPa where there is neither [Pa].
+/// Greatest normal stress that joints of a case are to be ready for: twice that of [insitu] or of the rock's weight, four times that of loads over the block
+/// size or of a boundary, 10 MPa where there is nothing [Pa].
 /// @param low, high  of the rock, local coordinates [m]
-[[nodiscard]] double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high);
+[[nodiscard]] double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high, double block_size);
 
 /// Does the joint need a memory? Coulomb's law with friction and cohesion alone does not: it slips at the same strength for ever.
 [[nodiscard]] bool needs_memory(const JointDef& joint);

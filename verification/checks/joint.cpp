@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hdem::verification
@@ -89,6 +90,18 @@ void check_barton(Report& report)
                        relative(0.01));
 }
 
+void check_closure(Report& report)
+{
+    constexpr std::array<std::array<double, 2>, 3> table{{{1.0, 0.033744}, {5.0, 0.063935}, {10.0, 0.071986}}};
+    for (const auto& [stress, closure] : table)
+    {
+        const CaseRun run(report, "joint/closure.toml", {set("load[0].force", Vec2(0.0, -1e6 * stress))});
+        report.require({fmt::format("closure under {:g} MPa [mm]", stress), "σ V_m / (K_ni V_m + σ)", closure,
+                        -1e3 * run.state().blocks.displacement(run.block("block")).y()},
+                       relative(2e-4));
+    }
+}
+
 void check_patton(Report& report)
 {
     const CaseRun run(report, "joint/box.toml", with_joint(patton));
@@ -127,6 +140,7 @@ std::vector<Check> joint_checks()
     return {{"joint.J1", "Coulomb with residual values and dilation in direct shear", check_coulomb},
             {"joint.J3", "Tension: a block hung from a roof", check_hung},
             {"joint.J4", "Barton-Bandis in direct shear", check_barton},
+            {"joint.J6", "Closure by Bandis under a load", check_closure},
             {"joint.J7", "Patton in direct shear", check_patton},
             {"joint.J8", "Continuously yielding in direct shear", check_yielding}};
 }
