@@ -6,6 +6,7 @@
 #include "io/case_problems.h"
 #include "io/case_schema.h"
 #include "io/polygons.h"
+#include "io/stage_joints.h"
 #include "io/text_file.h"
 #include "io/traces.h"
 
@@ -298,6 +299,13 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     located.insert(located.begin(), found.begin(), found.end());
     if (!located.empty())
         throw InputError(std::move(located));
+    const auto read_again = [&source](TomlNode& changed, CaseDef& def, CaseProblems& found_again)
+    {
+        Reader(def, source, found_again).read(changed);
+        check_joint_keys(def, source, found_again);
+    };
+    if (std::vector<Problem> wrong = read_stage_joints(result.def, document, source, read_again); !wrong.empty())
+        throw InputError(std::move(wrong));
     cut_domain(result.def, traces, source);
     result.warnings = source.located(problems.warnings());
     return result;

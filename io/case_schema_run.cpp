@@ -134,6 +134,11 @@ SectionSpec stage_section()
                                 .default_note = "none"}),
          field<&StageDef::free>(
              {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
+         field<&StageDef::set>(
+             {.name = "set",
+              .effect = "Numbers of joints from here on, each as \"joint.NAME.KEY = VALUE\": friction, cohesion, tension, residual "
+                        "values, dilation. Law and stiffness stay: contacts bear by them. Broken points stay broken.",
+              .example = "[\"joint.default.friction_angle_deg = 25\"]"}),
          field<&StageDef::method>({.name = "method",
                                    .effect = "contact.method from here on.",
                                    .choices = {"force", "impulse", "hybrid"},

@@ -40,6 +40,8 @@ Simulation::Simulation(Model model, State state, int threads)
       threads_(threads)
 {
     const bool fresh = state_.broad_phase_runs == 0;  // and not from a checkpoint
+    for (Index stage = 0; state_.stage_begun && stage <= state_.stage; ++stage)
+        change_joints(stage);
     if (state_.contacts_outdated)
         renew_contacts();
     if (fresh)
@@ -183,12 +185,24 @@ void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& side
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 
+void Simulation::change_joints(Index stage)
+{
+    const auto i = static_cast<std::size_t>(stage);
+    if (i >= model_.stage_laws.size() || model_.stage_laws[i].laws.empty())
+        return;
+    if (model_.first_laws.laws.empty())
+        model_.first_laws = {model_.joints.laws, model_.joints.rows};
+    std::ranges::copy(model_.stage_laws[i].laws, model_.joints.laws.begin());
+    std::ranges::copy(model_.stage_laws[i].rows, model_.joints.rows.begin());
+}
+
 void Simulation::begin_stage(Index stage)
 {
     const StageDef& def = model_.stages[stage];
     const Index before = state_.stage;
     const BoundaryChange sides = boundary_change(model_, before, stage);
     state_.stage = stage;
+    change_joints(stage);
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
     state_.quiet_since = -1.0;

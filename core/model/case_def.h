@@ -347,6 +347,8 @@ struct StageDef
     std::vector<std::string> excavate;     ///< excavation or block names removed at the start of the stage
     std::vector<std::string> fix;          ///< block names fixed at the start
     std::vector<std::string> free;         ///< block names freed at the start
+    std::vector<std::string> set;          ///< "joint.NAME.KEY = VALUE": numbers of joints from here on
+    std::vector<JointDef> joints;          ///< all joints from here on, where `set` changes some; found by io/
     std::optional<Method> method;          ///< from here on
     std::optional<DampingPreset> damping;  ///< from here on
 };

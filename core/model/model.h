@@ -56,6 +56,13 @@ struct JointTable
     [[nodiscard]] Index find(std::int32_t source_a, std::int32_t source_b, Index material_a, Index material_b) const;
 };
 
+/// Laws of the case's joints from a stage on; the first of JointTable::laws and rows.
+struct StageLaws
+{
+    std::vector<CoulombSlip> laws;
+    std::vector<JointRow> rows;
+};
+
 /// A load with names resolved to blocks and times to cycles: acts while from <= cycle < until.
 struct Load
 {
@@ -109,6 +116,8 @@ struct Model
     InsituField insitu;
     std::vector<Boundary> boundaries;
     JointTable joints;
+    std::vector<StageLaws> stage_laws;  ///< per stage; empty ones change nothing
+    StageLaws first_laws;               ///< those of the case, once a stage has changed them
     std::vector<Load> loads;
     std::vector<StageDef> stages;
     std::vector<HistoryDef> histories;

@@ -295,13 +295,13 @@ Setup build_model(const CaseDef& def)
         model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, def.gravity, model.origin);
     }
     model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
-    add_laws(
-        def,
-        {.normal_stress = expected_stress(def, model.insitu, box.low.y() - origin.y(), box.high.y() - origin.y(), model.mean_size),
-         .block_size = model.mean_size,
-         .restitution = def.contact.restitution,
-         .reach = 0.5 * def.contact.skin * model.mean_size},
-        model.joints);
+    const JointSurroundings around{
+        .normal_stress = expected_stress(def, model.insitu, box.low.y() - origin.y(), box.high.y() - origin.y(), model.mean_size),
+        .block_size = model.mean_size,
+        .restitution = def.contact.restitution,
+        .reach = 0.5 * def.contact.skin * model.mean_size};
+    add_laws(def, around, model.joints);
+    model.stage_laws = laws_of_stages(def, around);
     add_joints(def, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
     setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory();

@@ -211,6 +211,7 @@ double expected_stress(const CaseDef& def, const InsituField& insitu, double low
 
 void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& table)
 {
+    const bool joints_change = std::ranges::any_of(def.stages, [](const StageDef& stage) { return !stage.joints.empty(); });
     std::vector<JointRow> rows;
     for (const JointDef& joint : def.joints)
     {
@@ -221,7 +222,7 @@ void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& t
     for (std::size_t j = 0; j < def.joints.size(); ++j)
     {
         const CoulombSlip slip = table.laws[j];
-        const bool differs = slip.cohesion > 0.0 || rows[j].has_memory();
+        const bool differs = slip.cohesion > 0.0 || rows[j].has_memory() || joints_change;
         table.unbonded.push_back(differs ? static_cast<Index>(table.laws.size()) : static_cast<Index>(j));
         if (!differs)
             continue;
@@ -234,5 +235,20 @@ void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& t
         table.unbonded.push_back(j);
     if (std::ranges::any_of(rows, [](const JointRow& row) { return row.has_memory(); }))
         table.rows = std::move(rows);
+}
+
+std::vector<StageLaws> laws_of_stages(const CaseDef& def, const JointSurroundings& around)
+{
+    std::vector<StageLaws> stages;
+    CaseDef changed;
+    changed.stages = def.stages;
+    for (const StageDef& stage : def.stages)
+    {
+        JointTable table;
+        changed.joints = stage.joints;
+        add_laws(changed, around, table);
+        stages.push_back({std::move(table.laws), std::move(table.rows)});
+    }
+    return stages;
 }
 }  // namespace hdem

@@ -4,6 +4,8 @@
 #include "core/model/case_def.h"
 #include "core/model/model.h"
 
+#include <vector>
+
 namespace hdem
 {
 /// What the numbers of a law depend on besides its own.
@@ -24,5 +26,9 @@ struct JointSurroundings
 [[nodiscard]] bool needs_memory(const JointDef& joint);
 
 /// The laws of all joints, and behind them those of blocks that have met since the start: no cohesion, no tension, residual friction, no dilation.
+/// With stages that change joints all have such a second row, so that positions stay.
 void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& table);
+
+/// The laws of each stage whose `set` changes joints.
+[[nodiscard]] std::vector<StageLaws> laws_of_stages(const CaseDef& def, const JointSurroundings& around);
 }  // namespace hdem

@@ -121,9 +121,10 @@ std::uint64_t model_hash(const Model& model)
         for (Index v = shapes.vertex_begin[shapes.part_begin[i]]; v < shapes.vertex_begin[shapes.part_begin[i + 1]]; ++v)
             add({shapes.vertex[v].x(), shapes.vertex[v].y(), static_cast<double>(shapes.edge_source[v])});
     }
-    for (const CoulombSlip& law : model.joints.laws)
+    const bool have_changed = !model.first_laws.laws.empty();
+    for (const CoulombSlip& law : have_changed ? model.first_laws.laws : model.joints.laws)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
-    for (const JointRow& row : model.joints.rows)
+    for (const JointRow& row : have_changed ? model.first_laws.rows : model.joints.rows)
     {
         add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension,
              row.residual_friction, row.residual_cohesion});

@@ -1,0 +1,135 @@
+#include "io/stage_joints.h"
+
+#include "core/rock/joint_laws.h"
+#include "io/case_override.h"
+
+#include <fmt/format.h>
+
+namespace hdem
+{
+namespace
+{
+/// Name of a number that must stay, because contacts bear by it; empty where all may change.
+std::string changed_for_good(const JointDef& a, const JointDef& b)
+{
+    const auto differs = [&](auto JointDef::*field) { return a.*field != b.*field; };
+    if (differs(&JointDef::law))
+        return "law";
+    for (const auto& [name, field] :
+         {std::pair{"normal_stiffness", &JointDef::normal_stiffness}, std::pair{"shear_stiffness", &JointDef::shear_stiffness},
+          std::pair{"greatest_stiffness", &JointDef::greatest_stiffness}})
+        if (differs(field))
+            return name;
+    for (const auto& [name, field] :
+         {std::pair{"greatest_closure", &JointDef::greatest_closure}, std::pair{"normal_exponent", &JointDef::normal_exponent},
+          std::pair{"shear_exponent", &JointDef::shear_exponent}, std::pair{"normal_stress", &JointDef::normal_stress},
+          std::pair{"rock_strength", &JointDef::rock_strength}})
+        if (differs(field))
+            return name;
+    if (differs(&JointDef::initially))
+        return "initially";
+    if (differs(&JointDef::materials))
+        return "materials";
+    return "";
+}
+
+class StageJoints
+{
+  public:
+    StageJoints(CaseDef& def, TomlNode& document, CaseSource& source, const ReadAgain& read_again)
+        : def_(def),
+          document_(document),
+          source_(source),
+          read_again_(read_again)
+    {
+    }
+
+    std::vector<Problem> run()
+    {
+        for (std::size_t i = 0; i < def_.stages.size() && located_.empty(); ++i)
+            if (!def_.stages[i].set.empty())
+                read(i);
+        return std::move(located_);
+    }
+
+  private:
+    void fail(std::size_t stage, const std::string& said, const std::string& why, const std::string& remedy)
+    {
+        CaseProblems problems;
+        problems.add(fmt::format("stage[{}].set", stage), fmt::format("stage \"{}\"", printable(def_.stages[stage].name)),
+                     fmt::format("set = \"{}\"", printable(said)), why, remedy);
+        const std::vector<Problem> found = source_.located(problems.errors());
+        located_.insert(located_.end(), found.begin(), found.end());
+    }
+
+    /// Problems of a changed value name the --set of the command line; here it is the stage's.
+    void take_over(std::size_t stage, std::vector<Problem> found)
+    {
+        for (Problem& problem : found)
+        {
+            const std::string prefix = "--set ";
+            if (problem.text.rfind(prefix, 0) == 0)
+                problem.text = fmt::format("stage \"{}\": set {}", printable(def_.stages[stage].name),
+                                           problem.text.substr(prefix.size()));
+            located_.push_back(std::move(problem));
+        }
+    }
+
+    void read(std::size_t stage)
+    {
+        for (const std::string& text : def_.stages[stage].set)
+        {
+            if (text.rfind("joint.", 0) != 0 || text.find('=') == std::string::npos)
+                return fail(stage, text, "does not say joint.NAME.KEY = VALUE",
+                            "Write e.g. \"joint.default.friction_angle_deg = 25\".");
+            const auto equals = text.find('=');
+            const auto trimmed = [](std::string s)
+            {
+                s.erase(0, s.find_first_not_of(" \t"));
+                s.erase(s.find_last_not_of(" \t") + 1);
+                return s;
+            };
+            const Override change{trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
+            const std::string name = change.key.substr(6, change.key.find('.', 6) - 6);
+            if (std::ranges::find(def_.joints, name, &JointDef::name) == def_.joints.end())
+                return fail(stage, text, "no joint has this name", "Name one of [joint.NAME].");
+            take_over(stage, apply_overrides(document_, {&change, 1}, source_));
+        }
+        CaseDef again;
+        CaseProblems problems;
+        read_again_(document_, again, problems);
+        take_over(stage, source_.located(problems.errors()));
+        if (located_.empty())
+            take(stage, again.joints);
+    }
+
+    void take(std::size_t stage, const std::vector<JointDef>& joints)
+    {
+        for (std::size_t j = 0; j < joints.size(); ++j)
+        {
+            const JointDef &was = def_.joints[j], &is = joints[j];
+            const std::string stays = changed_for_good(was, is);
+            if (!stays.empty())
+                return fail(stage, fmt::format("joint.{}.{} = ...", is.name, stays), "contacts bear by it already",
+                            "Change strength and dilation only.");
+            if (needs_memory(was) != needs_memory(is))
+                return fail(stage, fmt::format("joint.{}. ...", is.name),
+                            "the joint has no memory of slip and breaking before this stage",
+                            "Give residual_cohesion in [joint." + is.name + "] too, so that it has one from the start.");
+        }
+        def_.stages[stage].joints = joints;
+    }
+
+    CaseDef& def_;
+    TomlNode& document_;
+    CaseSource& source_;
+    const ReadAgain& read_again_;
+    std::vector<Problem> located_;
+};
+}  // namespace
+
+std::vector<Problem> read_stage_joints(CaseDef& def, TomlNode& document, CaseSource& source, const ReadAgain& read_again)
+{
+    return StageJoints(def, document, source, read_again).run();
+}
+}  // namespace hdem
