@@ -138,7 +138,8 @@ SectionSpec stage_section()
              {.name = "set",
               .effect = "Numbers of joints from here on, each as \"joint.NAME.KEY = VALUE\": friction, cohesion, tension, residual "
                         "values, dilation. Law and stiffness stay: contacts bear by them. Broken points stay broken.",
-              .example = "[\"joint.default.friction_angle_deg = 25\"]"}),
+              .example = "[\"joint.default.friction_angle_deg = 25\"]",
+              .default_note = "nothing changes"}),
          field<&StageDef::method>({.name = "method",
                                    .effect = "contact.method from here on.",
                                    .choices = {"force", "impulse", "hybrid"},

@@ -8,7 +8,7 @@ _hdem_words()
         check) echo "--set --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
-        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --history --title --width --dpi -h --help" ;;
+        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --crosses --history --title --width --dpi -h --help" ;;
         report) echo "-o --output -h --help" ;;
         *) echo "run check info schema plot report --version -h --help" ;;
     esac

@@ -78,7 +78,7 @@ TEST(StageJoints, StayAfterARestart)
     unbroken.simulation.begin_stage(1);
     unbroken.advance(2000);
     const std::uint64_t model = model_hash(unbroken.model());
-    Setup again = build_model(def);
+    hdem::Setup again = build_model(def);
     EXPECT_EQ(model_hash(again.model), model);
     Simulation going_on(std::move(again.model), unbroken.state(), 1);
     going_on.advance(3000);
