@@ -1,6 +1,7 @@
 #include "tools/hdem/run_report.h"
 
 #include "core/energy_ledger.h"
+#include "core/joint/normal_closure.h"
 #include "core/stage/rules.h"
 #include "core/state/state_hash.h"
 #include "core/version.h"
@@ -217,6 +218,31 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     return s;
 }
 
+namespace
+{
+/// Joints that end above the stress from which on their normal spring is a straight line.
+void print_straight_joints(Log& log, const Model& model, const Contacts& contacts)
+{
+    for (std::size_t j = 0; j < model.joints.names.size() && model.joints.has_memory(); ++j)
+    {
+        const JointRow& row = model.joints.rows[j];
+        if (row.curve == CurveKind::linear)
+            continue;
+        double greatest = 0.0;
+        for (Index i = 0; i < contacts.size(); ++i)
+            if (contacts.law[i] == static_cast<Index>(j))
+                for (int k = 0; k < 2; ++k)
+                    greatest = std::max(greatest, contacts.normal_force(k, i) / contacts.lane[i / lanes].last_length[i % lanes]);
+        const double limit = row.numbers[curve_cap_stress];
+        if (greatest > limit)
+            log.line(fmt::format("warning: joint \"{}\" bears up to {:.4g} Pa; from {:.4g} Pa on its normal spring is a straight "
+                                 "line. Give it a greater "
+                                 "normal_stress.",
+                                 model.joints.names[j], greatest, limit));
+    }
+}
+}  // namespace
+
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
@@ -228,6 +254,7 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
         if (!stage.not_at_rest.empty())
             log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks: {}", stage.name, stage.not_at_rest.size(),
                                  first_of(stage.not_at_rest)));
+    print_straight_joints(log, simulation.model(), simulation.state().contacts);
     log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
                          s.kinetic_energy_limit, s.unbalanced_force_ratio));
     log.line(fmt::format("displacement {}: mean {:.4g} mm, greatest {:.4g} mm; all blocks: mean {:.4g} mm, greatest {:.4g} mm",

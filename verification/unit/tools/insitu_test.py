@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A run whose stress is not in equilibrium says so, as `hdem check` does; one that is says nothing.
+"""A run whose stress is not in equilibrium, or beyond what its joints are ready for, says so; one that is in order says nothing.
 
     insitu_test.py HDEM    the program
 """
@@ -51,6 +51,11 @@ class Insitu(unittest.TestCase):
     def test_says_nothing_of_rock_in_balance(self):
         for command in ("check", "run"):
             self.assertNotIn("warning: [insitu]", said("surface = 1.0\nratio = 0.5\n", command))
+
+    def test_tells_of_joints_above_the_stress_they_are_ready_for(self):
+        curved = "surface = 1.0\nratio = 0.5\n[joint.j]\nmaterials = ['rock', 'rock']\nnormal_stiffness = 7e9\nshear_stiffness = 5e8\nfriction_angle_deg = 30\ngreatest_closure = 1e-3\n"
+        self.assertIn('warning: joint "j" bears up to', said(curved + "normal_stress = 1e4\n", "run"))
+        self.assertNotIn("warning: joint", said(curved, "run"))
 
 
 if __name__ == "__main__":
