@@ -1,5 +1,6 @@
 #include "core/joint/barton_bandis.h"
 #include "core/model/case_def.h"
+#include "core/rock/joint_laws.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -182,5 +183,13 @@ void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems
 {
     for (const JointDef& joint : def.joints)
         JointCheck(def, source, problems, joint).check();
+    const auto remembers = std::ranges::find_if(def.joints, needs_memory);
+    for (std::size_t i = 0; i < def.stages.size() && remembers != def.joints.end(); ++i)
+        if (def.stages[i].solver == RestSolver::statics)
+            problems.warn(
+                fmt::format("stage[{}].solver", i), fmt::format("stage \"{}\"", printable(def.stages[i].name)),
+                "solver = \"static\"",
+                fmt::format("has no effect: joint \"{}\" has a memory, and static solutions know none", printable(remembers->name)),
+                "Rest is found by cycles; remove this key.");
 }
 }  // namespace hdem

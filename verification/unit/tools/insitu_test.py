@@ -57,6 +57,12 @@ class Insitu(unittest.TestCase):
         self.assertIn('warning: joint "j" bears up to', said(curved + "normal_stress = 1e4\n", "run"))
         self.assertNotIn("warning: joint", said(curved, "run"))
 
+    def test_tells_of_a_static_solution_that_joints_do_not_allow(self):
+        joint = "surface = 1.0\nratio = 0.5\n[joint.j]\nnormal_stiffness = 7e9\nshear_stiffness = 5e8\nfriction_angle_deg = 30\n"
+        stage = "[[stage]]\nuntil = 'converged'\nsolver = 'static'\nmax_cycles = 10\n"
+        self.assertIn('joint "j" has a memory', said(joint + "residual_cohesion = 0\n" + stage, "check"))
+        self.assertNotIn("has a memory", said(joint + stage, "check"))
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
