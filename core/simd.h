@@ -10,6 +10,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 namespace hdem
 {
 inline constexpr int lanes = 4;
@@ -122,7 +126,11 @@ inline Pack sqrt(Pack a)
 }
 inline bool any(Mask m)
 {
+#ifdef __AVX__
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(m.v)) != 0;
+#else
     return ((m.v[0] | m.v[1]) | (m.v[2] | m.v[3])) != 0;
+#endif
 }
 /// In the order of the lanes.
 inline double sum(Pack a)

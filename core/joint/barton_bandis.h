@@ -57,15 +57,18 @@ struct BartonBandis
     enum Number : int
     {
         shear_stiffness = curve_numbers,
+        shear_compliance,    ///< 1 / K_S
         residual_friction,   ///< phi_r [rad]
         roughness,           ///< i per unit of the natural logarithm [rad]
         log_strength,        ///< ln JCS_n
         greatest_roughness,  ///< greatest i [rad]
         peak_displacement,   ///< delta_p [m]
+        per_displacement,    ///< 1 / delta_p [1/m]
         damage,              ///< 1 / M
         scaled_roughness,    ///< JRC_n, for reports
         scaled_strength      ///< JCS_n [Pa], for reports
     };
+    static_assert(scaled_strength < joint_numbers);
 
     static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
 
@@ -85,7 +88,13 @@ struct BartonBandis
     template <typename R>
     [[nodiscard]] static R friction_angle(const BasicJointNumbers<R>& n, R x, R i)
     {
-        return n[residual_friction] * min(x * R(1.0 / 0.3), R(1.0)) + mobilised(x) * i;
+        return base_angle(n, x) + mobilised(x) * i;
+    }
+    /// What is mobilised of phi_r [rad].
+    template <typename R>
+    [[nodiscard]] static R base_angle(const BasicJointNumbers<R>& n, R x)
+    {
+        return n[residual_friction] * min(x * R(1.0 / first_mobilised), R(1.0));
     }
 
     [[nodiscard]] static JointNumbers numbers(const BartonBandisInput& in, JointNumbers n)
@@ -101,6 +110,12 @@ struct BartonBandis
         n[peak_displacement] = in.length / 500.0 * power(n[scaled_roughness] / in.length, 0.33);
         n[damage] = 1.0 / in.damage;
         n[shear_stiffness] = max(in.shear_stiffness, steepest(n, in.normal_stress));
+        return with_inverses(n);
+    }
+    [[nodiscard]] static JointNumbers with_inverses(JointNumbers n)
+    {
+        n[per_displacement] = 1.0 / n[peak_displacement];
+        n[shear_compliance] = compliance_of(n[shear_stiffness]);
         return n;
     }
 
@@ -130,6 +145,37 @@ struct BartonBandis
         return min(safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way)), t);
     }
 
+    /// i [rad]
+    [[nodiscard]] static double roughness_angle(const JointNumbers& n, double stress)
+    {
+        const double free = n[roughness] * (n[log_strength] - log(max(stress, 1.0)));
+        return min(max(free, 0.0), n[greatest_roughness]);
+    }
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
+    {
+        return stress * tan(n[residual_friction] + roughness_angle(n, stress));
+    }
+    [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
+    {
+        const double x = m.state / n[peak_displacement];
+        return x > 1.0 ? 1.0 - mobilised(x) : 0.0;
+    }
+    /// A joint that bears a shear stress where it is drawn has been displaced as far as that stress asks for.
+    [[nodiscard]] static double drawn_state(const JointNumbers& n, double normal, double shear)
+    {
+        if (normal <= 0.0 || shear == 0.0)
+            return 0.0;
+        const double i = roughness_angle(n, normal);
+        double low = 0.0, high = 1.0;  // of delta / delta_p
+        for (int k = 0; k < 60; ++k)
+        {
+            const double x = 0.5 * (low + high);
+            const bool bears = normal * tan(friction_angle(n, x, i)) >= magnitude(shear);
+            (bears ? high : low) = x;
+        }
+        return high * n[peak_displacement];
+    }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
@@ -137,30 +183,36 @@ struct BartonBandis
         const R zero = 0.0, one = 1.0, k = n[shear_stiffness];
         const R w = m.opening;
         const R trial = step.last_shear - k * step.slide, sign = direction_of(trial);
-        const R delta = max(m.state, magnitude(m.slip + trial / k));
+        const R delta = max(m.state, magnitude(m.slip + trial * n[shear_compliance]));
         const auto grows = delta > m.state;
         const BasicCurvePoint<R> before = Curve::at(n, step.closure + w);
         const auto open = before.stress <= zero;
 
         const R sigma = max(before.stress, R(1.0));  // [Pa]; nothing is left of the law below
-        const R x = delta / n[peak_displacement];
-        R free_i = zero, i = zero;
+        const R x = delta * n[per_displacement];
+        R free_i = zero, i = zero, share = zero;
         const bool is_rough = any(x > R(first_mobilised));  // else neither roughness nor dilation acts, as in most rock
         if (is_rough)
         {
             free_i = n[roughness] * (n[log_strength] - log(sigma));
             i = min(max(free_i, zero), n[greatest_roughness]);
+            share = mobilised(x);
         }
-        const R angle = friction_angle(n, x, i), t = tan(angle);
+        const R angle = base_angle(n, x) + share * i, t = tan(angle);
         const R excess = magnitude(trial) - before.stress * t;
         R mu = zero, dilation = zero, lambda = zero;
         if (any(excess > zero))  // most points of most cycles stick
         {
-            // d tau_max / d sigma; i falls as sigma grows.
-            mu = max(t - select(i == free_i, (one + t * t) * mobilised(x) * n[roughness], zero), zero);
+            lambda = max(excess, zero) * n[shear_compliance];
+            mu = t;
             if (is_rough)
+            {
+                // d tau_max / d sigma; i falls as sigma grows.
+                mu = max(t - select(i == free_i, (one + t * t) * share * n[roughness], zero), zero);
                 dilation = select(grows, first_dilation(n, m.state, delta, i, angle, t, sigma), zero);
-            lambda = max(excess, zero) / (k + before.stiffness * mu * dilation);
+                const R climbing = max(excess, zero) / (k + before.stiffness * mu * dilation);
+                lambda = select(dilation > zero, climbing, lambda);
+            }
         }
 
         BasicJointStress<R> now;
@@ -174,7 +226,7 @@ struct BartonBandis
         now.shear = trial - sign * (k * lambda);
         now.strength = max(before.stress * t + mu * (after.stress - before.stress), zero);
         now.slid = sign * lambda;
-        now.shear_stiffness = k;
+        now.shear_compliance = n[shear_compliance];
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
         empty_where_open(open, step, w, now);

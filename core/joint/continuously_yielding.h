@@ -82,6 +82,12 @@ struct ContinuouslyYielding
         return max((slope - n[friction]) / (R(1.0) + slope * n[friction]), R(0.0));
     }
 
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) { return stress * n[first_friction]; }
+    [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
+    {
+        return 1.0 - exp(-m.state * n[roughness]);
+    }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
@@ -117,12 +123,13 @@ struct ContinuouslyYielding
         now.energy = after.energy;
         now.normal_stiffness = after.stiffness;
         now.strength = after.stress * bound(n, m.state + path);
-        now.shear_stiffness = k;
+        now.shear_compliance = one / k;
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
         empty_where_open(open, step, w, now);
-        now.shear_stiffness = select(open, k, stiffness(n, now.normal));
-        now.freed += shear_energy(now.shear, k) - shear_energy(now.shear, now.shear_stiffness);
+        const R compliance = now.shear_compliance;
+        now.shear_compliance = select(open, compliance, one / stiffness(n, now.normal));
+        now.freed += shear_energy(now.shear, compliance) - shear_energy(now.shear, now.shear_compliance);
         m.slip += now.slid;
         m.state = select(open, m.state, m.state + path);
         m.turn = select(open | (way <= zero), m.turn, sign * left);

@@ -35,7 +35,8 @@ struct CoulombResidual
     enum Number : int
     {
         shear_stiffness = curve_numbers,
-        friction,  ///< tan phi
+        shear_compliance,  ///< 1 / K_S
+        friction,          ///< tan phi
         cohesion,
         tension,
         residual_friction,  ///< tan phi_r
@@ -48,6 +49,7 @@ struct CoulombResidual
     [[nodiscard]] static JointNumbers numbers(const CoulombInput& in, JointNumbers n)
     {
         n[shear_stiffness] = in.shear_stiffness;
+        n[shear_compliance] = compliance_of(in.shear_stiffness);
         n[friction] = tan(radians(in.friction_angle));
         n[cohesion] = in.cohesion;
         n[tension] = in.tension;
@@ -83,6 +85,12 @@ struct CoulombResidual
         return (way[0] + way[1]) + (way[2] + way[3]);
     }
 
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
+    {
+        return max(n[cohesion] + stress * n[friction], 0.0);
+    }
+    [[nodiscard]] static double damage_of(const JointNumbers&, const JointMemory& m) { return m.broken; }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
@@ -112,17 +120,24 @@ struct CoulombResidual
 
         BasicJointStress<R> now;
         now.opening = d * min(magnitude(slipped), limit);
-        const BasicCurvePoint<R> end_whole = Curve::at(n, step.closure + now.opening);
-        const BasicCurvePoint<R> end_torn = torn(n, step.closure + now.opening, end_whole);
+        BasicCurvePoint<R> end_whole = whole, end_torn = rest;
+        if (any(!(now.opening == w)))
+        {
+            end_whole = Curve::at(n, step.closure + now.opening);
+            end_torn = torn(n, step.closure + now.opening, end_whole);
+        }
         now.normal = select(weak, end_torn.stress, end_whole.stress);
         now.energy = select(weak, end_torn.energy, end_whole.energy);
         now.normal_stiffness = select(weak, end_torn.stiffness, end_whole.stiffness);
         now.shear = trial - sign * (k * lambda);
         now.strength = max(c + mu * now.normal, zero);
         now.slid = sign * lambda;
-        now.shear_stiffness = k;
-        const R dropped = select(breaks, max(shear_energy(min(magnitude(trial), peak), k) - shear_energy(now.shear, k), zero),
-                                 zero);
+        now.shear_compliance = n[shear_compliance];
+        const R dropped = select(
+            breaks,
+            max(shear_energy(min(magnitude(trial), peak), now.shear_compliance) - shear_energy(now.shear, now.shear_compliance),
+                zero),
+            zero);
         now.heat = slip_heat(step, now, w) - dropped;
         now.freed = dropped;
         empty_where_open(open, step, w, now);

@@ -6,6 +6,11 @@
 ///   enum Number        positions of its numbers, after those of the normal spring (normal_closure.h)
 ///   numbers(input, n)  fills them from the user's values; n holds the normal spring's already
 ///   react<Curve>       one cycle at one point; Curve is Linear, Hyperbolic or PowerLaw
+///   peak_strength      greatest shear stress under a normal stress, from where the joint is drawn
+///   damage_of          how far it has lost its roughness or its bond: 0 as drawn, 1 nothing left
+///   drawn_state        only where `state` begins with a shear stress: its first value
+///
+/// and stands in the list of core/joint/all_laws.h.
 ///
 /// Signs: compression is positive. tau acts on the incident block along t, so the shear displacement that raises tau is -slide.
 ///
@@ -26,17 +31,6 @@
 
 namespace hdem
 {
-enum class JointKind : std::uint8_t
-{
-    plain,
-    coulomb,
-    barton_bandis,
-    patton,
-    continuously_yielding,
-    plesha,
-    saeb_amadei
-};
-
 inline constexpr int joint_numbers = 18;
 inline constexpr double no_limit = 1e30;  ///< a length or a stress that is never reached; finite, so that no lane gets a NaN
 
@@ -87,7 +81,7 @@ struct BasicJointStress
     R heat;              ///< work of slip against friction and dilation in this cycle [J/m^2]
     R freed;             ///< energy that the joint lost by breaking, opening or a change of K_S in this cycle [J/m^2]
     R normal_stiffness;  ///< d sigma / d closure [Pa/m]
-    R shear_stiffness;   ///< K_S, elastic [Pa/m]
+    R shear_compliance;  ///< 1 / K_S, elastic; 0 where there is no shear spring [m/Pa]
 };
 using JointStress = BasicJointStress<double>;
 
@@ -124,6 +118,13 @@ template <typename R, std::size_t n>
     return way;
 }
 
+/// 1 / x, 0 where x is 0.
+template <typename R>
+[[nodiscard]] inline R compliance_of(R stiffness)
+{
+    return select(stiffness > R(0.0), R(1.0) / max(stiffness, R(1e-200)), R(0.0));
+}
+
 /// 1 or -1.
 template <typename R>
 [[nodiscard]] inline R direction_of(R x)
@@ -140,9 +141,9 @@ template <typename R>
 
 /// tau^2 / (2 K_S) [J/m^2]
 template <typename R>
-[[nodiscard]] inline R shear_energy(R shear, R stiffness)
+[[nodiscard]] inline R shear_energy(R shear, R compliance)
 {
-    return safe_ratio(R(0.5) * shear * shear, stiffness);
+    return R(0.5) * shear * shear * compliance;
 }
 
 /// Heat of a cycle: mean tau * slid - mean sigma * dw.
@@ -159,7 +160,7 @@ inline void empty_where_open(M open, const BasicJointStep<R>& step, R last_openi
     if (!any(open))
         return;
     const R zero = 0.0;
-    const R released = R(0.5) * step.last_shear * (safe_ratio(step.last_shear, now.shear_stiffness) - step.slide);
+    const R released = R(0.5) * step.last_shear * (step.last_shear * now.shear_compliance - step.slide);
     now.freed = select(open, select(step.last_shear == zero, zero, released), now.freed);
     now.opening = select(open, last_opening, now.opening);
     for (R* value : {&now.normal, &now.shear, &now.strength, &now.slid, &now.energy, &now.heat, &now.normal_stiffness})

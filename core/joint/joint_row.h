@@ -5,6 +5,12 @@
 
 namespace hdem
 {
+/// A law with a memory: its position in the list of all_laws.h.
+enum class JointKind : std::int8_t
+{
+    plain = -1
+};
+
 /// The normal spring of a joint, see normal_closure.h.
 enum class CurveKind : std::uint8_t
 {
@@ -40,7 +46,7 @@ struct NormalState
 };
 [[nodiscard]] NormalState normal_state(const JointRow& row, double closure);
 
-/// Memory of a joint that bears a shear stress where it is drawn: barton_bandis has been displaced as far as that stress asks for.
+/// Memory of a joint that bears these stresses where it is drawn.
 [[nodiscard]] JointMemory drawn_memory(const JointRow& row, double normal_stress, double shear_stress);
 
 /// How far a joint has lost its roughness or its bond: 0 as drawn, 1 nothing left [-].

@@ -31,6 +31,7 @@ struct Patton
     enum Number : int
     {
         shear_stiffness = curve_numbers,
+        shear_compliance,   ///< 1 / K_S
         friction,           ///< tan(phi + i)
         residual_friction,  ///< tan phi_r
         cohesion,
@@ -42,6 +43,7 @@ struct Patton
     [[nodiscard]] static JointNumbers numbers(const PattonInput& in, JointNumbers n)
     {
         n[shear_stiffness] = in.shear_stiffness;
+        n[shear_compliance] = compliance_of(in.shear_stiffness);
         n[friction] = tan(radians(in.friction + in.roughness));
         n[residual_friction] = tan(radians(in.residual_friction));
         n[cohesion] = in.cohesion;
@@ -75,6 +77,9 @@ struct Patton
                                   {R(no_limit), k}}});
     }
 
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) { return strength(n, stress); }
+    [[nodiscard]] static double damage_of(const JointNumbers&, const JointMemory& m) { return m.broken; }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
@@ -97,7 +102,7 @@ struct Patton
         now.shear = trial - sign * (k * lambda);
         now.strength = strength(n, now.normal);
         now.slid = sign * lambda;
-        now.shear_stiffness = k;
+        now.shear_compliance = n[shear_compliance];
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
         empty_where_open(open, step, w, now);

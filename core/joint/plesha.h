@@ -29,19 +29,28 @@ struct Plesha
     enum Number : int
     {
         shear_stiffness = curve_numbers,
-        friction,   ///< tan phi
-        roughness,  ///< alpha_0 [rad]
-        wear        ///< C [m^2/J]
+        shear_compliance,  ///< 1 / K_S
+        friction,          ///< tan phi
+        roughness,         ///< alpha_0 [rad]
+        wear               ///< C [m^2/J]
     };
 
     [[nodiscard]] static JointNumbers numbers(const PleshaInput& in, JointNumbers n)
     {
         n[shear_stiffness] = in.shear_stiffness;
+        n[shear_compliance] = compliance_of(in.shear_stiffness);
         n[friction] = tan(radians(in.friction));
         n[roughness] = radians(in.roughness);
         n[wear] = in.wear;
         return n;
     }
+
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
+    {
+        const double tilt = tan(n[roughness]);
+        return stress * (n[friction] + tilt) / (1.0 - n[friction] * tilt);
+    }
+    [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m) { return 1.0 - exp(-n[wear] * m.state); }
 
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
@@ -75,7 +84,7 @@ struct Plesha
         const auto leads_back = slipped + lambda < zero;
         now.strength = now.normal * select(leads_back, mu_down, mu_up);
         now.slid = sign * lambda;
-        now.shear_stiffness = k;
+        now.shear_compliance = n[shear_compliance];
         now.heat = slip_heat(step, now, w);
         now.freed = zero;
         empty_where_open(open, step, w, now);

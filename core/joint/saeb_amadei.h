@@ -37,6 +37,7 @@ struct SaebAmadei
     enum Number : int
     {
         shear_stiffness = curve_numbers,
+        shear_compliance,  ///< 1 / K_S
         rock_strength,
         friction,   ///< tan phi_u
         roughness,  ///< tan i_0
@@ -49,6 +50,7 @@ struct SaebAmadei
     [[nodiscard]] static JointNumbers numbers(const SaebAmadeiInput& in, JointNumbers n)
     {
         n[shear_stiffness] = in.shear_stiffness;
+        n[shear_compliance] = compliance_of(in.shear_stiffness);
         n[rock_strength] = in.rock_strength;
         n[friction] = tan(radians(in.friction));
         n[roughness] = tan(radians(in.roughness));
@@ -122,6 +124,12 @@ struct SaebAmadei
         return n[rock_strength] * R(0.2) * (R(1.0) - square * square * left);
     }
 
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) { return strength(n, stress, 0.0).value; }
+    [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
+    {
+        return min(m.state / n[residual_slip], 1.0);
+    }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
@@ -161,7 +169,7 @@ struct SaebAmadei
         now.shear = trial - sign * (k * lambda);
         now.strength = strength(n, now.normal, min(greatest / u_r, one)).value;
         now.slid = sign * lambda;
-        now.shear_stiffness = k;
+        now.shear_compliance = n[shear_compliance];
         now.heat = half * ((step.last_shear + now.shear) * now.slid - n[roughness] * (last_lift + end_lift) * (end_u - u));
         now.freed = zero;
         empty_where_open(open, step, last_opening, now);

@@ -1,12 +1,7 @@
 #include "core/rock/joint_laws.h"
 
 #include "core/geometry/tangent.h"
-#include "core/joint/barton_bandis.h"
-#include "core/joint/continuously_yielding.h"
-#include "core/joint/coulomb_residual.h"
-#include "core/joint/patton.h"
-#include "core/joint/plesha.h"
-#include "core/joint/saeb_amadei.h"
+#include "core/joint/all_laws.h"
 #include "core/stress/insitu_stress.h"
 
 #include <algorithm>
@@ -57,81 +52,77 @@ CoulombInput coulomb_input(const JointDef& joint)
             .dilation_limit = joint.dilation_limit.value_or(no_limit)};
 }
 
-JointKind kind_of(const JointDef& joint)
+struct Law
 {
-    switch (joint.law)
-    {
-    case JointLaw::barton_bandis:
-        return JointKind::barton_bandis;
-    case JointLaw::patton:
-        return JointKind::patton;
-    case JointLaw::continuously_yielding:
-        return JointKind::continuously_yielding;
-    case JointLaw::plesha:
-        return JointKind::plesha;
-    case JointLaw::saeb_amadei:
-        return JointKind::saeb_amadei;
-    case JointLaw::coulomb:
-        break;
-    }
-    return needs_memory(joint) ? JointKind::coulomb : JointKind::plain;
+    JointKind kind;
+    JointNumbers numbers;
+};
+
+template <typename Type, typename Input>
+Law law_with(const Input& input, const JointNumbers& curve)
+{
+    return {kind_of<Type>(), Type::numbers(input, curve)};
 }
 
-JointNumbers numbers_of(const JointDef& joint, const JointSurroundings& around, const JointNumbers& curve)
+Law law_of(const JointDef& joint, const JointSurroundings& around, const JointNumbers& curve)
 {
     const double k = joint.shear_stiffness, phi = joint.friction_angle_deg;
     switch (joint.law)
     {
     case JointLaw::barton_bandis:
-        return BartonBandis::numbers({.shear_stiffness = k,
-                                      .roughness = joint.jrc,
-                                      .wall_strength = joint.jcs,
-                                      .residual_friction = residual_angle(joint),
-                                      .length = joint.length.value_or(around.block_size),
-                                      .damage = joint.damage,
-                                      .normal_stress = joint.normal_stress.value_or(around.normal_stress)},
-                                     curve);
+        return law_with<BartonBandis>(BartonBandisInput{.shear_stiffness = k,
+                                                        .roughness = joint.jrc,
+                                                        .wall_strength = joint.jcs,
+                                                        .residual_friction = residual_angle(joint),
+                                                        .length = joint.length.value_or(around.block_size),
+                                                        .damage = joint.damage,
+                                                        .normal_stress = joint.normal_stress.value_or(around.normal_stress)},
+                                      curve);
     case JointLaw::patton:
-        return Patton::numbers({.shear_stiffness = k,
-                                .friction = phi,
-                                .roughness = joint.asperity_angle_deg,
-                                .residual_friction = residual_angle(joint),
-                                .cohesion = joint.cohesion,
-                                .dilation_limit = joint.dilation_limit.value_or(no_limit)},
-                               curve);
+        return law_with<Patton>(PattonInput{.shear_stiffness = k,
+                                            .friction = phi,
+                                            .roughness = joint.asperity_angle_deg,
+                                            .residual_friction = residual_angle(joint),
+                                            .cohesion = joint.cohesion,
+                                            .dilation_limit = joint.dilation_limit.value_or(no_limit)},
+                                curve);
     case JointLaw::continuously_yielding:
-        return ContinuouslyYielding::numbers({.shear_stiffness = k,
-                                              .shear_exponent = joint.shear_exponent.value_or(0.0),
-                                              .greatest_stiffness = joint.greatest_stiffness,
-                                              .friction = phi,
-                                              .first_friction = joint.mobilised_angle_deg,
-                                              .roughness = joint.wear_length},
-                                             curve);
+        return law_with<ContinuouslyYielding>(ContinuouslyYieldingInput{.shear_stiffness = k,
+                                                                        .shear_exponent = joint.shear_exponent.value_or(0.0),
+                                                                        .greatest_stiffness = joint.greatest_stiffness,
+                                                                        .friction = phi,
+                                                                        .first_friction = joint.mobilised_angle_deg,
+                                                                        .roughness = joint.wear_length},
+                                              curve);
     case JointLaw::plesha:
-        return Plesha::numbers({.shear_stiffness = k, .friction = phi, .roughness = joint.asperity_angle_deg, .wear = joint.wear},
-                               curve);
+        return law_with<Plesha>(
+            PleshaInput{.shear_stiffness = k, .friction = phi, .roughness = joint.asperity_angle_deg, .wear = joint.wear}, curve);
     case JointLaw::saeb_amadei:
-        return SaebAmadei::numbers({.shear_stiffness = k,
-                                    .rock_strength = joint.transition_stress,
-                                    .friction = phi,
-                                    .roughness = joint.asperity_angle_deg,
-                                    .rock_cohesion = joint.rock_cohesion,
-                                    .rock_friction = joint.rock_friction_angle_deg,
-                                    .residual_slip = joint.residual_displacement,
-                                    .residual_share = joint.residual_share},
-                                   curve);
+        return law_with<SaebAmadei>(SaebAmadeiInput{.shear_stiffness = k,
+                                                    .rock_strength = joint.transition_stress,
+                                                    .friction = phi,
+                                                    .roughness = joint.asperity_angle_deg,
+                                                    .rock_cohesion = joint.rock_cohesion,
+                                                    .rock_friction = joint.rock_friction_angle_deg,
+                                                    .residual_slip = joint.residual_displacement,
+                                                    .residual_share = joint.residual_share},
+                                    curve);
     case JointLaw::coulomb:
         break;
     }
-    return CoulombResidual::numbers(coulomb_input(joint), curve);
+    Law law = law_with<CoulombResidual>(coulomb_input(joint), curve);
+    if (!needs_memory(joint))
+        law.kind = JointKind::plain;
+    return law;
 }
 
 JointRow row_of(const JointDef& joint, const JointSurroundings& around)
 {
     const Curve curve = curve_of(joint, joint.normal_stress.value_or(around.normal_stress));
-    JointRow row{.kind = kind_of(joint), .curve = curve.kind, .numbers = numbers_of(joint, around, curve.numbers)};
+    const Law law = law_of(joint, around, curve.numbers);
+    JointRow row{.kind = law.kind, .curve = curve.kind, .numbers = law.numbers};
     row.residual_friction = tangent(radians(residual_angle(joint)));
-    if (row.kind != JointKind::coulomb)
+    if (row.kind != kind_of<CoulombResidual>())
         return row;
     row.residual_cohesion = joint.residual_cohesion.value_or(0.0);
     row.tension = joint.tension.value_or(0.0);
@@ -173,7 +164,7 @@ JointRow unbonded_row(const JointDef& joint, const JointRow& row, const CoulombS
     const CoulombInput input{.shear_stiffness = slip.shear_stiffness,
                              .friction_angle = residual_angle(joint),
                              .residual_friction = residual_angle(joint)};
-    return {.kind = JointKind::coulomb,
+    return {.kind = kind_of<CoulombResidual>(),
             .curve = row.curve,
             .numbers = CoulombResidual::numbers(input, row.numbers),
             .residual_friction = row.residual_friction};

@@ -1,4 +1,5 @@
 #include "core/check.h"
+#include "core/joint/all_laws.h"
 #include "io/checkpoint.h"
 #include "io/hdf5_reader.h"
 #include "io/run_recorder.h"
@@ -104,7 +105,7 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     SmallRun run = run_with_histories();
     run.state.contacts.has_preload = run.state.contacts.has_memory = true;
     run.state.contacts.resize(run.state.contacts.size());
-    run.model.joints.rows.assign(run.model.joints.laws.size(), {.kind = JointKind::coulomb});
+    run.model.joints.rows.assign(run.model.joints.laws.size(), {.kind = kind_of<CoulombResidual>()});
     RunRecorder recorder(folder.path(), run.model, some_provenance());
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);

@@ -17,7 +17,7 @@ JointNumbers numbers()
     n[BartonBandis::log_strength] = std::log(1e8);
     n[BartonBandis::peak_displacement] = 1.0 / 500.0 * std::pow(10.0, 0.33);
     n[BartonBandis::shear_stiffness] = BartonBandis::steepest(n, 1e6);
-    return n;
+    return BartonBandis::with_inverses(n);
 }
 
 TEST(BartonBandis, MobilisesItsRoughness)
@@ -82,7 +82,7 @@ TEST(BartonBandis, GainsNoRoughnessOnReversalAndStaysOpen)
     LawPoint<BartonBandis, Hyperbolic> p(numbers(), 1e6);
     p.go(20e-3, 8000, 1e6);
     const double state = p.memory.state, strength = p.now.shear, opening = p.now.opening, slip = p.memory.slip;
-    p.go(20e-3 - strength / p.now.shear_stiffness, 4000, 1e6);
+    p.go(20e-3 - strength * p.now.shear_compliance, 4000, 1e6);
     EXPECT_EQ(p.memory.slip, slip);  // elastic
     p.go(-10e-3, 4000, 1e6);
     EXPECT_NEAR(p.now.shear, -strength, 1e-4 * strength);

@@ -49,11 +49,11 @@ TEST(ContinuouslyYielding, IsAlmostAsGoodInLargeSteps)
 TEST(ContinuouslyYielding, StiffnessFollowsTheStressAndIsWholeAfterReversal)
 {
     LawPoint<ContinuouslyYielding, PowerLaw> p(numbers(1e6, 0.5), 4e6);
-    EXPECT_NEAR(p.now.shear_stiffness, 1e6 * 2e3, 1e-3);
+    EXPECT_NEAR(1.0 / p.now.shear_compliance, 1e6 * 2e3, 1e-3);
     p.go(10e-3, 2000, 4e6);
     const double before = p.now.shear;
     p.go(10e-3 - 1e-6, 1, 4e6);
-    EXPECT_NEAR((before - p.now.shear) / 1e-6, p.now.shear_stiffness, 2e-3 * p.now.shear_stiffness);
+    EXPECT_NEAR((before - p.now.shear) / 1e-6, 1.0 / p.now.shear_compliance, 2e-3 / p.now.shear_compliance);
 }
 
 TEST(ContinuouslyYielding, ReloadsWithRestingShareOfAtMostThreeQuarters)

@@ -27,7 +27,7 @@ struct LawPoint
         now = Law::template react<Curve>(n, {closure, 0.0, 0.0, normal}, memory);
     }
 
-    [[nodiscard]] double stored() const { return now.energy + now.shear * now.shear / (2.0 * now.shear_stiffness); }
+    [[nodiscard]] double stored() const { return now.energy + 0.5 * now.shear * now.shear * now.shear_compliance; }
 
     void step(double du, double to_closure)
     {
@@ -133,7 +133,7 @@ void expect_same_bits(const std::array<JointNumbers, lanes>& numbers, double clo
             ASSERT_TRUE(same(s.normal, now.normal) && same(s.shear, now.shear) && same(s.strength, now.strength) &&
                         same(s.slid, now.slid) && same(s.opening, now.opening) && same(s.energy, now.energy) &&
                         same(s.heat, now.heat) && same(s.freed, now.freed) && same(s.normal_stiffness, now.normal_stiffness) &&
-                        same(s.shear_stiffness, now.shear_stiffness))
+                        same(s.shear_compliance, now.shear_compliance))
                 << "cycle " << k << " lane " << lane;
             ASSERT_TRUE(same(m.slip, four.slip) && same(m.state, four.state) && same(m.turn, four.turn) &&
                         same(m.opening, four.opening) && same(m.broken, four.broken));

@@ -1,5 +1,5 @@
 #pragma once
-/// Forces of joints whose law has a memory, at one point of four contacts.
+/// Joint rows of four contacts.
 
 #include "core/contact/contact_lanes.h"
 #include "core/joint/joint_row.h"
@@ -9,7 +9,7 @@
 
 namespace hdem
 {
-/// Joint rows of four contacts. Neighbours mostly have the same ones: what was loaded last is kept.
+/// Neighbours mostly have the same rows: what was loaded last is kept.
 class RowLanes
 {
   public:
@@ -38,35 +38,6 @@ class RowLanes
     std::array<Index, lanes> last_{no_index, no_index, no_index, no_index};
 };
 
-/// What happens to a point of four contacts in a cycle.
-struct JointPoint
-{
-    Pack length;       ///< the point's share of the contact length [m]
-    Pack closure;      ///< overlap with preload, less the rest overlap; without dilation [m]
-    Pack slide;        ///< way of inc along t [m]
-    Pack start;        ///< shear force before this cycle, at the length of now [N]
-    Pack last_normal;  ///< [N]
-    Mask spring;       ///< the point obeys its joint law in this cycle
-    Mask stays;        ///< and did so in the last one, under a force
-    Mask held;         ///< the point obeys the impulse law
-};
-
-/// What the law answers; 0 in lanes that are plain or no springs.
-struct JointForces
-{
-    Pack normal = 0.0;    ///< < 0: tension [N]
-    Pack shear = 0.0;     ///< [N]
-    Pack strength = 0.0;  ///< [N]
-    Pack opening = 0.0;   ///< dilation [m]
-    Pack friction = 0.0;  ///< heat of this cycle [J]
-    Pack lost = 0.0;      ///< by which the energy of the springs has fallen [J]
-    Mask bears{};         ///< normal force other than 0
-    Mask slips{};
-};
-
-/// Ask the laws and let the point remember. The memory of plain lanes stays as it is.
-[[nodiscard]] JointForces react_joints(const RowLanes& rows, const JointPoint& point, MemoryLanes::Point& memory);
-
 /// Gap across which the points still bear [m].
 [[nodiscard]] inline Pack reach_of(const RowLanes& rows, const MemoryLanes::Point& memory)
 {
@@ -77,5 +48,26 @@ struct JointForces
 [[nodiscard]] inline Mask keep_springs(const RowLanes& rows, const MemoryLanes::Point& memory)
 {
     return rows.has_memory & ((!rows.is_linear) | (rows.is_bonded & (load_lane(memory.broken) < Pack(0.5))));
+}
+
+inline void RowLanes::reload(const Index* law)
+{
+    std::copy(law, law + lanes, last_.begin());
+    any = false;
+    for (int i = 0; i < lanes; ++i)
+    {
+        const JointRow& row = rows_[law[i]];
+        kind[i] = row.kind;
+        curve[i] = row.curve;
+        has_memory.v[i] = row.has_memory() ? -1 : 0;
+        is_linear.v[i] = row.curve == CurveKind::linear ? -1 : 0;
+        is_bonded.v[i] = row.is_bonded ? -1 : 0;
+        any = any || row.has_memory();
+        is_uniform = (i == 0 || is_uniform) && row.has_memory() && kind[i] == kind[0] && curve[i] == curve[0];
+        reach.v[i] = row.reach;
+        torn_reach.v[i] = row.torn_reach;
+        for (int k = 0; k < joint_numbers; ++k)
+            numbers[k].v[i] = row.numbers[k];
+    }
 }
 }  // namespace hdem

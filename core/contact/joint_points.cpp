@@ -1,0 +1,204 @@
+#include "core/contact/joint_points.h"
+
+#include "core/joint/all_laws.h"
+
+namespace hdem
+{
+namespace
+{
+using Numbers = BasicJointNumbers<Pack>;
+using Step = BasicJointStep<Pack>;
+using Memory = BasicJointMemory<Pack>;
+using Stress = BasicJointStress<Pack>;
+
+/// Four lanes of one law.
+template <typename Law, typename Curve>
+struct OneLaw
+{
+    static constexpr bool has_all_lanes = true;
+
+    [[gnu::always_inline]] static Stress react(const RowLanes& rows, const Step& step, Memory& memory)
+    {
+        const Stress stress = Law::template react<Curve>(rows.numbers, step, memory);
+        memory.opening = stress.opening;
+        return stress;
+    }
+};
+
+void take(Mask lanes_of, const Memory& from, Memory& to)
+{
+    for (Pack Memory::*const field : {&Memory::slip, &Memory::state, &Memory::turn, &Memory::opening, &Memory::broken})
+        to.*field = select(lanes_of, from.*field, to.*field);
+}
+
+void take(Mask lanes_of, const Stress& from, Stress& to)
+{
+    for (Pack Stress::*const field : {&Stress::normal, &Stress::shear, &Stress::strength, &Stress::slid, &Stress::opening,
+                                      &Stress::energy, &Stress::heat, &Stress::normal_stiffness, &Stress::shear_compliance})
+        to.*field = select(lanes_of, from.*field, to.*field);
+}
+
+/// Lanes with different laws, some of which may be plain. Each law is asked once, for all its lanes: no lane depends on the laws of the others.
+struct MixedLaws
+{
+    static constexpr bool has_all_lanes = false;
+
+    [[gnu::noinline]] static Stress react(const RowLanes& rows, const Step& step, Memory& memory)
+    {
+        const Pack zero = 0.0;
+        Stress stress{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+        Mask left = rows.has_memory;
+        for (int j = 0; j < lanes; ++j)
+        {
+            if (left.v[j] == 0)
+                continue;
+            Mask same{};
+            for (int i = j; i < lanes; ++i)
+                same.v[i] = rows.has_memory.v[i] != 0 && rows.kind[i] == rows.kind[j] && rows.curve[i] == rows.curve[j] ? -1 : 0;
+            Memory next = memory;
+            const Stress answer = with_law(
+                rows.kind[j], [&](auto law)
+                { return with_curve(rows.curve[j], [&](auto curve) { return ask(law, curve, rows.numbers, step, next); }); });
+            next.opening = answer.opening;
+            take(same, answer, stress);
+            take(same, next, memory);
+            left = left & !same;
+        }
+        return stress;
+    }
+
+    template <typename Law, typename Curve>
+    [[gnu::noinline]] static Stress ask(Law, Curve, const Numbers& numbers, const Step& step, Memory& memory)
+    {
+        return Law::template react<Curve>(numbers, step, memory);
+    }
+};
+
+Memory load(const MemoryLanes::Point& m)
+{
+    return {load_lane(m.slip), load_lane(m.state), load_lane(m.turn), load_lane(m.opening), load_lane(m.broken)};
+}
+
+/// What remains of the state before: lanes that this cycle changes are stored, the others stay as they were.
+template <bool has_all_lanes>
+[[gnu::always_inline]] inline void put(Mask changed, ContactLanes::Lane& lane, Pack value)
+{
+    if constexpr (has_all_lanes)
+        store_lane(lane, value);
+    else
+        store_lane(lane, select(changed, value, load_lane(lane)));
+}
+
+/// A point of four contacts. `last`: their lanes after the last cycle.
+template <typename React>
+[[gnu::noinline, gnu::flatten]] void evaluate_point_by(const ContactGroup& g, int k, Mask impulsive, Pack share, Pack dt,
+                                                       const JointPlace& place, const ContactLanes& last, Sums& sums)
+{
+    constexpr bool all = React::has_all_lanes;
+    const Pack zero = 0.0, half = 0.5;
+    const RowLanes& rows = place.rows;
+    const Mask own = all ? Mask{Mask::V{} - 1} : rows.has_memory;
+    MemoryLanes::Point& m = place.memory.point[k];
+    ContactLanes& l = place.lanes;
+    const BasicTouchPoint<Pack>& p = g.touch.point[k];
+    const Memory before = load(m);
+    const Pack last_rest = load_lane(last.rest_overlap[k]);
+    const Pack overlap = pressed_by<Joints::laws>(g, k);
+    const Pack rest = rest_overlap(overlap + before.opening, last_rest, g.recovery);
+    const Pack start = select(g.was_impulse[k], zero, g.last_shear[k]) * g.shear_share;
+    const Pack last_stretch = load_lane(last.overlap[k]) + before.opening - last_rest;
+    const Pack handed = any(g.was_impulse[k]) ? select(g.was_impulse[k], g.last_shear[k] * kept_share(g, k, last_stretch), start)
+                                              : start;
+    const Pack last_normal = select(g.was_impulse[k], zero, g.last_normal[k]);
+    // A spring that closes or opens in this cycle gives a share of its force; one that pulls or dilates gives all.
+    const Mask shares = rows.is_linear & (before.opening == zero) & (overlap - rest > zero);
+    const Mask closed = g.closed[k] & own, spring = closed & !impulsive, held = closed & impulsive;
+    const Mask stays = spring & (abs(last_normal) + abs(handed) > zero);
+
+    Memory after = before;
+    const Pack slide = (p.v_t - half * dt * g.turning[k].t) * dt;
+    const Pack closure = select(shares, share, 1.0) * (overlap - rest);
+    Pack normal = zero, shear = zero, strength = zero, heat = zero, energy = zero;
+    Mask slips{};
+    if (any(spring))
+    {
+        const Stress now = React::react(rows, {closure, slide, handed * g.length_inverse, last_normal * g.length_inverse}, after);
+        const auto force = [&](Pack stress) { return select(spring, stress * g.length, zero); };
+        normal = force(now.normal);
+        shear = force(now.shear);
+        strength = force(now.strength);
+        heat = select(stays, force(now.heat), zero);
+        slips = spring & !(now.slid == zero);
+        energy = force(now.energy + shear_energy(now.shear, now.shear_compliance));
+        put<false>(spring, m.stiffness, now.normal_stiffness);
+    }
+    // What a joint slides by impulses is slip too.
+    after.slip = select(held, before.slip - slide, after.slip);
+    const Mask changed = spring | held;
+    const Pack opening = select(changed, after.opening, before.opening);
+    put<false>(changed, m.slip, after.slip);
+    put<false>(changed, m.state, after.state);
+    put<false>(changed, m.turn, after.turn);
+    put<false>(changed, m.broken, after.broken);
+    store_lane(m.opening, opening);
+    const Pack lost = select(own, load_lane(m.energy) - energy, zero);
+    put<all>(own, m.energy, energy);
+
+    const Mask bears = spring & (!(normal == zero) | (overlap + opening - rest > Pack(-closed_gap) * load_lane(l.length_floor)));
+    const Mask::V regimes = (bears.v & 1) + ((bears & slips).v & 1) + (held.v & 3);
+    store_bytes(all ? regimes : (own.v & regimes) + (~own.v & load_regimes(place.regime[k])), place.regime[k]);
+    const Pack held_rest = overlap + opening - select(g.last_normal[k] > zero, max(last_stretch, zero), zero);
+    put<all>(own, l.rest_overlap[k], select(bears, rest, select(held, max(held_rest, zero), zero)));
+    put<all>(own, l.overlap[k], overlap);
+    put<all>(own, l.normal_force[k], select(held, g.last_normal[k], normal));
+    put<all>(own, l.shear_force[k], select(held, g.last_shear[k], shear));
+
+    const auto mine = [&](Pack value) { return all ? value : select(own, value, zero); };
+    sums.friction += mine(heat);
+    sums.changes += mine(half * dt * (normal * p.v_m - shear * p.v_t) + lost - heat);
+    sums.normal[k] = all ? normal : select(own, normal, sums.normal[k]);
+    sums.work += mine(normal * (p.overlap + opening - rest));
+    sums.used += mine(abs(shear));
+    sums.strength += mine(strength);
+    sums.f_t += mine(shear);
+    sums.f_m -= mine(normal);
+    sums.moment_inc -= mine(p.inc_t * normal + p.inc_m * shear);
+    sums.moment_ref += mine(p.ref_t * normal + p.ref_m * shear);
+}
+
+using EvaluatePoint = decltype(&evaluate_point_by<MixedLaws>);
+
+/// One for each law and curve.
+template <std::size_t... at>
+constexpr std::array<EvaluatePoint, sizeof...(at)> evaluators(std::index_sequence<at...>)
+{
+    return {&evaluate_point_by<OneLaw<typename std::tuple_element_t<at / curve_count, AllLaws>::Type,
+                                      typename std::tuple_element_t<at % curve_count, AllCurves>::Type>>...};
+}
+constexpr auto evaluate_one_law = evaluators(std::make_index_sequence<std::size_t{law_count} * curve_count>{});
+}  // namespace
+
+void evaluate_joint_points(const ContactGroup& g, Mask impulsive, const std::array<Pack, 2>& share, Pack dt,
+                           const JointPlace& place, Sums& sums)
+{
+    const RowLanes& rows = place.rows;
+    if (rows.is_uniform)
+    {
+        const EvaluatePoint evaluate = evaluate_one_law[static_cast<std::size_t>(rows.kind[0]) * curve_count +
+                                                        static_cast<std::size_t>(rows.curve[0])];
+        for (int k = 0; k < 2; ++k)
+            evaluate(g, k, impulsive, share[k], dt, place, place.lanes, sums);
+        return;
+    }
+    const ContactLanes last = place.lanes;
+    if (any(!rows.has_memory))
+    {
+        Sums plain;
+        for (int k = 0; k < 2; ++k)
+            evaluate_point<Contact4::any, Joints::laws>(g, k, impulsive, share[k], dt, place.lanes, place.regime[k], plain);
+        sums.take(!rows.has_memory, plain);
+    }
+    for (int k = 0; k < 2; ++k)
+        evaluate_point_by<MixedLaws>(g, k, impulsive, share[k], dt, place, last, sums);
+}
+}  // namespace hdem
