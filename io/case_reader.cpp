@@ -6,6 +6,7 @@
 #include "io/case_problems.h"
 #include "io/case_schema.h"
 #include "io/polygons.h"
+#include "io/pressure_table.h"
 #include "io/stage_joints.h"
 #include "io/text_file.h"
 #include "io/traces.h"
@@ -252,6 +253,22 @@ std::vector<Polygon> traces_of(CaseFile& read, const std::filesystem::path& case
     return traces;
 }
 
+/// Rows of the file of water pressures. Problems inside it are located already.
+void add_pressures(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
+                   std::vector<Problem>& located)
+{
+    WaterDef& water = read.def.water;
+    if (water.pressure.empty())
+        return;
+    const std::string* text = text_named("water.pressure", "[water]", water.pressure, read, case_file, stored, problems);
+    if (text == nullptr)
+        return;
+    std::istringstream in(*text);
+    auto [rows, found] = read_pressures(in, (case_file.parent_path() / water.pressure).string());
+    located.insert(located.end(), found.begin(), found.end());
+    water.pressures = std::move(rows);
+}
+
 /// Only a domain without problems can be cut.
 void cut_domain(CaseDef& def, const std::vector<Polygon>& traces, const CaseSource& source)
 {
@@ -289,9 +306,11 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     Reader(result.def, source, problems).read(document);
     if (!result.def.blocks_file.empty())
         add_blocks_file(result, file, files, problems, located);
+    add_pressures(result, file, files, problems, located);
     const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);
     check_rock_keys(result.def, source, problems);
     check_boundary_keys(result.def, source, problems);
+    check_water_keys(result.def, source, problems);
     check_joint_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
 

@@ -140,6 +140,27 @@ SectionSpec stage_section()
                         "values, dilation. Law and stiffness stay: contacts bear by them. Broken points stay broken.",
               .example = "[\"joint.default.friction_angle_deg = 25\"]",
               .default_note = "nothing changes"}),
+         field<&StageDef::water_level>({.name = "water_level",
+                                        .unit = "m",
+                                        .effect = "water.level from here on. The change is a step; with relax_cycles what is less "
+                                                  "or more than before comes evenly over so many cycles.",
+                                        .example = "4.0",
+                                        .range = coordinate,
+                                        .default_note = "unchanged"}),
+         with_assign(spec({.name = "water_table",
+                           .unit = "m",
+                           .effect = "water.table from here on, likewise.",
+                           .example = "[[0, 8], [60, 4]]",
+                           .range = coordinate,
+                           .default_note = "unchanged"},
+                          ValueType::line),
+                     [](void* object, const TomlNode& value, const KeySpec&)
+                     {
+                         Polygon& points = static_cast<StageDef*>(object)->water_table;
+                         points.clear();
+                         for (const TomlNode& item : *value.items())
+                             points.push_back(vector(item));
+                     }),
          field<&StageDef::method>({.name = "method",
                                    .effect = "contact.method from here on.",
                                    .choices = {"force", "impulse", "hybrid"},

@@ -31,6 +31,10 @@ SectionSpec joint_section();
 // case_schema_stress.cpp
 SectionSpec insitu_section();
 
+// case_schema_water.cpp
+SectionSpec water_section();
+SectionSpec water_crack_section();
+
 // case_schema_boundary.cpp
 SectionSpec boundary_section();
 

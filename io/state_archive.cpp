@@ -170,6 +170,8 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                         [](ReleasedForce& f) { return std::tie(f.block); });
     archive.template rows<double>("/blocks/released_force", state.released.size(), state.released,
                                   [](ReleasedForce& f) { return std::tie(f.x, f.y, f.moment); });
+    if (!state.water.empty())
+        archive.template rows<double>("/blocks/water", n, state.water, [](Triple& f) { return std::tie(f.x, f.y, f.w); });
 }
 
 template <typename Archive>
@@ -251,6 +253,7 @@ State load_state(const Hdf5Reader& file, Model& model)
     State state;
     state.contacts.has_memory = model.joints.has_memory();
     state.contacts.has_preload = model.insitu.given || state.contacts.has_memory;
+    state.water.resize(model.water.given ? static_cast<std::size_t>(model.blocks()) : 0);
     Unpacked unpacked;
     Loader loader(file);
     exchange(loader, model.blocks(), state, unpacked);

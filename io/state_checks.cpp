@@ -139,6 +139,11 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             return Damage{"/blocks/released_force", "not a force"};
         last = f.block;
     }
+    if (state.water.size() != (model.water.given ? blocks.present.size() : 0))
+        return Damage{"/blocks/water", "not one force a block"};
+    for (const Triple& f : state.water)
+        if (!are_finite({f.x, f.y, f.w}))
+            return Damage{"/blocks/water", "not a force"};
     if (!state.released.empty() && (!state.stage_begun || state.cycle >= released_until(model, state)))
         return Damage{"/blocks/released", "not of the running stage"};
     return std::nullopt;

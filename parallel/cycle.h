@@ -35,7 +35,7 @@ class CycleRunner
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
     void renew_contacts(const Model& model, State& state, int threads);
 
-    /// The contacts were found by somebody else; they stay as they are.
+    /// The contacts, or constant forces, were found by somebody else; they stay as they are.
     void take_contacts() { prepared_ = false; }
 
     /// Closed contact points summed over all cycles.

@@ -8,13 +8,16 @@
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/motion/time_step.h"
+#include "core/observer.h"
 #include "core/rock/build_model.h"
 #include "core/state/block_sorting.h"
 #include "core/stress/drawn_joints.h"
+#include "core/water/water_forces.h"
 #include "parallel/state_check.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -46,6 +49,7 @@ Simulation::Simulation(Model model, State state, int threads)
         renew_contacts();
     if (fresh)
     {
+        state_.water = water_forces(model_, state_);
         join_drawn_blocks(model_, std::vector<std::uint8_t>(static_cast<std::size_t>(model_.blocks()), 1), state_);
         state_.ledger.initial = stored_energy(model_, state_).total();
         find_default_step();
@@ -185,6 +189,16 @@ void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& side
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 
+void Simulation::change_water()
+{
+    if (!model_.water.given)
+        return;
+    const std::vector<Triple> before = std::exchange(state_.water, water_forces(model_, state_));
+    if (model_.stages[state_.stage].relax_cycles > 0)
+        release_water(before, state_);
+    runner_.take_contacts();
+}
+
 void Simulation::change_joints(Index stage)
 {
     const auto i = static_cast<std::size_t>(stage);
@@ -218,6 +232,7 @@ void Simulation::begin_stage(Index stage)
         release_tractions(model_, before, stage, state_);
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
         change_blocks(def, sides);
+    change_water();
     start_walls(model_, state_);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);
@@ -299,13 +314,20 @@ void Simulation::advance(std::int64_t cycles)
     {
         if (state_.contacts_outdated)
             renew_contacts();
-        const std::int64_t stop = state_.released.empty() ? end : std::min(end, released_until(model_, state_));
+        std::int64_t stop = state_.released.empty() ? end : std::min(end, released_until(model_, state_));
+        if (model_.water.given)
+            stop = std::min(stop, next_multiple(state_.cycle, water_every));
         if (const Index stiff = runner_.run(model_, state_, stop - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
         if (!state_.released.empty() && state_.cycle >= released_until(model_, state_))
             state_.released.clear();
         if (runner_.found_deep_overlap())
             refuse_overlap(model_, state_);
+        if (model_.water.given && state_.cycle % water_every == 0)
+        {
+            state_.water = water_forces(model_, state_);
+            runner_.take_contacts();
+        }
     }
 }
 

@@ -75,6 +75,8 @@ class Simulation
     /// What the stage excavates, fixes and frees.
     void change_blocks(const StageDef& stage, const BoundaryChange& sides);
     void change_sides(const BoundaryChange& sides);
+    /// Forces of the water of the stage that begins, where the blocks are now.
+    void change_water();
     /// What the stage sets of joints.
     void change_joints(Index stage);
     void excavate(const std::string& name);

@@ -33,6 +33,11 @@ void add_constant_forces(const Model& model, const State& state, std::vector<Tri
             on = {on.x + force.x, on.y + force.y, on.w + force.moment};
         }
     }
+    if (!state.water.empty())
+        forces.resize(static_cast<std::size_t>(model.blocks()));
+    for (std::size_t b = 0; b < state.water.size(); ++b)
+        if (state.blocks.present[b] != 0)
+            forces[b] = {forces[b].x + state.water[b].x, forces[b].y + state.water[b].y, forces[b].w + state.water[b].w};
 }
 
 std::vector<Triple> constant_forces(const Model& model, const State& state)

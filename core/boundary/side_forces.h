@@ -1,5 +1,5 @@
 #pragma once
-/// Constant forces of tractions on sides.
+/// Constant forces of tractions on sides, and of water.
 
 #include "core/model/model.h"
 #include "core/state/state.h"

@@ -6,6 +6,7 @@
 #include "core/model/trace_cells.h"
 #include "core/types.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -207,6 +208,30 @@ struct InsituDef
     double ratio_offset = 0.0;        ///< horizontal compression besides [Pa]
 };
 
+// ---- water ----------------------------------------------------------------------------------------------------------
+
+/// [[water_crack]]: a crack with standing water that seeps out along a plane.
+struct WaterCrackDef
+{
+    Polygon crack;       ///< its points; the last one is its foot [m]
+    Polygon outlet;      ///< points from the foot on; at the last one the pressure is 0 [m]
+    double level = 0.0;  ///< of the water in the crack, against gravity [m]
+};
+
+/// [water]: pressure in the joints and on free faces; its level by `level`, `table` or `pressure`.
+struct WaterDef
+{
+    bool given = false;
+    std::optional<double> level;                   ///< against gravity [m]
+    Polygon table;                                 ///< points of the water table [m]
+    double density = 1000.0;                       ///< [kg/m3]
+    std::string pressure;                          ///< CSV file of x, y, pressure
+    std::vector<std::array<double, 3>> pressures;  ///< its rows, found by io/ [m], [m], [Pa]
+    bool ponded = true;                            ///< presses on free faces below the table too
+    std::vector<std::string> joints;               ///< that water gets into; empty: all
+    std::vector<std::string> flooded;              ///< excavations that are not drained
+};
+
 // ---- sides ----------------------------------------------------------------------------------------------------------
 
 enum class BoundaryKind
@@ -348,6 +373,8 @@ struct StageDef
     std::vector<std::string> fix;          ///< block names fixed at the start
     std::vector<std::string> free;         ///< block names freed at the start
     std::vector<std::string> set;          ///< "joint.NAME.KEY = VALUE": numbers of joints from here on
+    std::optional<double> water_level;     ///< of [water] from here on [m]
+    Polygon water_table;                   ///< or the table [m]
     std::vector<JointDef> joints;          ///< all joints from here on, where `set` changes some; found by io/
     std::optional<Method> method;          ///< from here on
     std::optional<DampingPreset> damping;  ///< from here on
@@ -389,6 +416,8 @@ struct CaseDef
     std::vector<MaterialDef> materials;
     std::vector<JointDef> joints;
     InsituDef insitu;
+    WaterDef water;
+    std::vector<WaterCrackDef> water_cracks;
     std::vector<BoundaryDef> boundaries;
     Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
     std::vector<LoadDef> loads;

@@ -108,6 +108,8 @@ void sort_blocks(Model& model, State& state)
     permute(from, blocks.reference_position);
     permute(from, blocks.reference_angle);
     permute(from, state.rebuilt_at);
+    if (!state.water.empty())
+        permute(from, state.water);
     for (Index& block : state.next_to_excavation)
         block = moved.block[block];
     std::sort(state.next_to_excavation.begin(), state.next_to_excavation.end());

@@ -68,6 +68,11 @@ std::uint64_t state_hash(const Model& model, const State& state)
                                            m.vx + 0.0, m.vy + 0.0, m.w + 0.0, m.angle + 0.0};
         XXH3_64bits_update(hash, values.data(), sizeof values);
     }
+    for (const Index i : state.water.empty() ? std::vector<Index>{} : model.slot_of_user)
+    {
+        const std::array<double, 3> values{state.water[i].x + 0.0, state.water[i].y + 0.0, state.water[i].w + 0.0};
+        XXH3_64bits_update(hash, values.data(), sizeof values);
+    }
     const std::vector<Index> number = user_part_numbers(model);
     const Contacts& contacts = state.contacts;
     std::vector<HashedContact> hashed;

@@ -2,6 +2,7 @@
 /// Scratch of a cycle, reused: nothing here outlives one, and nothing here is allocated after the first cycles.
 
 #include "core/simd.h"
+#include "core/state/triple.h"
 #include "core/types.h"
 
 #include <cstdint>
@@ -86,12 +87,6 @@ struct ImpulsePoint
     double impulse_normal = 0.0;    ///< J >= 0 [N s]
     double impulse_shear = 0.0;     ///< [N s]
     double correction = 0.0;        ///< pseudo impulse of the position correction [N s]
-};
-
-/// Three components of a block's motion.
-struct Triple
-{
-    double x = 0.0, y = 0.0, w = 0.0;
 };
 
 /// A loaded block before the step: its velocities, and the moment of the load about its centroid.

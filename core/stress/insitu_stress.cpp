@@ -5,6 +5,7 @@
 #include "core/geometry/convex_part.h"
 #include "core/joint/normal_closure.h"
 #include "core/stress/drawn_joints.h"
+#include "core/water/water_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,14 @@ DrawnContact drawn_contact(const Model& model, const State& state, Index i)
     }
     const double sixth = std::max(drawn.touch.length, 0.0) / 6.0;
     drawn.force = {sixth * (2.0 * traction[0] + traction[1]), sixth * (traction[0] + 2.0 * traction[1])};
+    if (drawn.touch.length > 0.0)
+    {
+        const auto place = [&](int k) -> Vec2
+        { return Vec2(ref.x, ref.y) + drawn.touch.point[k].ref_t * t + drawn.touch.point[k].ref_m * m; };
+        const std::array<double, 2> water = water_share(model, state.stage, contacts.law[i], place(0), place(1));
+        drawn.force[0].y() -= water[0];
+        drawn.force[1].y() -= water[1];
+    }
     return drawn;
 }
 

@@ -167,6 +167,20 @@ Overrides turned_case(const std::string& case_file, const Overrides& overrides, 
         turns.push_back(set(fmt::format("load[{}].force", i), turned(def.loads[i].force)));
     }
     turns.push_back(set("gravity.vector", turned(def.gravity)));
+    const auto turned_line = [&](const Polygon& line)
+    {
+        Polygon points;
+        for (const Vec2& p : line)
+            points.push_back(turned(p));
+        return points;
+    };
+    if (!def.water.table.empty())
+        turns.push_back(set("water.table", turned_line(def.water.table)));
+    for (std::size_t i = 0; i < def.water_cracks.size(); ++i)
+    {
+        turns.push_back(set(fmt::format("water_crack[{}].crack", i), turned_line(def.water_cracks[i].crack)));
+        turns.push_back(set(fmt::format("water_crack[{}].outlet", i), turned_line(def.water_cracks[i].outlet)));
+    }
     return turns;
 }
 

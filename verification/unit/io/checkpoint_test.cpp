@@ -146,6 +146,22 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfStressedRock)
     }
 }
 
+TEST(Checkpoint, GivesTheUnbrokenRunBelowWater)
+{
+    const ScratchFolder folder("checkpoint_water");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.water = {.given = true, .table = {{0.0, 14.0}, {12.0, 6.0}}};
+    scene.stages[1].water_level = 5.0;
+    scene.stages[1].relax_cycles = 300;
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {310, 499, 500, 501, 1150})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 2, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
 /// Walls that begin, end and move, tractions and freed blocks: what acts follows from the number of the stage.
 TEST(Checkpoint, GivesTheUnbrokenRunOfSides)
 {

@@ -1,0 +1,176 @@
+#include "core/water/pore_pressure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace hdem
+{
+double WaterTable::height(double across) const
+{
+    const auto after = std::ranges::upper_bound(points, across, {}, [](const Vec2& p) { return p.x(); });
+    if (after == points.begin())
+        return points.front().y();
+    if (after == points.end())
+        return points.back().y();
+    const Vec2 &a = *(after - 1), &b = *after;
+    return a.y() + (b.y() - a.y()) * (across - a.x()) / (b.x() - a.x());
+}
+
+namespace
+{
+constexpr int pieces_a_triangle = 2;  ///< of a stretch across a field, whose pressure bends in each triangle
+constexpr int most_pieces = 64;
+
+/// Where a point lies along a polyline, if it lies on it.
+std::optional<double> way_along(const std::vector<Vec2>& line, const Vec2& at, double tolerance)
+{
+    double way = 0.0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    {
+        const Vec2 side = line[i + 1] - line[i], to = at - line[i];
+        const double length = side.norm(), s = to.dot(side) / length;
+        if (s >= -tolerance && s <= length + tolerance && std::abs(cross(side, to)) <= tolerance * length)
+            return way + std::clamp(s, 0.0, length);
+        way += length;
+    }
+    return std::nullopt;
+}
+
+double length_of(const std::vector<Vec2>& line)
+{
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        length += (line[i + 1] - line[i]).norm();
+    return length;
+}
+
+/// Pressures before they are cut to 0 where there is no water.
+class Pressure
+{
+  public:
+    Pressure(const Water& water, Index stage) : water_(water)
+    {
+        const Index table = water.table_of_stage.empty() ? no_index : water.table_of_stage[static_cast<std::size_t>(stage)];
+        if (table != no_index)
+            table_ = &water.tables[static_cast<std::size_t>(table)];
+    }
+
+    [[nodiscard]] bool has_table() const { return table_ != nullptr && water_.field.triangle.empty(); }
+    [[nodiscard]] const WaterTable& table() const { return *table_; }
+    [[nodiscard]] double across(const Vec2& at) const { return at.x() * water_.up.y() - at.y() * water_.up.x(); }
+
+    /// Of a crack or an outlet on which both ends and the middle lie.
+    [[nodiscard]] std::optional<std::array<double, 2>> on_crack(const Vec2& a, const Vec2& b) const
+    {
+        for (const WaterCrack& crack : water_.cracks)
+        {
+            const auto lies_on = [&](const std::vector<Vec2>& line, const auto& pressure) -> std::optional<std::array<double, 2>>
+            {
+                const double e = water_.tolerance;
+                const auto first = way_along(line, a, e), last = way_along(line, b, e);
+                if (!first || !last || !way_along(line, 0.5 * (a + b), e))
+                    return std::nullopt;
+                return std::array<double, 2>{pressure(a, *first), pressure(b, *last)};
+            };
+            if (const auto stands = lies_on(crack.crack, [&](const Vec2& at, double) { return below(crack.level, at); }))
+                return stands;
+            const double foot = std::max(below(crack.level, crack.outlet.front()), 0.0), length = length_of(crack.outlet);
+            if (const auto seeps = lies_on(crack.outlet, [&](const Vec2&, double way) { return foot * (1.0 - way / length); }))
+                return seeps;
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] double at(const Vec2& place) const
+    {
+        if (!water_.field.triangle.empty())
+            return of_field(place);
+        return table_ == nullptr ? 0.0 : below(table_->height(across(place)), place);
+    }
+
+  private:
+    [[nodiscard]] double below(double level, const Vec2& at) const { return water_.unit_weight * (level - at.dot(water_.up)); }
+
+    [[nodiscard]] double of_field(const Vec2& at) const
+    {
+        const PressureField& f = water_.field;
+        for (const auto& [i, j, k] : f.triangle)
+        {
+            const Vec2 &a = f.points[i], &b = f.points[j], &c = f.points[k];
+            const double whole = cross(b - a, c - a), slack = -1e-9 * whole;
+            const double at_a = cross(b - at, c - at), at_b = cross(c - at, a - at), at_c = whole - at_a - at_b;
+            if (at_a >= slack && at_b >= slack && at_c >= slack)
+                return (at_a * f.pressure[i] + at_b * f.pressure[j] + at_c * f.pressure[k]) / whole;
+        }
+        return 0.0;
+    }
+
+    const Water& water_;
+    const WaterTable* table_ = nullptr;
+};
+
+/// Add a piece on which p runs straight from p0 at s0 to p1 at s1; below 0 there is no water.
+void add_piece(double s0, double p0, double s1, double p1, PressureSum& sum)
+{
+    if (p0 <= 0.0 && p1 <= 0.0)
+        return;
+    if (p0 < 0.0)
+        s0 += (s1 - s0) * p0 / (p0 - p1), p0 = 0.0;
+    else if (p1 < 0.0)
+        s1 -= (s1 - s0) * p1 / (p1 - p0), p1 = 0.0;
+    const double length = s1 - s0, mean = 0.5 * (p0 + p1);
+    sum.force += mean * length;
+    sum.moment += length * (mean * s0 + length * (p0 + 2.0 * p1) / 6.0);
+}
+
+/// Ways along a stretch at which its pressure may bend, ascending, with both ends.
+std::vector<double> bends(const Water& water, const Pressure& pressure, const Vec2& from, const Vec2& along, double length)
+{
+    std::vector<double> ways{0.0, length};
+    const auto add = [&](double way)
+    {
+        if (way > 0.0 && way < length)
+            ways.push_back(way);
+    };
+    if (pressure.has_table())
+    {
+        const double start = pressure.across(from), slope = pressure.across(along);
+        for (const Vec2& p : pressure.table().points)
+            if (slope != 0.0)
+                add((p.x() - start) / slope);
+    }
+    for (const WaterCrack& crack : water.cracks)
+        for (const std::vector<Vec2>* line : {&crack.crack, &crack.outlet})
+            for (const Vec2& p : *line)
+                if (std::abs(cross(along, p - from)) <= water.tolerance)
+                    add((p - from).dot(along));
+    if (!water.field.triangle.empty())
+    {
+        const double count = std::clamp(std::ceil(pieces_a_triangle * length / water.field.spacing), 1.0, double{most_pieces});
+        for (int i = 1; i < static_cast<int>(count); ++i)
+            add(length * i / count);
+    }
+    std::ranges::sort(ways);
+    return ways;
+}
+}  // namespace
+
+PressureSum pressure_along(const Water& water, Index stage, const Vec2& from, const Vec2& to)
+{
+    PressureSum sum;
+    const double length = (to - from).norm();
+    if (length == 0.0)
+        return sum;
+    const Vec2 along = (to - from) / length;
+    const Pressure pressure(water, stage);
+    const std::vector<double> ways = bends(water, pressure, from, along, length);
+    for (std::size_t i = 0; i + 1 < ways.size(); ++i)
+    {
+        const Vec2 a = from + ways[i] * along, b = from + ways[i + 1] * along;
+        const auto crack = pressure.on_crack(a, b);
+        add_piece(ways[i], crack ? (*crack)[0] : pressure.at(a), ways[i + 1], crack ? (*crack)[1] : pressure.at(b), sum);
+    }
+    return sum;
+}
+}  // namespace hdem

@@ -1,0 +1,30 @@
+#pragma once
+/// Pressure of standing or seeping water.
+///
+///   p = rho_w g max(h - y, 0)      below a water table; h and y against gravity
+///   p = linear in length           from the foot of a water-filled crack to its outlet, where it is 0
+///   p = linear in triangles        of a field from elsewhere
+///
+/// On the line of a crack its own pressure counts, elsewhere that of the field if there is one, else that of the table.
+
+#include "core/model/water.h"
+
+namespace hdem
+{
+/// Pressure over a straight stretch.
+struct PressureSum
+{
+    double force = 0.0;   ///< integral of p ds [N]
+    double moment = 0.0;  ///< integral of p s ds, s from the first end [N m]
+};
+
+/// @param stage     whose table acts
+/// @param from, to  local coordinates [m]
+[[nodiscard]] PressureSum pressure_along(const Water& water, Index stage, const Vec2& from, const Vec2& to);
+
+/// Triangles of the field, by Delaunay. @return false where all points lie on a line
+[[nodiscard]] bool make_triangles(PressureField& field);
+
+/// Does the field reach this place?
+[[nodiscard]] bool covers(const PressureField& field, const Vec2& at);
+}  // namespace hdem

@@ -1,0 +1,15 @@
+#pragma once
+/// [water] of a case -> water of the model.
+
+#include "core/check.h"
+#include "core/model/model.h"
+
+#include <vector>
+
+namespace hdem
+{
+/// @param origin  of the model in the user's coordinates
+/// @param blocks  as drawn
+/// @pre the model has its joints, excavations and sizes
+[[nodiscard]] std::vector<Problem> resolve_water(const CaseDef& def, const Vec2& origin, const Blocks& blocks, Model& model);
+}  // namespace hdem

@@ -1,0 +1,265 @@
+#include "core/water/water_forces.h"
+
+#include "core/detection/edge_touch.h"
+#include "core/geometry/convex_part.h"
+#include "core/water/pore_pressure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace hdem
+{
+namespace
+{
+constexpr double steepest = 0.5;  ///< of an edge against the one it faces [-]
+
+/// Part of an edge, from its first vertex.
+struct Stretch
+{
+    Index edge = no_index;  ///< position in Shapes::vertex
+    double from = 0.0, to = 0.0;
+    bool is_wet = false;
+};
+
+Vec2 to_world(const BlockMotion& motion, const Vec2& body)
+{
+    return {motion.x + motion.c * body.x() - motion.s * body.y(), motion.y + motion.s * body.x() + motion.c * body.y()};
+}
+
+Vec2 to_body(const BlockMotion& motion, const Vec2& world)
+{
+    const Vec2 d(world.x() - motion.x, world.y() - motion.y);
+    return {motion.c * d.x() + motion.s * d.y(), -motion.s * d.x() + motion.c * d.y()};
+}
+
+/// Stretches of edges that face another block.
+void add_facing(const Model& model, const State& state, Index i, std::vector<Stretch>& faces)
+{
+    const Contacts& contacts = state.contacts;
+    const Index ref = contacts.ref[i], inc = contacts.inc[i];
+    if (ref == inc || contacts.ref_edge[i] == no_index || state.blocks.present[ref] == 0 || state.blocks.present[inc] == 0)
+        return;
+    const EdgePair edges = contacts.edges(i);
+    const BlockMotion &on_ref = state.blocks.motion[ref], &on_inc = state.blocks.motion[inc];
+    const EdgeTouch touch = touch_edges(edges, on_ref, on_inc);
+    if (!(touch.length > contacts.length_floor(i)) || std::abs(touch.slope) > steepest)
+        return;
+    const bool wet = model.water.wet_law[contacts.law[i]] != 0;
+    const auto add = [&](Index edge, double a, double b)
+    {
+        const double length = model.shapes.edge_length[edge];
+        faces.push_back({edge, std::clamp(std::min(a, b), 0.0, length), std::clamp(std::max(a, b), 0.0, length), wet});
+    };
+    add(contacts.ref_edge[i], touch.point[0].ref_t - edges.start_t, touch.point[1].ref_t - edges.start_t);
+    const Vec2 t(touch.ex, touch.ey), m = turned_left(t), first(edges.p0x, edges.p0y);
+    const Vec2 along = (Vec2(edges.p1x, edges.p1y) - first).normalized();
+    const auto way = [&](const TouchPoint& p)
+    { return (to_body(on_inc, Vec2(on_inc.x, on_inc.y) + p.inc_t * t + p.inc_m * m) - first).dot(along); };
+    add(contacts.inc_edge[i], way(touch.point[0]), way(touch.point[1]));
+}
+
+/// Blocks that are gone, whose place is an opening without water.
+class DryOpenings
+{
+  public:
+    DryOpenings(const Model& model, const State& state) : model_(model), state_(state)
+    {
+        for (Index part = 0; part < model.shapes.parts(); ++part)
+        {
+            const Index block = model.shapes.part_block[part], excavation = model.excavation[block];
+            const bool flooded = excavation != no_index && model.water.wet_opening[excavation] != 0;
+            if (state.blocks.present[block] == 0 && model.mass[block] > 0.0 && !flooded)
+                parts_.push_back(part);
+        }
+    }
+
+    /// Shares of the way from `a` to `b` that lie in them, joined and ascending.
+    [[nodiscard]] std::vector<std::array<double, 2>> inside(const Vec2& a, const Vec2& b) const
+    {
+        std::vector<std::array<double, 2>> found;
+        for (const Index part : parts_)
+        {
+            const BlockMotion& motion = state_.blocks.motion[model_.shapes.part_block[part]];
+            const Vec2 centre = to_world(motion, model_.shapes.part_centre[part]);
+            const double reach = model_.shapes.part_radius[part] + 0.5 * (b - a).norm();
+            if ((centre - 0.5 * (a + b)).squaredNorm() <= reach * reach)
+                add(part, to_body(motion, a), to_body(motion, b), found);
+        }
+        std::ranges::sort(found);
+        return found;
+    }
+
+  private:
+    /// Cut the way by the part's edges.
+    void add(Index part, const Vec2& a, const Vec2& b, std::vector<std::array<double, 2>>& found) const
+    {
+        double low = 0.0, high = 1.0;
+        for (Index v = model_.shapes.vertex_begin[part]; v < model_.shapes.vertex_begin[part + 1]; ++v)
+        {
+            const double at_a = cross(model_.shapes.edge_tangent[v], a - model_.shapes.vertex[v]);
+            const double at_b = cross(model_.shapes.edge_tangent[v], b - model_.shapes.vertex[v]);
+            if (at_a < 0.0 && at_b < 0.0)
+                return;
+            if (at_a < 0.0)
+                low = std::max(low, at_a / (at_a - at_b));
+            else if (at_b < 0.0)
+                high = std::min(high, at_a / (at_a - at_b));
+        }
+        if (low < high)
+            found.push_back({low, high});
+    }
+
+    const Model& model_;
+    const State& state_;
+    std::vector<Index> parts_;
+};
+
+class WaterForces
+{
+  public:
+    WaterForces(const Model& model, const State& state) : model_(model), state_(state), openings_(model, state)
+    {
+        for (Index i = 0; i < state.contacts.size(); ++i)
+            add_facing(model, state, i, faces_);
+        std::ranges::sort(faces_, [](const Stretch& a, const Stretch& b)
+                          { return std::tie(a.edge, a.from, a.to, a.is_wet) < std::tie(b.edge, b.from, b.to, b.is_wet); });
+    }
+
+    [[nodiscard]] Triple on(Index block)
+    {
+        sum_ = {};
+        block_ = block;
+        const Shapes& shapes = model_.shapes;
+        for (Index part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part)
+            for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
+                if (shapes.edge_source[v] != edge_internal)
+                    add_edge(v);
+        return sum_;
+    }
+
+  private:
+    void add_edge(Index edge)
+    {
+        double covered = 0.0;
+        const bool may_be_free = model_.water.ponded && !has_given_stress(edge);
+        for (auto face = std::ranges::lower_bound(faces_, edge, {}, &Stretch::edge); face != faces_.end() && face->edge == edge;
+             ++face)
+        {
+            if (face->from > covered && may_be_free)
+                add_free(edge, covered, face->from);
+            if (face->to > covered && face->is_wet)
+                add_pressure(edge, std::max(face->from, covered), face->to);
+            covered = std::max(covered, face->to);
+        }
+        if (may_be_free && covered < model_.shapes.edge_length[edge])
+            add_free(edge, covered, model_.shapes.edge_length[edge]);
+    }
+
+    void add_free(Index edge, double from, double to)
+    {
+        const Vec2 out = model_.water.tolerance * -turned_left(direction(edge));
+        double wet_from = from;
+        for (const auto& [low, high] : openings_.inside(place(edge, from) + out, place(edge, to) + out))
+        {
+            if (const double dry = from + low * (to - from); dry > wet_from)
+                add_pressure(edge, wet_from, dry);
+            wet_from = std::max(wet_from, from + high * (to - from));
+        }
+        if (wet_from < to)
+            add_pressure(edge, wet_from, to);
+    }
+
+    void add_pressure(Index edge, double from, double to)
+    {
+        const Vec2 a = place(edge, from), inward = turned_left(direction(edge));
+        const PressureSum p = pressure_along(model_.water, state_.stage, a, place(edge, to));
+        const Vec2 force = p.force * inward;
+        const BlockMotion& motion = state_.blocks.motion[block_];
+        sum_.x += force.x();
+        sum_.y += force.y();
+        sum_.w += cross(a - Vec2(motion.x, motion.y), force) + p.moment;
+    }
+
+    [[nodiscard]] bool has_given_stress(Index edge) const
+    {
+        const Vec2 &a = model_.shapes.vertex[edge], b = a + model_.shapes.edge_length[edge] * model_.shapes.edge_tangent[edge];
+        const auto lies_on = [&](const BoundaryFace& face)
+        {
+            const Vec2 side = face.body_to - face.body_from;
+            const double slack = model_.water.tolerance * side.norm();
+            const auto is_on = [&](const Vec2& p)
+            {
+                const Vec2 to = p - face.body_from;
+                return std::abs(cross(side, to)) <= slack && to.dot(side) >= -slack && to.dot(side) <= side.squaredNorm() + slack;
+            };
+            return face.block == block_ && is_on(a) && is_on(b);
+        };
+        return std::ranges::any_of(model_.boundaries,
+                                   [&](const Boundary& boundary) {
+                                       return boundary.kind == BoundaryKind::stress && boundary.acts(state_.stage) &&
+                                              std::ranges::any_of(boundary.faces, lies_on);
+                                   });
+    }
+
+    [[nodiscard]] Vec2 direction(Index edge) const
+    {
+        const BlockMotion& motion = state_.blocks.motion[block_];
+        const Vec2& t = model_.shapes.edge_tangent[edge];
+        return {motion.c * t.x() - motion.s * t.y(), motion.s * t.x() + motion.c * t.y()};
+    }
+    [[nodiscard]] Vec2 place(Index edge, double way) const
+    {
+        return to_world(state_.blocks.motion[block_], model_.shapes.vertex[edge]) + way * direction(edge);
+    }
+
+    const Model& model_;
+    const State& state_;
+    DryOpenings openings_;
+    std::vector<Stretch> faces_;  ///< ascending by edge and place
+    Index block_ = no_index;
+    Triple sum_;
+};
+}  // namespace
+
+std::vector<Triple> water_forces(const Model& model, const State& state)
+{
+    std::vector<Triple> forces;
+    if (!model.water.given)
+        return forces;
+    forces.resize(static_cast<std::size_t>(model.blocks()));
+    WaterForces water(model, state);
+    for (Index b = 0; b < model.blocks(); ++b)
+        if (state.blocks.is_free(b))
+            forces[b] = water.on(b);
+    return forces;
+}
+
+std::array<double, 2> water_share(const Model& model, Index stage, Index law, const Vec2& from, const Vec2& to)
+{
+    const double length = (to - from).norm();
+    if (!model.water.given || length <= 1e-6 * model.water.tolerance || model.water.wet_law[law] == 0)
+        return {0.0, 0.0};
+    const PressureSum p = pressure_along(model.water, stage, from, to);
+    return {p.force - p.moment / length, p.moment / length};
+}
+
+void release_water(const std::vector<Triple>& before, State& state)
+{
+    std::map<Index, ReleasedForce> sums;
+    for (const ReleasedForce& force : state.released)
+        sums[force.block] = force;
+    for (Index b = 0; b < static_cast<Index>(before.size()); ++b)
+    {
+        const Triple &was = before[b], &is = state.water[b];
+        if (!state.blocks.is_free(b) || (was.x == is.x && was.y == is.y && was.w == is.w))
+            continue;
+        ReleasedForce& sum = sums[b];
+        sum = {b, sum.x + was.x - is.x, sum.y + was.y - is.y, sum.moment + was.w - is.w};
+    }
+    state.released.clear();
+    for (const auto& [block, force] : sums)
+        state.released.push_back(force);
+}
+}  // namespace hdem

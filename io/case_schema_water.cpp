@@ -1,0 +1,109 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+namespace
+{
+/// Not as a polygon is read: a last point that is the first stays.
+template <auto Member>
+void assign_line(void* object, const TomlNode& value, const KeySpec&)
+{
+    using Owner = typename MemberTraits<decltype(Member)>::Owner;
+    Polygon& points = static_cast<Owner*>(object)->*Member;
+    points.clear();
+    for (const TomlNode& item : *value.items())
+        points.push_back(vector(item));
+}
+}  // namespace
+
+SectionSpec water_section()
+{
+    return {
+        "water",
+        SectionKind::table,
+        "water",
+        "Water in the joints and around the rock, which stands or seeps slowly: p = ρ_w g (h - y) below its level. It presses on "
+        "both "
+        "faces of a joint over the whole stretch on which they face each other, open or closed, so that joint laws see the "
+        "effective normal stress. Time step and method do not matter to it. [insitu] stays the total stress. Its forces are found "
+        "anew every 500 cycles and with each stage. Excavations are drained: where a block was taken out there is no pressure. On "
+        "a "
+        "side with a [[boundary]] of kind stress that stress is all that acts.",
+        {field<&WaterDef::level>({.name = "level",
+                                  .unit = "m",
+                                  .effect = "Height of the water everywhere, against gravity: y where gravity points down.",
+                                  .example = "12.0",
+                                  .range = coordinate,
+                                  .default_note = "no water but that of the other keys"}),
+         with_assign(spec({.name = "table",
+                           .unit = "m",
+                           .effect = "Points of the water table from left to right, seen with gravity downwards. It is straight "
+                                     "between them and level beyond them. Instead of `level`.",
+                           .example = "[[0, 12], [30, 9], [60, 4]]",
+                           .range = coordinate,
+                           .default_note = "none"},
+                          ValueType::line),
+                     assign_line<&WaterDef::table>),
+         field<&WaterDef::pressure>({.name = "pressure",
+                                     .effect = "CSV file with rows of x,y,pressure in m and Pa, from a seepage calculation, for "
+                                               "example. Between its points it is linear in triangles. Instead of `level` and "
+                                               "`table`.",
+                                     .example = "\"p.csv\"",
+                                     .default_note = "none"}),
+         field<&WaterDef::density>({.name = "density", .unit = "kg/m3", .effect = "ρ_w.", .range = positive}),
+         field<&WaterDef::ponded>({.name = "ponded",
+                                   .effect = "Water stands before free faces that lie below its level, and presses on them: a "
+                                             "block in it loses ρ_w g A of its weight. false: on joints only."}),
+         field<&WaterDef::joints>({.name = "joints",
+                                   .effect = "Names of the [joint.NAME] that water gets into.",
+                                   .example = "[\"bedding\", \"fault\"]",
+                                   .default_note = "all"}),
+         field<&WaterDef::flooded>({.name = "flooded",
+                                    .effect = "Names of excavations that are not drained: once excavated, water stands in them "
+                                              "as around them.",
+                                    .example = "[\"shaft\"]",
+                                    .default_note = "none"})},
+        [](CaseDef& def, const std::string&) -> void*
+        {
+            def.water.given = true;
+            return &def.water;
+        }};
+}
+
+SectionSpec water_crack_section()
+{
+    return {
+        "water_crack",
+        SectionKind::array,
+        "water crack",
+        "A crack in which water stands, and the joints through which it seeps to the outside. On its line this pressure counts, "
+        "whatever [water] says elsewhere. Needs [water].",
+        {with_assign(spec({.name = "crack",
+                           .unit = "m",
+                           .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y).",
+                           .example = "[[18, 30], [18, 16]]",
+                           .range = coordinate,
+                           .required = true},
+                          ValueType::line),
+                     assign_line<&WaterCrackDef::crack>),
+         with_assign(spec({.name = "outlet",
+                           .unit = "m",
+                           .effect = "Points from the foot of the crack on. The pressure falls with length from that of the foot "
+                                     "to 0 at the last point.",
+                           .example = "[[18, 16], [0, 0]]",
+                           .range = coordinate,
+                           .required = true},
+                          ValueType::line),
+                     assign_line<&WaterCrackDef::outlet>),
+         field<&WaterCrackDef::level>({.name = "level",
+                                       .unit = "m",
+                                       .effect = "Height of the water in the crack, against gravity.",
+                                       .example = "19.0",
+                                       .range = coordinate,
+                                       .required = true})},
+        append<&CaseDef::water_cracks>};
+}
+}  // namespace hdem

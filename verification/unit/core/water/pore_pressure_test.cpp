@@ -1,0 +1,96 @@
+#include "core/water/pore_pressure.h"
+
+#include <gtest/gtest.h>
+
+namespace hdem
+{
+namespace
+{
+/// 10 kN/m3, y upwards.
+Water under(std::vector<Vec2> table)
+{
+    Water water;
+    water.given = true;
+    water.unit_weight = 1e4;
+    water.tables = {{std::move(table)}};
+    water.table_of_stage = {0};
+    water.tolerance = 1e-4;
+    return water;
+}
+
+void expect_sum(const PressureSum& sum, double force, double moment)
+{
+    EXPECT_NEAR(sum.force, force, 1e-9 * std::abs(force) + 1e-9);
+    EXPECT_NEAR(sum.moment, moment, 1e-9 * std::abs(moment) + 1e-9);
+}
+
+TEST(PorePressure, GrowsBelowTheLevel)
+{
+    const Water water = under({{0.0, 5.0}});
+    expect_sum(pressure_along(water, 0, {0, 2}, {4, 2}), 1.2e5, 2.4e5);
+    // 30 to 50 kPa over 2 m: ends (2 p1 + p2) L/6 and (p1 + 2 p2) L/6.
+    expect_sum(pressure_along(water, 0, {0, 2}, {0, 0}), 8e4, 2.0 * (30e3 + 2.0 * 50e3) * 2.0 / 6.0);
+    expect_sum(pressure_along(water, 0, {0, 6}, {4, 6}), 0.0, 0.0);
+}
+
+TEST(PorePressure, IsCutWhereTheStretchLeavesTheWater)
+{
+    const Water water = under({{0.0, 1.0}});
+    // 0 at 1 m of 3 m, 20 kPa at the end: a triangle of 2 m.
+    expect_sum(pressure_along(water, 0, {0, 2}, {0, -1}), 2e4, 2e4 * (1.0 + 4.0 / 3.0));
+    expect_sum(pressure_along(water, 0, {0, -1}, {0, 2}), 2e4, 2e4 * 2.0 / 3.0);
+}
+
+TEST(PorePressure, BendsWithTheTable)
+{
+    const Water water = under({{0.0, 4.0}, {2.0, 2.0}, {6.0, 2.0}});
+    // On y = 0: 40 to 20 kPa over 2 m, then 20 kPa over 4 m.
+    expect_sum(pressure_along(water, 0, {0, 0}, {6, 0}), 6e4 + 8e4, 2.0 * (40e3 + 2.0 * 20e3) * 2.0 / 6.0 + 8e4 * 4.0);
+    const PressureSum left = pressure_along(water, 0, {-3, 0}, {0, 0});
+    expect_sum(left, 1.2e5, 1.8e5);
+}
+
+TEST(PorePressure, TurnsWithGravity)
+{
+    Water water = under({{0.0, 5.0}});
+    water.up = {1.0, 0.0};
+    expect_sum(pressure_along(water, 0, {2, 0}, {2, 4}), 1.2e5, 2.4e5);
+}
+
+TEST(PorePressure, FallsAlongTheOutletOfACrack)
+{
+    Water water = under({{0.0, -100.0}});
+    water.cracks = {{.crack = {{8, 6}, {8, 2}}, .outlet = {{8, 2}, {4, 0}, {0, 0}}, .level = 5.0}};
+    expect_sum(pressure_along(water, 0, {8, 6}, {8, 2}), 0.5 * 3e4 * 3.0, 4.5e4 * 3.0);
+    // Way sqrt(20) + 4, 30 kPa at the foot.
+    const double length = std::sqrt(20.0) + 4.0, at_bend = 3e4 * 4.0 / length;
+    expect_sum(pressure_along(water, 0, {4, 0}, {0, 0}), 0.5 * at_bend * 4.0, at_bend * 16.0 / 6.0);
+    // A joint that runs on beyond the outlet, and one that only crosses it.
+    expect_sum(pressure_along(water, 0, {4, 0}, {-5, 0}), 0.5 * at_bend * 4.0, at_bend * 16.0 / 6.0);
+    expect_sum(pressure_along(water, 0, {2, -1}, {2, 1}), 0.0, 0.0);
+}
+
+TEST(PorePressure, OfAFieldIsLinearInTriangles)
+{
+    Water water = under({});
+    water.tables.clear();
+    water.table_of_stage = {no_index};
+    const auto plane = [](const Vec2& p) { return 7e3 + 2e3 * p.x() - 1e3 * p.y(); };
+    for (const Vec2& p : {Vec2(0, 0), Vec2(10, 0), Vec2(10, 7), Vec2(0, 7), Vec2(3, 2), Vec2(6, 5)})
+    {
+        water.field.points.push_back(p);
+        water.field.pressure.push_back(plane(p));
+    }
+    ASSERT_TRUE(make_triangles(water.field));
+    const Vec2 a(1, 1), b(9, 5);
+    const double length = (b - a).norm();
+    const PressureSum sum = pressure_along(water, 0, a, b);
+    EXPECT_NEAR(sum.force, 0.5 * (plane(a) + plane(b)) * length, 1e-6 * sum.force);
+    EXPECT_NEAR(sum.moment, length * length * (plane(a) + 2.0 * plane(b)) / 6.0, 1e-6 * sum.moment);
+    EXPECT_TRUE(covers(water.field, {5, 3}));
+    EXPECT_FALSE(covers(water.field, {11, 3}));
+    PressureField line{.points = {{0, 0}, {1, 1}, {2, 2}}, .pressure = {0, 0, 0}, .triangle = {}};
+    EXPECT_FALSE(make_triangles(line));
+}
+}  // namespace
+}  // namespace hdem

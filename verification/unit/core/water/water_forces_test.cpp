@@ -1,0 +1,153 @@
+#include "core/water/water_forces.h"
+#include "verification/unit/core/boundary/sides.h"
+
+namespace hdem
+{
+namespace
+{
+using namespace test;
+
+constexpr double weight_of_water = 9810.0;  ///< [N/m3]
+
+/// 6 x 6 blocks of 1 m, the outer ones fixed, an opening of 2 x 2 blocks in the middle.
+CaseDef rock_below_water()
+{
+    CaseDef scene = square_pattern(6.0, 6.0);
+    scene.gravity = {0.0, -9.81};
+    scene.domain.fixed = {"left", "right", "bottom"};
+    scene.excavations.push_back({.name = "room", .polygon = {{2, 2}, {4, 2}, {4, 4}, {2, 4}}});
+    scene.water = {.given = true, .level = 20.0};
+    scene.stages = {{.name = "stand", .cycles = 100}, {.name = "dig", .cycles = 1000, .excavate = {"room"}}};
+    return scene;
+}
+
+Triple water_on(const CaseRun& run, const Vec2& centre)
+{
+    for (Index b = 0; b < run.model().blocks(); ++b)
+        if ((run.state().blocks.reference_position[b] + run.model().origin - centre).norm() < 1e-6)
+            return run.state().water[b];
+    ADD_FAILURE() << "no block at " << centre.transpose();
+    return {};
+}
+
+TEST(WaterForces, LiftABlockByTheWaterInItsPlace)
+{
+    CaseRun run(rock_below_water());
+    for (const Vec2& centre : {Vec2(1.5, 1.5), Vec2(2.5, 2.5), Vec2(4.5, 3.5)})
+    {
+        const Triple on = water_on(run, centre);
+        EXPECT_NEAR(on.x, 0.0, 1e-8);
+        EXPECT_NEAR(on.y, weight_of_water, 1e-7);
+        EXPECT_NEAR(on.w, 0.0, 1e-8);
+    }
+}
+
+TEST(WaterForces, AreGoneWhereABlockWasTakenOut)
+{
+    CaseRun run(rock_below_water());
+    run.simulation.begin_stage(1);
+    // Beside the opening, 2 to 3 m up: the pressure of its outer face pushes it in.
+    const double push = weight_of_water * (20.0 - 2.5);
+    EXPECT_NEAR(water_on(run, {1.5, 2.5}).x, push, 1e-6);
+    EXPECT_NEAR(water_on(run, {4.5, 2.5}).x, -push, 1e-6);
+    EXPECT_NEAR(water_on(run, {2.5, 1.5}).y, weight_of_water * (20.0 - 1.0), 1e-6);
+
+    CaseDef scene = rock_below_water();
+    scene.water.flooded = {"room"};
+    CaseRun flooded(scene);
+    flooded.simulation.begin_stage(1);
+    EXPECT_NEAR(water_on(flooded, {1.5, 2.5}).x, 0.0, 1e-6);
+}
+
+TEST(WaterForces, PressOnNamedJointsAndFacesAsAsked)
+{
+    CaseDef scene = rock_below_water();
+    scene.water.joints = {"default"};
+    EXPECT_NEAR(water_on(CaseRun(scene), {2.5, 2.5}).y, weight_of_water, 1e-7);
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints[1].name = "tight";
+    scene.joint_sets[1].joint = "tight";  // the upright ones
+    EXPECT_NEAR(water_on(CaseRun(scene), {2.5, 2.5}).y, weight_of_water, 1e-7);
+    scene.joint_sets[0].joint = "tight";
+    EXPECT_EQ(water_on(CaseRun(scene), {2.5, 2.5}).y, 0.0);
+
+    scene = rock_below_water();
+    scene.domain.fixed = {"bottom"};
+    scene.water.ponded = false;
+    const Triple top = water_on(CaseRun(scene), {2.5, 5.5});
+    EXPECT_NEAR(top.y, weight_of_water * (20.0 - 5.0), 1e-6);
+    scene.water.ponded = true;
+    scene.boundaries = {pressed("top", 1e5)};
+    EXPECT_NEAR(water_on(CaseRun(scene), {2.5, 5.5}).y, weight_of_water * (20.0 - 5.0), 1e-6);
+}
+
+TEST(WaterForces, ChangeWithTheStageAndComeSlowlyWhenAsked)
+{
+    CaseDef scene = rock_below_water();
+    scene.stages = {{.name = "stand", .cycles = 100}, {.name = "drain", .cycles = 1000}};
+    scene.stages[1].relax_cycles = 400;
+    scene.stages[1].water_level = 0.0;
+    CaseRun run(scene);
+    run.simulation.begin_stage(1);
+    EXPECT_EQ(water_on(run, {2.5, 2.5}).y, 0.0);
+    double released = 0.0;
+    for (const ReleasedForce& force : run.state().released)
+        released += force.y;
+    EXPECT_GT(released, 10.0 * weight_of_water);
+    run.advance(400);
+    EXPECT_TRUE(run.state().released.empty());
+    EXPECT_LT(ledger_residual(run), 1e-9);
+}
+
+TEST(WaterForces, KeepTheLedgerAndFollowBlocksThatMove)
+{
+    CaseDef scene = rock_below_water();
+    scene.joints[0].friction_angle_deg = 10.0;
+    CaseRun run(scene);
+    run.advance(100);
+    run.simulation.begin_stage(1);
+    const auto change = [&]
+    {
+        const std::vector<Triple> now = water_forces(run.model(), run.state());
+        double greatest = 0.0;
+        for (std::size_t b = 0; b < now.size(); ++b)
+            greatest = std::max(greatest, std::hypot(now[b].x - run.state().water[b].x, now[b].y - run.state().water[b].y));
+        return greatest;
+    };
+    run.advance(900);
+    EXPECT_EQ(run.state().cycle, 1000);
+    EXPECT_EQ(change(), 0.0);
+    run.advance(100);
+    EXPECT_GT(change(), 0.0);  // the roof has moved since
+    EXPECT_LT(ledger_residual(run), 1e-9);
+}
+
+/// A field that is linear in x and y gives its gradient times the area.
+TEST(WaterForces, OfAFieldFollowItsGradientAndMustReachTheRock)
+{
+    CaseDef scene = rock_below_water();
+    scene.water = {.given = true};
+    const auto plane = [](double x, double y) { return 2e5 + 3e3 * x - 1e4 * y; };
+    for (const Vec2& p : {Vec2(-1, -1), Vec2(7, -1), Vec2(7, 7), Vec2(-1, 7), Vec2(2.3, 3.1)})
+        scene.water.pressures.push_back({p.x(), p.y(), plane(p.x(), p.y())});
+    const Triple on = water_on(CaseRun(scene), {2.5, 2.5});
+    EXPECT_NEAR(on.x, -3e3, 1e-3);
+    EXPECT_NEAR(on.y, 1e4, 1e-3);
+    scene.water.pressures[2] = {5.0, 5.0, 0.0};
+    EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
+}
+
+/// Water stands in rock under stress: springs bear the effective part, and nothing moves.
+TEST(WaterForces, LeaveStressedRockWhereItIsDrawn)
+{
+    CaseDef scene = square_pattern(6.0, 6.0);
+    scene.gravity = {0.0, -9.81};
+    scene.domain.fixed = {"left", "right", "bottom", "top"};
+    scene.joint_sets.push_back({.name = "c", .dip_deg = 37.0, .spacing = 2.3, .origin = Vec2(0.3, 0.2)});
+    scene.insitu = {.given = true, .surface = 40.0, .ratio = 1.2};
+    scene.water = {.given = true, .table = {{-1.0, 5.0}, {2.2, 4.1}, {7.0, 1.3}}};
+    scene.joints[0].friction_angle_deg = 40.0;
+    expect_nothing_moves(scene);
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,89 @@
+#include "core/rock/build_model.h"
+#include "io/pressure_table.h"
+#include "verification/unit/io/case_text.h"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+namespace hdem
+{
+namespace
+{
+using test::problems_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Lines 1 to 12; tests add theirs from line 13 on.
+const std::string head = R"([material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e9
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+[domain]
+width = 4.0
+height = 4.0
+[[stage]]
+name = "stand"
+cycles = 10
+)";
+
+void expect_one_problem(const std::string& text, const std::string& place_and_object, const std::string& says)
+{
+    EXPECT_THAT(problems_of(head + text), ElementsAre(testing::AllOf(StartsWith("case.toml:" + place_and_object), HasSubstr(says))))
+        << text;
+}
+
+TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
+{
+    expect_one_problem("water_level = 3.0\n", "13:15: stage \"stand\": water_level", "there is no [water]");
+    expect_one_problem("[water]\nlevel = 3.0\ntable = [[0, 3], [4, 2]]\n", "15:9: [water]: table", "contradicts level");
+    expect_one_problem("[water]\nlevel = 3.0\njoints = [\"bed\"]\n", "15:10: [water]", "bed");
+    expect_one_problem("[water]\nlevel = 3.0\nflooded = [\"shaft\"]\n", "15:11: [water]", "shaft");
+    expect_one_problem("[water]\nlevel = 3.0\ndensity = 0.0\n", "15:11: [water]: density", "> 0");
+    expect_one_problem("[water]\nlevel = 3.0\n[gravity]\nvector = [0.0, 0.0]\n", "13:1: [water]: gravity", "no weight");
+    expect_one_problem("[[water_crack]]\ncrack = [[2, 4], [2, 1]]\noutlet = [[2, 1], [0, 0]]\nlevel = 3.0\n", "13:1: water crack 1",
+                       "there is no [water]");
+    const std::string crack = "[water]\n[[water_crack]]\nlevel = 3.0\ncrack = [[2, 4], [2, 1]]\n";
+    expect_one_problem(crack + "outlet = [[2, 2], [0, 0]]\n", "17:10: water crack 1: outlet", "ends at [2, 1]");
+    expect_one_problem(crack + "outlet = [[2, 1], [2, 1], [0, 0]]\n", "17:10: water crack 1: outlet", "twice");
+    expect_one_problem(crack + "outlet = [[2, 1]]\n", "17:10: water crack 1: outlet", "at least 2");
+    expect_one_problem("[water]\npressure = \"none.csv\"\n", "14:12: [water]: pressure", "none.csv");
+}
+
+TEST(WaterErrors, ATableRunsFromLeftToRight)
+{
+    const CaseDef def = test::read(head + "[water]\ntable = [[4, 3], [0, 2]]\n");
+    try
+    {
+        static_cast<void>(build_model(def));
+        ADD_FAILURE();
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_THAT(error.problems().front().text, HasSubstr("lies behind the one before it"));
+    }
+}
+
+TEST(WaterErrors, OfAFileOfPressuresNameItsLine)
+{
+    const auto problems = [](const std::string& text)
+    {
+        std::istringstream in(text);
+        std::vector<std::string> texts;
+        for (const Problem& problem : read_pressures(in, "p.csv").problems)
+            texts.push_back(problem.text);
+        return texts;
+    };
+    const std::string good = "x,y,pressure\n0,0,1e5\n4,0,1e5\n# top\n0,4,0\n";
+    EXPECT_THAT(problems(good), testing::IsEmpty());
+    EXPECT_THAT(problems(good + "1,2\n"), ElementsAre(AllOf(StartsWith("p.csv:6:"), HasSubstr("three finite numbers"))));
+    EXPECT_THAT(problems(good + "1,2,nan\n"), ElementsAre(HasSubstr("three finite numbers")));
+    EXPECT_THAT(problems(good + "1,2,-5\n"), ElementsAre(HasSubstr("suction")));
+    EXPECT_THAT(problems(good + "4,0,7\n"), ElementsAre(HasSubstr("occurs twice")));
+    EXPECT_THAT(problems("0,0,1\n1,0,1\n"), ElementsAre(HasSubstr("three at least")));
+}
+}  // namespace
+}  // namespace hdem
