@@ -22,9 +22,9 @@ struct LawKeys
     Keys needed, possible;
 };
 
-const std::array<LawKeys, 6>& law_keys()
+const std::array<LawKeys, 7>& law_keys()
 {
-    static const std::array<LawKeys, 6> table{
+    static const std::array<LawKeys, 7> table{
         {{"coulomb",
           {"normal_stiffness", "friction_angle_deg"},
           {"cohesion", "tension", "residual_friction_angle_deg", "residual_cohesion", "residual_tension", "dilation_angle_deg",
@@ -39,7 +39,8 @@ const std::array<LawKeys, 6>& law_keys()
          {"plesha", {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg"}, {"wear"}},
          {"saeb_amadei",
           {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg", "transition_stress"},
-          {"rock_cohesion", "rock_friction_angle_deg", "residual_displacement", "residual_share"}}}};
+          {"rock_cohesion", "rock_friction_angle_deg", "residual_displacement", "residual_share"}},
+         {"*.so", {"normal_stiffness", "friction_angle_deg"}, {"parameters"}}}};
     return table;
 }
 
@@ -105,6 +106,9 @@ class JointCheck : public CaseCheck
         if (joint_.law == JointLaw::barton_bandis && !closes_by_bandis() && !has("normal_stiffness"))
             add("normal_stiffness", "is missing, and so is rock_strength", "Add one of the two.");
         exclude("joint." + joint_.name, object_, "greatest_closure", "normal_exponent");
+        for (const char* key : {"greatest_closure", "normal_exponent"})
+            if (joint_.law == JointLaw::library && has(key))
+                add(key, "does not belong to a law of a shared library, which has its own normal spring", "Remove it.");
         if (joint_.law == JointLaw::saeb_amadei && joint_.normal_exponent)
             add("normal_exponent", "is not possible with saeb_amadei", "Give greatest_closure, or a linear spring.");
         if (closes_by_bandis() && !(joint_.rock_strength >= joint_.jcs))
@@ -166,6 +170,8 @@ class JointCheck : public CaseCheck
                                  std::ranges::any_of(def_.stages, [](const StageDef& s) { return s.method == Method::impulse; });
         if (!by_impulses)
             return;
+        if (joint_.law == JointLaw::library)
+            add("law", "of a shared library cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
         if (joint_.tension.value_or(0.0) > 0.0)
             add("tension", "cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
         for (const char* key : {"greatest_closure", "normal_exponent", "rock_strength"})

@@ -62,6 +62,8 @@ constexpr ValueType type_of()
         return ValueType::text_list;
     else if constexpr (std::is_same_v<T, std::vector<int>>)
         return ValueType::integer_list;
+    else if constexpr (std::is_same_v<T, std::vector<double>>)
+        return ValueType::number_list;
     else
     {
         static_assert(std::is_same_v<T, double>);
@@ -94,7 +96,7 @@ void store(T& field, const TomlNode& node, const KeySpec& key)
         store(field.emplace(), node, key);
     else if constexpr (std::is_same_v<T, bool>)
         field = *node.boolean();
-    else if constexpr (std::is_enum_v<T>)  // choices are listed in the order of the enumerators
+    else if constexpr (std::is_enum_v<T>)  // choices are listed in the order of the enumerators; KeySpec::ending comes last
         field = static_cast<T>(std::find(key.choices.begin(), key.choices.end(), *node.text()) - key.choices.begin());
     else if constexpr (std::is_integral_v<T>)
         field = static_cast<T>(whole(node));
@@ -114,6 +116,8 @@ void store(T& field, const TomlNode& node, const KeySpec& key)
                 field.push_back(vector(item));
             else if constexpr (std::is_same_v<T, std::vector<int>>)
                 field.push_back(static_cast<int>(whole(item)));
+            else if constexpr (std::is_same_v<T, std::vector<double>>)
+                field.push_back(item.number());
             else
                 field.push_back(*item.text());
         if constexpr (std::is_same_v<T, Polygon>)
@@ -163,6 +167,7 @@ struct Say
     std::vector<std::string> choices = {};
     bool required = false;
     const char* default_note = "";
+    const char* ending = "";
 };
 
 inline KeySpec spec(Say say, ValueType type)
@@ -175,6 +180,7 @@ inline KeySpec spec(Say say, ValueType type)
     key.example = say.example;
     key.range = say.range;
     key.choices = std::move(say.choices);
+    key.ending = say.ending;
     key.required = say.required;
     key.default_note = say.default_note;
     return key;

@@ -224,6 +224,8 @@ std::string type_column(const KeySpec& key)
         return "list of texts";
     case ValueType::integer_list:
         return "list of whole numbers";
+    case ValueType::number_list:
+        return "list of numbers";
     case ValueType::vector:
         return "[x, y]";
     case ValueType::stress:
@@ -247,6 +249,8 @@ std::string range_column(const KeySpec& key)
     std::string text = key.range.describe(shown);
     for (const std::string& choice : key.choices)
         text += (text.empty() ? "" : ", ") + code('"' + choice + '"');
+    if (!key.ending.empty())
+        text += ", a file " + code("\"*" + key.ending + "\"");
     return text;
 }
 

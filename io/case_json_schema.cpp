@@ -29,6 +29,8 @@ Json number_schema(const KeySpec& key, const char* type)
 
 Json text_schema(const KeySpec& key)
 {
+    if (!key.ending.empty())
+        return {{"anyOf", {Json{{"enum", key.choices}}, Json{{"type", "string"}, {"pattern", "\\" + key.ending + "$"}}}}};
     return key.choices.empty() ? Json{{"type", "string"}} : Json{{"enum", key.choices}};
 }
 
@@ -61,6 +63,8 @@ Json value_schema(const KeySpec& key)
         return list_of(text_schema(key));
     case ValueType::integer_list:
         return list_of(number_schema(key, "integer"));
+    case ValueType::number_list:
+        return list_of(number_schema(key, "number"));
     case ValueType::vector:
         return vector_schema(key, 2);
     case ValueType::stress:

@@ -89,11 +89,13 @@ Complaints check_text(const KeySpec& key, const TomlNode& node, const std::strin
     if (node.text() == nullptr)
         return wrong_type(key, node, item, "text in quotes");
     const std::string& text = *node.text();
-    if (key.choices.empty() || std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end())
+    if (key.choices.empty() || std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end() ||
+        (!key.ending.empty() && text.ends_with(key.ending)))
         return {};
     const std::string near = did_you_mean(text, key.choices);
     return {{item, &node, near.empty() ? "unknown choice" : fmt::format("unknown choice; did you mean '{}'?", near),
-             "Choose from " + quoted_list(key.choices) + "."}};
+             "Choose from " + quoted_list(key.choices) +
+                 (key.ending.empty() ? "." : fmt::format(", or name a file with the ending {}.", key.ending))}};
 }
 
 Complaints check_vector(const KeySpec& key, const TomlNode& node, std::size_t numbers, const std::string& item = "")
@@ -204,6 +206,7 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
     case ValueType::text_list:
         return check_items(key, value, check_item_text);
     case ValueType::integer_list:
+    case ValueType::number_list:
         return check_items(key, value, check_number);
     case ValueType::vector:
         return check_vector(key, value, 2);
@@ -246,6 +249,8 @@ std::string describe_type(const KeySpec& key)
         return choices.empty() ? "a list of texts" : "a list from " + choices;
     case ValueType::integer_list:
         return "a list of whole numbers";
+    case ValueType::number_list:
+        return "a list of numbers" + in;
     case ValueType::vector:
         return "[x, y]" + in;
     case ValueType::stress:

@@ -5,6 +5,7 @@
 #include "io/case_checks.h"
 #include "io/case_problems.h"
 #include "io/case_schema.h"
+#include "io/law_library.h"
 #include "io/polygons.h"
 #include "io/pressure_table.h"
 #include "io/stage_joints.h"
@@ -308,6 +309,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
         add_blocks_file(result, file, files, problems, located);
     add_pressures(result, file, files, problems, located);
     const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);
+    load_laws(result, result.def, file, files, problems);
     check_rock_keys(result.def, source, problems);
     check_boundary_keys(result.def, source, problems);
     check_water_keys(result.def, source, problems);
@@ -318,9 +320,10 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     located.insert(located.begin(), found.begin(), found.end());
     if (!located.empty())
         throw InputError(std::move(located));
-    const auto read_again = [&source](TomlNode& changed, CaseDef& def, CaseProblems& found_again)
+    const auto read_again = [&](TomlNode& changed, CaseDef& def, CaseProblems& found_again)
     {
         Reader(def, source, found_again).read(changed);
+        load_laws(result, def, file, files, found_again);
         check_joint_keys(def, source, found_again);
     };
     if (std::vector<Problem> wrong = read_stage_joints(result.def, document, source, read_again); !wrong.empty())

@@ -23,6 +23,7 @@ enum class ValueType
     text,
     text_list,
     integer_list,
+    number_list,
     vector,            ///< [x, y]
     stress,            ///< [xx, yy, xy]
     polygon,           ///< [[x, y], [x, y], [x, y], ...]
@@ -57,6 +58,7 @@ struct KeySpec
     std::string example;  ///< a value as written in the file
     Range range;
     std::vector<std::string> choices;  ///< of a text or of the texts of a list; empty: any text
+    std::string ending;                ///< a text with this ending is taken besides the choices; "" = none
     bool required = false;
     std::string default_json;  ///< value of a new struct's field as JSON (which is TOML as well); "" = not given
     std::string default_note;  ///< what happens when the key is not given and has no value

@@ -10,6 +10,13 @@ namespace
 const Range acute{.low = 0, .high = 90, .high_included = false};
 const Range exponent{.low = 0, .high = 1, .high_included = false};
 
+void assign_law(void* object, const TomlNode& value, const KeySpec& key)
+{
+    JointDef& joint = *static_cast<JointDef*>(object);
+    store(joint.law, value, key);
+    joint.library = joint.law == JointLaw::library ? *value.text() : "";
+}
+
 std::vector<KeySpec> spring_keys()
 {
     return {
@@ -142,6 +149,11 @@ std::vector<KeySpec> barton_keys()
 std::vector<KeySpec> other_law_keys()
 {
     return {
+        field<&JointDef::parameters>({.name = "parameters",
+                                      .effect = "Numbers that the law of a shared library is given.",
+                                      .example = "[0.7, 0.5, 0.002]",
+                                      .range = any_size,
+                                      .default_note = "none"}),
         field<&JointDef::asperity_angle_deg>({.name = "asperity_angle_deg",
                                               .unit = "deg",
                                               .effect = "i of patton, α_0 of plesha, i_0 of saeb_amadei.",
@@ -194,10 +206,15 @@ SectionSpec joint_section()
         "have residual friction and neither cohesion, tension nor roughness. With the impulse method joints bear no `tension` and "
         "have "
         "linear normal springs; under the hybrid one a joint with cohesion or tension keeps its springs until it breaks.",
-        {field<&JointDef::law>(
-            {.name = "law",
-             .effect = "Strength and dilation. Keys of other laws are refused.",
-             .choices = {"coulomb", "barton_bandis", "patton", "continuously_yielding", "plesha", "saeb_amadei"}})},
+        {with_assign(field<&JointDef::law>(
+                         {.name = "law",
+                          .effect = "Strength and dilation. Keys of other laws are refused. A file: a shared library with a law of "
+                                    "your own, from "
+                                    "the folder of the case file on; core/joint/hdem_joint_law.h says what it must have. It is "
+                                    "run as part of hdem: name only what you trust.",
+                          .choices = {"coulomb", "barton_bandis", "patton", "continuously_yielding", "plesha", "saeb_amadei"},
+                          .ending = ".so"}),
+                     assign_law, "\"coulomb\"")},
         append<&CaseDef::joints>};
     for (const std::vector<KeySpec>& keys : {spring_keys(), coulomb_keys(), barton_keys(), other_law_keys()})
         section.keys.insert(section.keys.end(), keys.begin(), keys.end());

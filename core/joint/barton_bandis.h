@@ -68,7 +68,7 @@ struct BartonBandis
         scaled_roughness,    ///< JRC_n, for reports
         scaled_strength      ///< JCS_n [Pa], for reports
     };
-    static_assert(scaled_strength < joint_numbers);
+    static_assert(scaled_strength + 1 < joint_numbers);  // the last is that of user_law.h
 
     static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
 

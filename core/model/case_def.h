@@ -3,6 +3,7 @@
 /// SI units; angles in degrees where the name ends in _deg. Each field's default, range and effect stands once more, for
 /// users, in io/case_schema (which writes io/case_format.md).
 
+#include "core/joint/user_law.h"
 #include "core/model/trace_cells.h"
 #include "core/types.h"
 
@@ -137,7 +138,8 @@ enum class JointLaw
     patton,                 ///< core/joint/patton.h
     continuously_yielding,  ///< core/joint/continuously_yielding.h
     plesha,                 ///< core/joint/plesha.h
-    saeb_amadei             ///< core/joint/saeb_amadei.h
+    saeb_amadei,            ///< core/joint/saeb_amadei.h
+    library                 ///< of a shared library: core/joint/user_law.h
 };
 
 enum class JointStart
@@ -182,6 +184,9 @@ struct JointDef
     double rock_friction_angle_deg = 0.0;    ///< phi_0 [deg]
     double residual_displacement = 0.01;     ///< u_r [m]
     double residual_share = 1.0;             ///< B_0 [-]
+    std::string library;                     ///< file of a shared library with the law
+    std::vector<double> parameters;          ///< of that law
+    JointFunction function = nullptr;        ///< found there by io/
     std::optional<double> restitution;       ///< [-] instead of contact.restitution
     std::vector<std::string> materials;      ///< the two materials this joint lies between; empty: only used by name
 };

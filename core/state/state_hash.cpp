@@ -1,5 +1,7 @@
 #include "core/state/state_hash.h"
 
+#include "core/joint/user_law.h"
+
 #include <xxhash.h>
 
 #include <algorithm>
@@ -133,8 +135,8 @@ std::uint64_t model_hash(const Model& model)
     {
         add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension,
              row.residual_friction, row.residual_cohesion});
-        for (const double number : row.numbers.n)
-            add({number});
+        for (int i = 0; i < UserLaw::number; ++i)  // that one counts the joints of all models of the process
+            add({row.numbers[i]});
     }
     // A step that the case does not give may have been lowered for its contacts since the model was made.
     add({model.has_step ? model.time_step : model.paper_time_step, model.threshold_scale, model.gravity.x(), model.gravity.y()});

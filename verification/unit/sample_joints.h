@@ -1,13 +1,28 @@
 #pragma once
-/// One joint of each law with a memory, in the order of JointLaw.
+/// One joint of each law with a memory, in the order of JointLaw; the last is that of a shared library.
 
 #include "core/model/case_def.h"
 
 #include <array>
+#include <cmath>
 
 namespace hdem::test
 {
-inline std::array<JointDef, 6> sample_joints()
+/// Friction that falls with slip, tan phi from 0.8 to 0.5; parameters: the way over which it falls [m].
+inline void weakening_law(const hdem_joint_points* p)
+{
+    for (int i = 0; i < p->count; ++i)
+    {
+        const double trial = p->last_shear[i] - p->shear_stiffness * p->slide[i];
+        p->normal[i] = std::max(p->normal_stiffness * p->closure[i], 0.0);
+        p->strength[i] = p->normal[i] * (0.5 + 0.3 / (1.0 + p->state[i] / p->parameters[0]));
+        const double excess = std::max(std::abs(trial) - p->strength[i], 0.0);
+        p->shear[i] = trial - std::copysign(excess, trial);
+        p->state[i] += excess / p->shear_stiffness;
+    }
+}
+
+inline std::array<JointDef, 7> sample_joints()
 {
     return {JointDef{.name = "default",
                      .normal_stiffness = 1e10,
@@ -56,6 +71,13 @@ inline std::array<JointDef, 6> sample_joints()
                      .asperity_angle_deg = 15.0,
                      .transition_stress = 5e7,
                      .rock_cohesion = 5e6,
-                     .rock_friction_angle_deg = 40.0}};
+                     .rock_friction_angle_deg = 40.0},
+            JointDef{.name = "default",
+                     .law = JointLaw::library,
+                     .normal_stiffness = 1e10,
+                     .shear_stiffness = 1e9,
+                     .friction_angle_deg = 26.0,
+                     .parameters = {1e-3},
+                     .function = weakening_law}};
 }
 }  // namespace hdem::test
