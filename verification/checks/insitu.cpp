@@ -4,6 +4,7 @@
 #include "core/stress/insitu_stress.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/insitu_checks.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -157,7 +158,11 @@ std::vector<Check> insitu_checks()
 {
     return {{"insitu.I1", "Uniform stress in rock of three joint sets: on the joints, and nothing moves", check_uniform},
             {"insitu.I2", "Stress of the ground with K0 1.5: nothing moves", check_ground},
+            {"insitu.I3", "Two sets of joints as a continuum: compliance, strain, stress", check_two_sets},
+            {"insitu.I4", "Square blocks as an isotropic continuum", check_squares},
+            {"insitu.I5", "Running bond as a continuum: stiffness by moving the outer bricks", check_bond},
             {"insitu.I6", "Hole under unequal stress, soft in shear", check_soft_shear},
-            {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic}};
+            {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic},
+            {"insitu.I8", "Wedge in a roof: greatest weight, drop at slip, and fall", check_roof_wedge}};
 }
 }  // namespace hdem::verification
