@@ -68,8 +68,15 @@ void check_uniform(Report& report)
         report.require({fmt::format("dip {:g}°: worst error of σ_n, τ", dip), "t = σ n, seven digits", 2e-7,
                         worst_stress(drawn, dip, normal, shear)},
                        at_most());
+    const Overrides pressed{{"domain.fixed_edges", "[]"},
+                            {"domain.hold", "mean"},
+                            {"boundary", R"([{edges = [0, 1, 2, 3], kind = "stress", stress = "insitu"}])"}};
     for (const double angle : {0.0, 23.0})
+    {
         check_stand(report, fmt::format("turned {:g}°", angle), turned_case("insitu/rock.toml", {}, radians(angle)));
+        check_stand(report, fmt::format("turned {:g}°, pressed and held on average", angle),
+                    turned_case("insitu/rock.toml", pressed, radians(angle)));
+    }
 }
 
 void check_ground(Report& report)
