@@ -80,6 +80,15 @@ SectionSpec domain_section()
               .example = "[0, 1]",
               .range = {.low = 0, .high = 1e6},
               .default_note = "none"}),
+         field<&DomainDef::hold>(
+             {.name = "hold",
+              .effect = "For rock that a [[boundary]] of kind stress presses in every stage, while nothing is fixed. `mean`: the "
+                        "blocks at the pressed sides together neither move nor turn, as if each of them were held by a force in "
+                        "proportion to its mass; against each other they move freely. What tractions and weight leave over, as "
+                        "where rock is excavated, is carried so. Tractions and weight as drawn must be in equilibrium. Without "
+                        "it something must be fixed, or stand on a side of another kind.",
+              .example = "\"mean\"",
+              .choices = {"none", "mean"}}),
          field<&DomainDef::material>(
              {.name = "material", .effect = "Name of the [material.NAME] of all blocks cut from the domain."}),
          field<&DomainDef::traces_file>(

@@ -1,5 +1,6 @@
 #include "parallel/cycle.h"
 
+#include "core/boundary/mean_hold.h"
 #include "core/boundary/servo.h"
 #include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
@@ -95,6 +96,7 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
 {
     const auto blocks = static_cast<std::size_t>(state.blocks.size());
     work_.constant = constant_forces(model, state);
+    work_.held = blocks_held_on_average(model, state);
     work_.external = work_.constant;
     work_.external.resize(rules_.has_loads ? blocks : work_.constant.size());
     for (BlockPart& part : partition_.blocks)

@@ -61,6 +61,7 @@ class CycleRunner
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team);
+    void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);
     void move(const Model& model, State& state, const Team& team, std::int64_t now);

@@ -1,5 +1,6 @@
 /// The second half of a cycle: velocities, impulses, positions.
 
+#include "core/boundary/mean_hold.h"
 #include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 #include "core/motion/flight.h"
@@ -13,15 +14,19 @@
 
 namespace hdem
 {
-void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
+void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& part)
 {
     part.ledger = {};
     part.rest_changed = false;
     add_work_before(part.pushed, work_.constant, state.blocks, part.ledger);
-    VelocityWorks works;
     for (const IndexRange& range : part.active)
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
+}
+
+void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
+{
+    VelocityWorks works;
     if (rules_.rest.leaves_out)
         for (const IndexRange& range : part.active)
             part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed;
@@ -46,9 +51,22 @@ void CycleRunner::move(const Model& model, State& state, const Team& team, std::
     if (team.is_first())
         add_up_contacts(state);
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    if (!work_.held.empty())
+    {
+        for (Index i = mine.begin; i < mine.end; ++i)
+            sum_up_forces(model, state, partition_.blocks[i]);
+        team.alone([&] { hold_forces(work_.held, model, state.blocks); });
+        for (Index i = mine.begin; i < mine.end; ++i)
+            change_velocities(model, state, now, partition_.blocks[i]);
+        team.alone([&] { hold_velocities(work_.held, model, nullptr, state.blocks, state.ledger); });
+        for (Index i = mine.begin; i < mine.end; ++i)
+            partition_.blocks[i].way = change_positions(model, state, partition_.blocks[i], nullptr);
+        return;
+    }
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         BlockPart& part = partition_.blocks[i];
+        sum_up_forces(model, state, part);
         change_velocities(model, state, now, part);
         part.way = change_positions(model, state, part, nullptr);
     }
@@ -59,7 +77,10 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
+    {
+        sum_up_forces(model, state, partition_.blocks[i]);
         change_velocities(model, state, now, partition_.blocks[i]);
+    }
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
@@ -67,6 +88,13 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     clock.lap(CycleStage::impulse);
     if (team.is_first())
         add_up_contacts(state);
+    if (!work_.held.empty())  // not before: net forces lack what impulses bear
+        team.alone(
+            [&]
+            {
+                hold_velocities(work_.held, model, &work_.pseudo, state.blocks, state.ledger);
+                hold_forces(work_.held, model, state.blocks);
+            });
     for (Index i = mine.begin; i < mine.end; ++i)
         partition_.blocks[i].way = change_positions(model, state, partition_.blocks[i], &work_.pseudo);
 }

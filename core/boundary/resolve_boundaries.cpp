@@ -1,5 +1,6 @@
 #include "core/boundary/resolve_boundaries.h"
 
+#include "core/boundary/mean_hold.h"
 #include "core/boundary/side_forces.h"
 #include "core/stress/insitu_stress.h"
 
@@ -38,7 +39,10 @@ class BoundaryResolver
         }
         start();
         check_names();
-        check_held();
+        if (model_.holds_mean)
+            std::ranges::move(find_hold_problems(def_, model_, blocks_), std::back_inserter(problems_));
+        else
+            check_held();
         return std::move(problems_);
     }
 
@@ -180,8 +184,8 @@ class BoundaryResolver
                 problems_.push_back({.key = "boundary[0].kind",
                                      .text = "stage \"" + def_.stages[s].name +
                                              "\": tractions act on the rock, and nothing holds it (it would move and turn as a "
-                                             "whole). Fix a block, e.g. with fix = [\"b1\"] in the stage, or give a side of "
-                                             "another kind."});
+                                             "whole). Give hold = \"mean\" in [domain], fix a block, e.g. with fix = "
+                                             "[\"b1\"] in the stage, or give a side of another kind."});
                 return;
             }
         }

@@ -24,6 +24,13 @@ enum class Method
 
 // ---- rock mass ------------------------------------------------------------------------------------------------------
 
+/// What holds rock that tractions press from all sides.
+enum class DomainHold
+{
+    none,
+    mean  ///< the blocks at the pressed sides, which together neither move nor turn: core/boundary/mean_hold.h
+};
+
 /// [domain]: the area that is filled with rock; a rectangle (width, height, origin) or a polygon.
 struct DomainDef
 {
@@ -34,6 +41,7 @@ struct DomainDef
     Polygon polygon;                 ///< instead of width and height; simple, any orientation [m]
     std::vector<std::string> fixed;  ///< "left", "right", "bottom", "top": blocks with an edge on that side are fixed
     std::vector<int> fixed_edges;    ///< same for edges of the polygon, 0 = first to second vertex
+    DomainHold hold = DomainHold::none;
     std::string material = "rock";
     std::string traces_file;   ///< WKT or CSV of joint traces; cut by io/ into CaseDef::trace_cells
     std::string traces_joint;  ///< name of a [joint.NAME] for contacts along traces; "" = by materials

@@ -132,6 +132,7 @@ struct Model
     double time_step = 0.0;          ///< [s]
     double paper_time_step = 0.0;    ///< Eq. (32) [s]
     double default_time_step = 0.0;  ///< what a case without a step takes, see core/motion/time_step.h [s]
+    bool holds_mean = false;         ///< the blocks at pressed sides together neither move nor turn, see core/boundary/mean_hold.h
     bool is_driven = false;          ///< some motion is prescribed, by a load or of a block that cannot leave it
     bool has_step = false;           ///< the case gives the time step
     double stable_fraction = 0.9;    ///< that share [-]

@@ -315,6 +315,7 @@ Setup build_model(const CaseDef& def)
     model.stages = def.stages;
     model.histories = def.histories;
 
+    model.holds_mean = def.domain.hold == DomainHold::mean;
     add_initial_state(rock, order, moments, origin, model, setup.state);
     std::vector<Problem> problems = resolve_boundaries(def, rock, origin, model, setup.state.blocks);
     std::ranges::move(resolve_water(def, model.origin, setup.state.blocks, model), std::back_inserter(problems));

@@ -55,6 +55,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .is_calm = state.is_calm,
             .is_driven = model.is_driven || moves_walls(model, state.stage),
             .moves_walls = moves_walls(model, state.stage),
+            .holds_mean = model.holds_mean,
             .has_step = model.has_step,
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
 }
@@ -82,12 +83,13 @@ StageRules resolve_rules(const StageSetting& s)
                      .falls_by = s.method == Method::impulse ? g : 0.0,
                      .slow = slow_speeds * s.convergence.mean_speed,
                      .loose_distance = s.convergence.loose_distance},
-            .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases ? rest_of(s, g) : RestRule{},
+            // A block that is left out would not follow those that are held with it.
+            .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases && !s.holds_mean ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
             .has_loads = s.has_loads || s.releases,
             .moves_walls = s.moves_walls,
-            .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && s.method != Method::impulse && s.gravity > 0.0 &&
-                             s.solver == RestSolver::statics};
+            .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && !s.holds_mean && s.method != Method::impulse &&
+                             s.gravity > 0.0 && s.solver == RestSolver::statics};
 }
 
 StageRules resolve_rules(const Model& model, const State& state)
@@ -113,6 +115,7 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
                          .gravity = def.gravity.norm(),
                          .has_loads = !def.loads.empty(),
                          .is_driven = is_driven(def),
+                         .holds_mean = def.domain.hold == DomainHold::mean,
                          .has_step = def.time.step.has_value()};
     for (const StageDef& stage : def.stages)
     {

@@ -32,6 +32,7 @@ struct StageSetting
     bool is_calm = false;          ///< no block moves any more; what is out of balance still keeps the stage from ending
     bool is_driven = false;        ///< some motion is prescribed
     bool moves_walls = false;      ///< by a [[boundary]]
+    bool holds_mean = false;       ///< domain.hold
     bool has_step = false;         ///< the case gives the time step
     RestSolver solver = RestSolver::dynamics;
 };

@@ -149,6 +149,8 @@ std::uint64_t model_hash(const Model& model)
         for (const BoundaryForce& force : boundary.forces)
             add({static_cast<double>(model.user_number[force.block]), force.x, force.y, force.moment});
     }
+    if (model.holds_mean)
+        add({1.0});
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

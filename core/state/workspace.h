@@ -102,6 +102,7 @@ struct Workspace
     BlockContacts block_contacts;
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> constant;  ///< forces and moments of tractions on sides in the running stage, per block; empty without
+    std::vector<Index> held;       ///< blocks at pressed sides that are held together in the running stage
     std::vector<Triple> external;  ///< the same with those of the case's loads; empty without either
     std::vector<LoadedBlock> loaded;
     std::vector<Triple> released;  ///< velocities of blocks on which excavated blocks still act, before the step

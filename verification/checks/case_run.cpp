@@ -145,45 +145,6 @@ Overrides operator+(Overrides first, const Overrides& second)
     return first;
 }
 
-Overrides turned_case(const std::string& case_file, const Overrides& overrides, double angle)
-{
-    const CaseDef def = load_case(case_folder() / case_file, overrides).file.def;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    const auto turned = [&](const Vec2& v) { return Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y()); };
-    Overrides turns = overrides;
-    for (std::size_t i = 0; i < def.blocks.size(); ++i)
-    {
-        const std::string key = fmt::format("block[{}].", i);
-        Polygon polygon;
-        for (const Vec2& v : def.blocks[i].polygon)
-            polygon.push_back(turned(v));
-        turns.push_back(set(key + "polygon", polygon));
-        turns.push_back(set(key + "velocity", turned(def.blocks[i].velocity)));
-    }
-    for (std::size_t i = 0; i < def.loads.size(); ++i)
-    {
-        turns.push_back(set(fmt::format("load[{}].acceleration", i), turned(def.loads[i].acceleration)));
-        turns.push_back(set(fmt::format("load[{}].force", i), turned(def.loads[i].force)));
-    }
-    turns.push_back(set("gravity.vector", turned(def.gravity)));
-    const auto turned_line = [&](const Polygon& line)
-    {
-        Polygon points;
-        for (const Vec2& p : line)
-            points.push_back(turned(p));
-        return points;
-    };
-    if (!def.water.table.empty())
-        turns.push_back(set("water.table", turned_line(def.water.table)));
-    for (std::size_t i = 0; i < def.water_cracks.size(); ++i)
-    {
-        turns.push_back(set(fmt::format("water_crack[{}].crack", i), turned_line(def.water_cracks[i].crack)));
-        turns.push_back(set(fmt::format("water_crack[{}].outlet", i), turned_line(def.water_cracks[i].outlet)));
-    }
-    return turns;
-}
-
 CaseRun::CaseRun(const std::string& case_file, const Overrides& overrides)
     : loaded_(load_case(case_folder() / case_file, overrides)),
       simulation_(loaded_.setup.model, loaded_.setup.state),

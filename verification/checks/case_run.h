@@ -26,9 +26,6 @@ std::filesystem::path& case_folder();
 /// Both lists; later ones win.
 [[nodiscard]] Overrides operator+(Overrides first, const Overrides& second);
 
-/// `case_file` with all its polygons, velocities, loads and gravity turned by `angle` about the origin [rad], as overrides.
-[[nodiscard]] Overrides turned_case(const std::string& case_file, const Overrides& overrides, double angle);
-
 /// The energy ledger at one time of a run.
 struct LedgerSample
 {

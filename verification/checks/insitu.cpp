@@ -4,6 +4,8 @@
 #include "core/stress/insitu_stress.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/insitu_checks.h"
+#include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
 
@@ -16,41 +18,6 @@ namespace hdem::verification
 {
 namespace
 {
-Vec2 turned(const Vec2& p, double angle)
-{
-    return {std::cos(angle) * p.x() - std::sin(angle) * p.y(), std::sin(angle) * p.x() + std::cos(angle) * p.y()};
-}
-
-Polygon turned(Polygon polygon, double angle)
-{
-    for (Vec2& p : polygon)
-        p = turned(p, angle);
-    return polygon;
-}
-
-Override set_stress(const std::string& key, const StressDef& s, double angle)
-{
-    const double c = std::cos(angle), n = std::sin(angle);
-    return {key, fmt::format("[{}, {}, {}]", c * c * s.xx + n * n * s.yy - 2.0 * c * n * s.xy,
-                             n * n * s.xx + c * c * s.yy + 2.0 * c * n * s.xy, c * n * (s.xx - s.yy) + (c * c - n * n) * s.xy)};
-}
-
-/// The case with its rock and its stress turned.
-Overrides turned_rock(const CaseDef& def, const StressDef& stress, double angle)
-{
-    Overrides overrides{set("domain.polygon", turned(def.domain.polygon, angle)), set_stress("insitu.stress", stress, angle)};
-    for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
-    {
-        overrides.push_back(
-            set(fmt::format("joint_set[{}].dip_deg", i), def.joint_sets[i].dip_deg + angle * 180.0 / std::numbers::pi));
-        if (def.joint_sets[i].origin)
-            overrides.push_back(set(fmt::format("joint_set[{}].origin", i), turned(*def.joint_sets[i].origin, angle)));
-    }
-    for (std::size_t i = 0; i < def.excavations.size(); ++i)
-        overrides.push_back(set(fmt::format("excavation[{}].polygon", i), turned(def.excavations[i].polygon, angle)));
-    return overrides;
-}
-
 double greatest_displacement(const CaseRun& run)
 {
     double greatest = 0.0;
@@ -94,7 +61,6 @@ void check_stand(Report& report, const std::string& name, const Overrides& overr
 
 void check_uniform(Report& report)
 {
-    const StressDef stress{-8e6, -5e6, 1e6};
     const CaseRun drawn("insitu/rock.toml", {});
     constexpr std::array<std::array<double, 3>, 3> joints{
         {{25.0, 6.301863e6, 1.791854e6}, {60.0, 8.116025e6, 0.799038e6}, {-55.0, 6.073338e6, -1.751559e6}}};
@@ -102,8 +68,15 @@ void check_uniform(Report& report)
         report.require({fmt::format("dip {:g}°: worst error of σ_n, τ", dip), "t = σ n, seven digits", 2e-7,
                         worst_stress(drawn, dip, normal, shear)},
                        at_most());
+    const Overrides pressed{{"domain.fixed_edges", "[]"},
+                            {"domain.hold", "mean"},
+                            {"boundary", R"([{edges = [0, 1, 2, 3], kind = "stress", stress = "insitu"}])"}};
     for (const double angle : {0.0, 23.0})
-        check_stand(report, fmt::format("turned {:g}°", angle), turned_rock(drawn.definition(), stress, radians(angle)));
+    {
+        check_stand(report, fmt::format("turned {:g}°", angle), turned_case("insitu/rock.toml", {}, radians(angle)));
+        check_stand(report, fmt::format("turned {:g}°, pressed and held on average", angle),
+                    turned_case("insitu/rock.toml", pressed, radians(angle)));
+    }
 }
 
 void check_ground(Report& report)
@@ -142,14 +115,12 @@ Vec2 displacement_at(const CaseRun& run, const Vec2& place)
     return {std::nan(""), std::nan("")};
 }
 
-void check_hole(Report& report, const StressDef& stress, const Overrides& overrides, const std::vector<HoleJoint>& joints,
-                const Vec2& crown_and_springline)
+void check_hole(Report& report, const Overrides& overrides, const std::vector<HoleJoint>& joints, const Vec2& crown_and_springline)
 {
-    const CaseRun as_written("insitu/hole.toml", {});
     for (const double degrees : {0.0, 23.0})
     {
         const double angle = radians(degrees);
-        const CaseRun run(report, "insitu/hole.toml", turned_rock(as_written.definition(), stress, angle) + overrides);
+        const CaseRun run(report, "insitu/hole.toml", turned_case("insitu/hole.toml", overrides, angle));
         const std::string turn = fmt::format("turned {:g}°: ", degrees);
         for (const HoleJoint& joint : joints)
             report.require({turn + joint.what, "rigid blocks, linear", joint.normal,
@@ -167,7 +138,7 @@ void check_hole(Report& report, const StressDef& stress, const Overrides& overri
 
 void check_soft_shear(Report& report)
 {
-    check_hole(report, {-1e6, -0.5e6, 0.0}, {},
+    check_hole(report, {},
                {{{0.5, 5.0}, 90.0, 1.81320, "hoop stress at (0.5, 5) [MPa]"},
                 {{0.5, 6.0}, 90.0, 1.28120, "hoop stress at (0.5, 6) [MPa]"},
                 {{0.5, 7.0}, 90.0, 1.10063, "hoop stress at (0.5, 7) [MPa]"},
@@ -179,7 +150,10 @@ void check_soft_shear(Report& report)
 
 void check_isotropic(Report& report)
 {
-    check_hole(report, {-1e6, -1e6, 0.0}, {set("joint.default.normal_stiffness", 1e10), set("joint.default.shear_stiffness", 1e10)},
+    check_hole(report,
+               {{"insitu.stress", "[-1e6, -1e6, 0.0]"},
+                set("joint.default.normal_stiffness", 1e10),
+                set("joint.default.shear_stiffness", 1e10)},
                {{{0.5, 5.0}, 90.0, 1.64329, "hoop stress at (0.5, 5) [MPa]"},
                 {{0.5, 6.0}, 90.0, 1.52771, "hoop stress at (0.5, 6) [MPa]"},
                 {{0.5, 7.0}, 90.0, 1.38110, "hoop stress at (0.5, 7) [MPa]"}},
@@ -191,7 +165,11 @@ std::vector<Check> insitu_checks()
 {
     return {{"insitu.I1", "Uniform stress in rock of three joint sets: on the joints, and nothing moves", check_uniform},
             {"insitu.I2", "Stress of the ground with K0 1.5: nothing moves", check_ground},
+            {"insitu.I3", "Two sets of joints as a continuum: compliance, strain, stress", check_two_sets},
+            {"insitu.I4", "Square blocks as an isotropic continuum", check_squares},
+            {"insitu.I5", "Running bond as a continuum: stiffness by moving the outer bricks", check_bond},
             {"insitu.I6", "Hole under unequal stress, soft in shear", check_soft_shear},
-            {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic}};
+            {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic},
+            {"insitu.I8", "Wedge in a roof: greatest weight, drop at slip, and fall", check_roof_wedge}};
 }
 }  // namespace hdem::verification

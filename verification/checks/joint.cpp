@@ -2,6 +2,7 @@
 
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/joint_slow.h"
 
 #include <fmt/format.h>
 
@@ -138,10 +139,14 @@ void check_hung(Report& report)
 std::vector<Check> joint_checks()
 {
     return {{"joint.J1", "Coulomb with residual values and dilation in direct shear", check_coulomb},
+            {"joint.J2", "The same in rock that gives way: constant normal stiffness", check_normal_stiffness},
             {"joint.J3", "Tension: a block hung from a roof", check_hung},
             {"joint.J4", "Barton-Bandis in direct shear", check_barton},
+            {"joint.J5", "Barton-Bandis: scaled roughness, wall strength and peak displacement", check_scale},
             {"joint.J6", "Closure by Bandis under a load", check_closure},
             {"joint.J7", "Patton in direct shear", check_patton},
-            {"joint.J8", "Continuously yielding in direct shear", check_yielding}};
+            {"joint.J8", "Continuously yielding in direct shear", check_yielding},
+            {"joint.J9", "Plesha in direct shear there and back", check_plesha},
+            {"joint.J10", "Saeb-Amadei in direct shear: strength and opening", check_saeb}};
 }
 }  // namespace hdem::verification

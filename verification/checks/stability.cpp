@@ -1,6 +1,7 @@
 /// What stands and what falls, and the same in a turned frame: closed forms A2, A12, A16, A19.
 
 #include "verification/checks/checks.h"
+#include "verification/checks/turned_case.h"
 #include "verification/checks/variants.h"
 
 #include <fmt/format.h>

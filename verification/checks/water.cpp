@@ -5,6 +5,7 @@
 #include "core/water/pore_pressure.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
 
