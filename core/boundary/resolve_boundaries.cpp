@@ -184,8 +184,8 @@ class BoundaryResolver
                 problems_.push_back({.key = "boundary[0].kind",
                                      .text = "stage \"" + def_.stages[s].name +
                                              "\": tractions act on the rock, and nothing holds it (it would move and turn as a "
-                                             "whole). Give hold = \"mean\" in [domain], fix a block, e.g. with fix = "
-                                             "[\"b1\"] in the stage, or give a side of another kind."});
+                                             "whole). Fix a block, e.g. with fix = [\"b1\"] in the stage, give hold = "
+                                             "\"mean\" in [domain], or give a side of another kind."});
                 return;
             }
         }
