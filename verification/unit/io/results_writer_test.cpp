@@ -121,6 +121,7 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     run.state.not_at_rest = {{.stage = 0, .block = 1}};
     run.state.statics = {{.stage = 0}};
     run.state.came_loose = {{.stage = 0, .block = 2}};
+    run.state.water.assign(run.state.blocks.present.size(), {});
     write_checkpoint(folder.path(), record, run.model, run.state);
     const std::string source = HDEM_SOURCE_DIR;
     const std::string command = "/usr/bin/python3 " + source + "/verification/unit/io/check_results.py " + source +
