@@ -103,7 +103,7 @@ that has an edge on the named side. A stage can fix and free blocks later.
 remove either. Blocks that are cut from the domain get names when they are made; `hdem check` and the block frames show them.
 In a load, `"*"` stands for all blocks that are free at that moment; it can stand beside names.
 
-**Order of stages.** Stages run in the order of the file. At its start a stage first ends and begins what acts on the sides ([[boundary]]),
+**Order of stages.** Stages run in the order of the file. At its start a stage first sets numbers of joints and materials (`set`), ends and begins what acts on the sides ([[boundary]]),
 then removes what `excavate` names, then fixes, then frees.
 Contacts keep their forces from stage to stage. Cycles and seconds count on from the start of the run, also for loads.
 

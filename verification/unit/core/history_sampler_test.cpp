@@ -1,5 +1,6 @@
 #include "core/check.h"
 #include "core/history_sampler.h"
+#include "core/joint/all_laws.h"
 #include "verification/unit/small_run.h"
 
 #include <gmock/gmock.h>
@@ -160,7 +161,7 @@ TEST(HistorySampler, IsDueAtMultiplesOfItsInterval)
 TEST(HistorySampler, TellsWhatJointsRemember)
 {
     SmallRun run = test::small_run();
-    run.model.joints.rows = {{.kind = JointKind::coulomb}};
+    run.model.joints.rows = {{.kind = kind_of<CoulombResidual>()}};
     Contact contact = run.state.contacts.get(0);
     run.state.contacts = {};
     run.state.contacts.has_memory = run.state.contacts.has_preload = true;
