@@ -79,17 +79,18 @@ SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Conta
 
 double residual(const EnergyLedger& ledger, const StoredEnergy& stored)
 {
-    const double in = ledger.initial + ledger.gravity_work + ledger.load_work + ledger.position_correction;
-    const double spent = ledger.friction + ledger.local_damping + ledger.global_damping + ledger.impulse_loss +
-                         ledger.contact_changes + ledger.removed;
+    double in = 0.0, spent = 0.0;
+    for (const LedgerTerm& term : ledger_terms)
+        (term.side == LedgerSide::in ? in : spent) += term.side == LedgerSide::aside ? 0.0 : ledger.*term.value;
     return in - spent - stored.total();
 }
 
 double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored)
 {
-    const double most = std::max({std::abs(ledger.initial), std::abs(ledger.gravity_work), std::abs(ledger.load_work),
-                                  std::abs(ledger.friction), std::abs(ledger.local_damping), std::abs(ledger.global_damping),
-                                  std::abs(ledger.impulse_loss), stored.total(), stored.one_step_fall});
+    double most = std::max(stored.total(), stored.one_step_fall);
+    for (const LedgerTerm& term : ledger_terms)
+        if (term.is_scale)
+            most = std::max(most, std::abs(ledger.*term.value));
     return most > 0.0 ? residual(ledger, stored) / most : 0.0;
 }
 

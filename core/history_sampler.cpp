@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hdem
 {
@@ -71,6 +72,14 @@ const std::vector<KnownOfPair>& known_of_pair()
         {"impulse_points",
          {"impulse_points", "1"},
          [](const Model&, const PairSample& p) { return static_cast<double>(p.impulse_points); }},
+        {"plastic_slip", {"plastic_slip", "m"}, [](const Model&, const PairSample& p) { return p.plastic_slip; }},
+        {"opening", {"opening", "m"}, [](const Model&, const PairSample& p) { return p.opening; }},
+        {"damage", {"damage", "1"}, [](const Model&, const PairSample& p) { return p.damage; }},
+        {"broken", {"broken", "1"}, [](const Model&, const PairSample& p) { return p.broken; }},
+        {"mobilised_friction",
+         {"mobilised_friction", "deg"},
+         [](const Model&, const PairSample& p)
+         { return std::atan2(std::abs(p.shear_force), std::max(p.normal_force, 0.0)) * 180.0 / std::numbers::pi; }},
     };
     return all;
 }
@@ -164,9 +173,35 @@ void HistorySampler::find_contacts(const Model& model, const State& state)
     broad_phase_runs_ = state.broad_phase_runs;
 }
 
-PairSample HistorySampler::sample_pair(const State& state)
+void HistorySampler::add_memories(const Model& model, const State& state, PairSample& sums) const
+{
+    double length = 0.0;
+    for (const Index i : contacts_)
+    {
+        if (!model.joints.has_memory(state.contacts.law[i]) || state.blocks.present[first_] == 0 ||
+            state.blocks.present[second_] == 0)
+            continue;
+        const ContactReport contact = report_contact(state, i);
+        const JointRow& row = model.joints.rows[state.contacts.law[i]];
+        const double half = 0.5 * contact.length;
+        for (const JointMemory& point : contact.memory)
+        {
+            sums.plastic_slip += half * point.slip;
+            sums.opening += half * point.opening;
+            sums.damage += half * damage(row, point);
+            sums.broken += half * point.broken;
+        }
+        length += contact.length;
+    }
+    for (double PairSample::*const mean :
+         {&PairSample::plastic_slip, &PairSample::opening, &PairSample::damage, &PairSample::broken})
+        sums.*mean = length > 0.0 ? sums.*mean / length : 0.0;
+}
+
+PairSample HistorySampler::sample_pair(const Model& model, const State& state)
 {
     PairSample sums{.step = state.blocks.step.last};
+    add_memories(model, state, sums);
     double longest = -1.0;
     for (const Index i : contacts_)
     {
@@ -197,7 +232,7 @@ void HistorySampler::sample(const Model& model, const State& state, std::span<do
     if (of_pair_.empty())
         return;
     find_contacts(model, state);
-    const PairSample pair = sample_pair(state);
+    const PairSample pair = sample_pair(model, state);
     for (std::size_t i = 0; i < of_pair_.size(); ++i)
         values[i] = of_pair_[i](model, pair);
 }

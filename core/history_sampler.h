@@ -31,6 +31,11 @@ struct PairSample
     double shear_displacement = 0.0;  ///< [m]
     int impulse_points = 0;
     double step = 0.0;  ///< of the last cycle [s]
+    /// What joints remember: means over the contacts that are tracked, closed or not, by their lengths.
+    double plastic_slip = 0.0;  ///< signed as the shear force [m]
+    double opening = 0.0;       ///< dilation [m]
+    double damage = 0.0;        ///< [-]
+    double broken = 0.0;        ///< share of the points [-]
 };
 
 /// Reads a state after a cycle. Forces are those of that cycle, found at the poses at its start; everything else belongs to
@@ -66,7 +71,8 @@ class HistorySampler
     using PairQuantity = double (*)(const Model&, const PairSample&);
 
     void find_contacts(const Model& model, const State& state);
-    PairSample sample_pair(const State& state);
+    PairSample sample_pair(const Model& model, const State& state);
+    void add_memories(const Model& model, const State& state, PairSample& sums) const;
 
     std::string name_;
     std::int64_t every_ = 1;

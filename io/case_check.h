@@ -68,6 +68,9 @@ class CaseCheck
             check_reference(key, object, name, what, known);
     }
 
+    /// Keys of io/case_schema_factor.h, of a load or a side.
+    void check_factor(const FactorDef& factor, const std::string& path, const std::string& object);
+
     const CaseDef& def_;
     const CaseSource& source_;
     CaseProblems& problems_;

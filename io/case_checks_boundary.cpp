@@ -1,3 +1,4 @@
+#include "core/model/boundary.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -23,6 +24,7 @@ class BoundaryCheck : public CaseCheck
             check_side(boundary, path, object);
             check_kind(boundary, path, object);
             check_stages(boundary, path, object);
+            check_changes(boundary, path, object);
             check_twice(i, path, object);
         }
     }
@@ -72,6 +74,17 @@ class BoundaryCheck : public CaseCheck
         if (boundary.is_insitu && !def_.insitu.given && !problems_.has("insitu"))
             problems_.add(path + ".stress", object, "stress = \"insitu\"", "there is no [insitu]",
                           "Give [insitu], or stress = [compression, shear].");
+    }
+
+    /// Only what is given by a number can grow.
+    void check_changes(const BoundaryDef& boundary, const std::string& path, const std::string& object)
+    {
+        check_factor(boundary.factor, path, object);
+        const bool may = boundary.kind == BoundaryKind::stress || moves_walls(boundary.kind) || problems_.has(path + ".kind");
+        for (const char* key : {"ramp_cycles", "ramp_time", "table", "table_file"})
+            if (!may && given(path + "." + key))
+                problems_.add(path + "." + key, object, key, "belongs to the kinds stress, velocity and servo",
+                              "Remove it, or choose one of these kinds.");
     }
 
     void check_stages(const BoundaryDef& boundary, const std::string& path, const std::string& object)

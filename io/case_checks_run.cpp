@@ -39,6 +39,7 @@ class RunCheck : public CaseCheck
                                      [&](const char* key) { return given(path + "." + key); });
         if (!any)
             problems_.add(path, object, "load", "does nothing", "Give acceleration, force, moment, or a prescribed velocity.");
+        check_factor(load.factor, path, object);
         exclude(path, object, "from_cycle", "from_time");
         exclude(path, object, "until_cycle", "until_time");
         const Interval& when = load.interval;
@@ -119,7 +120,7 @@ class RunCheck : public CaseCheck
         if (given("time.step"))
             warn("step is given", "Remove one of the two.");
         else if (std::ranges::any_of(rules, [](const StageRules& stage) { return stage.contact.rock_keeps_springs; }))
-            warn("with loads or prescribed motions every stage keeps the step of Eq. (32)", "Remove it, or give fraction instead.");
+            warn("with prescribed motions every stage keeps the step of Eq. (32)", "Remove it, or give fraction instead.");
         else
             warn("no stage runs until converged under the default damping", "Remove it, or give fraction instead.");
     }
@@ -139,16 +140,34 @@ class RunCheck : public CaseCheck
 
     void check_relaxation(const StageDef& stage, const std::string& path, const std::string& object)
     {
+        if (stage.relax_to > 0.0 && stage.relax_cycles == 0 && !problems_.has(path + ".relax_cycles"))
+            problems_.add(path + ".relax_to", object, fmt::format("relax_to = {}", stage.relax_to),
+                          "belongs to relax_cycles, which is not given", "Give relax_cycles, or remove this key.");
         if (stage.relax_cycles == 0)
             return;
+        const bool goes_on = &stage != def_.stages.data() && (&stage - 1)->relax_to > 0.0;
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
-        if (stage.excavate.empty() && !ends_a_boundary(stage))
+        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on)
             refuse("nothing is excavated, and no boundary ends", "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)
             refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),
                    "Let the stage last longer, or take the forces off faster.");
+    }
+
+    void check_set_cycles(const StageDef& stage, const std::string& path, const std::string& object)
+    {
+        if (stage.set_cycles == 0)
+            return;
+        const auto refuse = [&](const std::string& why, const char* remedy)
+        { problems_.add(path + ".set_cycles", object, fmt::format("set_cycles = {}", stage.set_cycles), why, remedy); };
+        if (stage.set.empty() && !problems_.has(path + ".set"))
+            refuse("belongs to set, which is not given", "Give set, or remove this key.");
+        const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
+        if (!stage.duration && stage.set_cycles > most)
+            refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),
+                   "Let the stage last longer, or give fewer.");
     }
 
     void check_stages()
@@ -174,6 +193,7 @@ class RunCheck : public CaseCheck
                 problems_.add(path + ".max_cycles", object, "max_cycles", "limits a stage with until",
                               "Use cycles, or add until = \"converged\".");
             check_relaxation(stage, path, object);
+            check_set_cycles(stage, path, object);
             for (const std::string& name : stage.excavate)
             {
                 check_block_reference(path + ".excavate", object, name, "excavation or block", excavations_);

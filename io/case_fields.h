@@ -58,6 +58,8 @@ constexpr ValueType type_of()
         return ValueType::stress;
     else if constexpr (std::is_same_v<T, Polygon>)
         return ValueType::polygon;
+    else if constexpr (std::is_same_v<T, FactorTable>)
+        return ValueType::line;
     else if constexpr (std::is_same_v<T, std::vector<std::string>>)
         return ValueType::text_list;
     else if constexpr (std::is_same_v<T, std::vector<int>>)
@@ -114,6 +116,8 @@ void store(T& field, const TomlNode& node, const KeySpec& key)
         for (const TomlNode& item : *node.items())
             if constexpr (std::is_same_v<T, Polygon>)
                 field.push_back(vector(item));
+            else if constexpr (std::is_same_v<T, FactorTable>)
+                field.push_back({(*item.items())[0].number(), (*item.items())[1].number()});
             else if constexpr (std::is_same_v<T, std::vector<int>>)
                 field.push_back(static_cast<int>(whole(item)));
             else if constexpr (std::is_same_v<T, std::vector<double>>)

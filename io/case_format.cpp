@@ -103,12 +103,43 @@ that has an edge on the named side. A stage can fix and free blocks later.
 remove either. Blocks that are cut from the domain get names when they are made; `hdem check` and the block frames show them.
 In a load, `"*"` stands for all blocks that are free at that moment; it can stand beside names.
 
-**Order of stages.** Stages run in the order of the file. At its start a stage first ends and begins what acts on the sides ([[boundary]]),
+**Order of stages.** Stages run in the order of the file. At its start a stage first sets numbers of joints and materials (`set`), ends and begins what acts on the sides ([[boundary]]),
 then removes what `excavate` names, then fixes, then frees.
 Contacts keep their forces from stage to stage. Cycles and seconds count on from the start of the run, also for loads.
 
 **When a load acts.** With `from_cycle = 5000` a load is there from the 5001st cycle on: when 5000 cycles are done. Likewise
 `until_cycle = 6000` makes the 6000th its last. Times are compared with the time at the start of the cycle.
+
+**Loads that grow and fall.** What a [[load]] or a [[boundary]] of kind `stress`, `velocity` or `servo` gives is multiplied with a factor, if one is
+given: by `ramp_cycles = [from, until]` it grows from 0 to 1; by `table = [[cycle, factor], ...]`, or by the same in a file, it follows straight lines
+between the rows. With `since = "NAME"` cycles and times are counted from the start of that stage, and a load does not act before it.
+
+```toml
+[[boundary]]
+side = "top"
+kind = "stress"
+stress = [5e6, 0]
+ramp_cycles = [0, 4000]         # pressed slowly, so that nothing swings
+
+[[load]]
+blocks = ["base"]
+velocity_x = 0.1                # the greatest; the block's x is fixed
+table_file = "shaking.csv"
+since = "earthquake"            # the name of a [[stage]]
+```
+
+A file begins with the heading `cycle,factor` or `time,factor`. Then comes a row of two numbers for each cycle or time, ascending. Lines that begin with
+`#` are skipped.
+
+```
+time,factor
+0.00,0.0
+0.02,0.35
+0.04,-0.10
+```
+
+A stage with `until` does not end while a factor changes in it. Until then no block is left out, and all steps are the same. From then on the stage
+goes on as if the load had always been there. While times in seconds are still to come, steps stay the same in earlier stages too.
 
 **Random numbers.** Deviations and persistence are the only random things, and follow from `generator.seed` alone.
 

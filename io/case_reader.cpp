@@ -5,6 +5,7 @@
 #include "io/case_checks.h"
 #include "io/case_problems.h"
 #include "io/case_schema.h"
+#include "io/factor_table.h"
 #include "io/law_library.h"
 #include "io/polygons.h"
 #include "io/pressure_table.h"
@@ -270,6 +271,36 @@ void add_pressures(CaseFile& read, const std::filesystem::path& case_file, const
     water.pressures = std::move(rows);
 }
 
+/// Rows of the table_file of a load or a side. Problems inside it are located already.
+void read_table_file(FactorDef& factor, const std::string& path, const std::string& object, CaseFile& read,
+                     const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
+                     std::vector<Problem>& located)
+{
+    if (factor.table_file.empty() || !factor.table.empty())
+        return;
+    const std::string* text = text_named(path + ".table_file", object, factor.table_file, read, case_file, stored, problems);
+    if (text == nullptr)
+        return;
+    std::istringstream in(*text);
+    FactorFile file = read_factors(in, (case_file.parent_path() / factor.table_file).string());
+    located.insert(located.end(), file.problems.begin(), file.problems.end());
+    factor.table = std::move(file.rows);
+    factor.table_by = file.by;
+}
+
+void read_table_files(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
+                      std::vector<Problem>& located)
+{
+    CaseDef& def = read.def;
+    for (std::size_t i = 0; i < def.loads.size(); ++i)
+        read_table_file(def.loads[i].factor, fmt::format("load[{}]", i), fmt::format("load {}", i + 1), read, case_file, stored,
+                        problems, located);
+    for (std::size_t i = 0; i < def.boundaries.size(); ++i)
+        read_table_file(def.boundaries[i].factor, fmt::format("boundary[{}]", i),
+                        fmt::format("boundary \"{}\"", printable(def.boundaries[i].name)), read, case_file, stored, problems,
+                        located);
+}
+
 /// Only a domain without problems can be cut.
 void cut_domain(CaseDef& def, const std::vector<Polygon>& traces, const CaseSource& source)
 {
@@ -308,6 +339,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     if (!result.def.blocks_file.empty())
         add_blocks_file(result, file, files, problems, located);
     add_pressures(result, file, files, problems, located);
+    read_table_files(result, file, files, problems, located);
     const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);
     load_laws(result, result.def, file, files, problems);
     check_rock_keys(result.def, source, problems);

@@ -1,4 +1,5 @@
 #include "io/case_fields.h"
+#include "io/case_schema_factor.h"
 #include "io/case_sections.h"
 
 namespace hdem
@@ -44,7 +45,7 @@ SectionSpec boundary_section()
                            .choices = {"insitu"},
                            .default_note = "must be given with kind stress"},
                           ValueType::pair_or_text);
-    return {
+    SectionSpec section = {
         "boundary",
         SectionKind::array,
         "boundary",
@@ -91,5 +92,7 @@ SectionSpec boundary_section()
                                       .example = "[\"load\", \"shear\"]",
                                       .default_note = "all"})},
         append<&CaseDef::boundaries>};
+    add_factor_keys<&BoundaryDef::factor>(section.keys);
+    return section;
 }
 }  // namespace hdem

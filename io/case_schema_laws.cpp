@@ -1,4 +1,5 @@
 #include "io/case_fields.h"
+#include "io/case_schema_factor.h"
 #include "io/case_sections.h"
 
 namespace hdem
@@ -48,7 +49,7 @@ SectionSpec load_section()
 {
     const auto cycle = Range{.low = 0, .high = 1e15};
     const auto time = Range{.low = 0, .high = 1e12};
-    return {
+    SectionSpec section = {
         "load",
         SectionKind::array,
         "load",
@@ -89,7 +90,7 @@ SectionSpec load_section()
                                             .default_note = "not prescribed"}),
          inner_field<&LoadDef::interval, &Interval::from_cycle>(
              {.name = "from_cycle",
-              .effect = "Acts once this many cycles are done, counted from the start of the run.",
+              .effect = "Acts once this many cycles are done, counted from `since`.",
               .range = cycle,
               .default_note = "from the start"}),
          inner_field<&LoadDef::interval, &Interval::until_cycle>({.name = "until_cycle",
@@ -107,6 +108,8 @@ SectionSpec load_section()
                                                                  .range = time,
                                                                  .default_note = "to the end"})},
         append<&CaseDef::loads>};
+    add_factor_keys<&LoadDef::factor>(section.keys);
+    return section;
 }
 
 SectionSpec contact_section()
@@ -214,12 +217,13 @@ SectionSpec time_section()
         {field<&TimeDef::step>(
              {.name = "step",
               .unit = "s",
-              .effect =
-                  "Time step Δt. Above the stable limit 2/ω_max of the springs a run is refused, or stops once they act. Where it "
-                  "is not given, stages with `until = \"converged\"` under the default damping take the largest step that is "
-                  "stable "
-                  "with the present contacts (stable_fraction of it), up to 64 of these in a cycle, unless there are loads or "
-                  "prescribed motions.",
+              .effect = "Time step Δt. Above the stable limit 2/ω_max of the springs a run is refused, or stops once they act. "
+                        "Where it "
+                        "is not given, stages with `until = \"converged\"` under the default damping take the largest step that is "
+                        "stable "
+                        "with the present contacts (stable_fraction of it), up to 64 of these in a cycle, unless loads still "
+                        "change or there are "
+                        "prescribed motions.",
               .example = "5e-5",
               .range = {.low = 0, .high = 1e6, .low_included = false},
               .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness)); a block with a side L above 4 m "

@@ -129,17 +129,34 @@ SectionSpec stage_section()
                   "parts. Likewise for a [[boundary]] that ends.",
               .example = "2000",
               .range = {.low = 0, .high = 1e9}}),
+         field<&StageDef::relax_to>({.name = "relax_to",
+                                     .effect = "Share of these forces that is left after relax_cycles, and acts until the stage "
+                                               "ends: rock that has come forward before "
+                                               "a support is set. The next stage takes off the rest, over its own relax_cycles. "
+                                               "The state of rest is then sought by "
+                                               "cycles alone.",
+                                     .example = "0.4",
+                                     .range = {.low = 0, .high = 1, .high_included = false}}),
          field<&StageDef::fix>({.name = "fix",
                                 .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
                                 .default_note = "none"}),
          field<&StageDef::free>(
              {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
-         field<&StageDef::set>(
-             {.name = "set",
-              .effect = "Numbers of joints from here on, each as \"joint.NAME.KEY = VALUE\": friction, cohesion, tension, residual "
-                        "values, dilation. Law and stiffness stay: contacts bear by them. Broken points stay broken.",
-              .example = "[\"joint.default.friction_angle_deg = 25\"]",
-              .default_note = "nothing changes"}),
+         field<&StageDef::set>({.name = "set",
+                                .effect = "Numbers from here on, each as \"joint.NAME.KEY = VALUE\" or \"material.NAME.density = "
+                                          "VALUE\". Where a stiffness "
+                                          "changes, contacts go on with the forces they have; where a density changes, blocks with "
+                                          "their velocities. Law and kind "
+                                          "of normal spring stay. Broken points stay broken.",
+                                .example = "[\"joint.default.friction_angle_deg = 25\"]",
+                                .default_note = "nothing changes"}),
+         field<&StageDef::set_cycles>({.name = "set_cycles",
+                                       .effect = "With set: friction, cohesion and tension come to their new values evenly over so "
+                                                 "many cycles, angles by their tangents. "
+                                                 "0: at once. A stage with until ends after that. Stiffness and density change at "
+                                                 "once: set them in a stage of their own.",
+                                       .example = "5000",
+                                       .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::water_level>({.name = "water_level",
                                         .unit = "m",
                                         .effect = "water.level from here on. The change is a step; with relax_cycles what is less "
@@ -193,7 +210,9 @@ SectionSpec history_section()
              field<&HistoryDef::quantities>(
                  {.name = "quantities",
                   .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`. "
-                            "A vector such as `velocity` becomes two columns.",
+                            "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
+                            "contacts, "
+                            "by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",
                   .choices = std::move(quantities),
                   .required = true}),

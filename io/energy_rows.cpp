@@ -4,30 +4,11 @@
 #include "core/motion/equilibrium.h"
 
 #include <algorithm>
-#include <array>
 
 namespace hdem
 {
 namespace
 {
-struct Term
-{
-    const char* name;
-    double EnergyLedger::*value;
-};
-constexpr std::array terms = {
-    Term{"initial", &EnergyLedger::initial},
-    Term{"gravity_work", &EnergyLedger::gravity_work},
-    Term{"load_work", &EnergyLedger::load_work},
-    Term{"position_correction", &EnergyLedger::position_correction},
-    Term{"friction", &EnergyLedger::friction},
-    Term{"local_damping", &EnergyLedger::local_damping},
-    Term{"global_damping", &EnergyLedger::global_damping},
-    Term{"impulse_loss", &EnergyLedger::impulse_loss},
-    Term{"contact_changes", &EnergyLedger::contact_changes},
-    Term{"removed", &EnergyLedger::removed},
-};
-
 double points_in(Regime regime, const State& state)
 {
     std::int64_t points = 0;
@@ -42,8 +23,9 @@ std::vector<Column> energy_columns()
     std::vector<Column> columns = {{"kinetic_energy", "J"},   {"unbalanced_force_ratio", "1"},
                                    {"greatest_speed", "m/s"}, {"stick_points", "1"},
                                    {"slip_points", "1"},      {"impulse_points", "1"}};
-    for (const Term& term : terms)
-        columns.push_back({term.name, "J"});
+    for (const LedgerTerm& term : ledger_terms)
+        if (term.side != LedgerSide::aside)
+            columns.push_back({term.name, "J"});
     columns.insert(columns.end(), {{"elastic_normal", "J"}, {"elastic_shear", "J"}, {"residual", "J"}});
     return columns;
 }
@@ -58,8 +40,9 @@ void sample_energies(const Model& model, const State& state, std::vector<double>
            points_in(Regime::stick, state),
            points_in(Regime::slip, state),
            points_in(Regime::impulse, state)};
-    for (const Term& term : terms)
-        row.push_back(state.ledger.*term.value);
+    for (const LedgerTerm& term : ledger_terms)
+        if (term.side != LedgerSide::aside)
+            row.push_back(state.ledger.*term.value);
     const StoredEnergy stored = stored_energy(model, state);
     row.insert(row.end(), {stored.elastic_normal, stored.elastic_shear, residual(state.ledger, stored)});
 }

@@ -13,24 +13,35 @@ namespace
 std::string changed_for_good(const JointDef& a, const JointDef& b)
 {
     const auto differs = [&](auto JointDef::*field) { return a.*field != b.*field; };
+    const auto comes_or_goes = [&](auto JointDef::*field) { return (a.*field).has_value() != (b.*field).has_value(); };
     if (differs(&JointDef::law))
         return "law";
     for (const auto& [name, field] :
-         {std::pair{"normal_stiffness", &JointDef::normal_stiffness}, std::pair{"shear_stiffness", &JointDef::shear_stiffness},
-          std::pair{"greatest_stiffness", &JointDef::greatest_stiffness}})
-        if (differs(field))
-            return name;
-    for (const auto& [name, field] :
          {std::pair{"greatest_closure", &JointDef::greatest_closure}, std::pair{"normal_exponent", &JointDef::normal_exponent},
-          std::pair{"shear_exponent", &JointDef::shear_exponent}, std::pair{"normal_stress", &JointDef::normal_stress},
           std::pair{"rock_strength", &JointDef::rock_strength}})
-        if (differs(field))
+        if (comes_or_goes(field))
             return name;
     if (differs(&JointDef::initially))
         return "initially";
     if (differs(&JointDef::materials))
         return "materials";
     return "";
+}
+
+/// Name of a number that is no strength; empty where only strengths change.
+std::string changed_at_once(const JointDef& a, const JointDef& b)
+{
+    JointDef rest = b;
+    for (double JointDef::*const strength : {&JointDef::friction_angle_deg, &JointDef::cohesion})
+        rest.*strength = a.*strength;
+    for (std::optional<double> JointDef::*const strength :
+         {&JointDef::tension, &JointDef::residual_friction_angle_deg, &JointDef::residual_cohesion, &JointDef::residual_tension})
+        rest.*strength = a.*strength;
+    for (const auto& [name, field] :
+         {std::pair{"normal_stiffness", &JointDef::normal_stiffness}, std::pair{"shear_stiffness", &JointDef::shear_stiffness}})
+        if (rest.*field != a.*field)
+            return name;
+    return rest == a ? "" : "a number that is no strength";
 }
 
 class StageJoints
@@ -79,8 +90,9 @@ class StageJoints
     {
         for (const std::string& text : def_.stages[stage].set)
         {
-            if (text.rfind("joint.", 0) != 0 || text.find('=') == std::string::npos)
-                return fail(stage, text, "does not say joint.NAME.KEY = VALUE",
+            const bool is_joint = text.starts_with("joint."), is_material = text.starts_with("material.");
+            if (!(is_joint || is_material) || text.find('=') == std::string::npos)
+                return fail(stage, text, "does not say joint.NAME.KEY = VALUE or material.NAME.density = VALUE",
                             "Write e.g. \"joint.default.friction_angle_deg = 25\".");
             const auto equals = text.find('=');
             const auto trimmed = [](std::string s)
@@ -90,9 +102,12 @@ class StageJoints
                 return s;
             };
             const Override change{trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
-            const std::string name = change.key.substr(6, change.key.find('.', 6) - 6);
-            if (std::ranges::find(def_.joints, name, &JointDef::name) == def_.joints.end())
+            const std::size_t from = is_joint ? 6 : 9;
+            const std::string name = change.key.substr(from, change.key.find('.', from) - from);
+            if (is_joint && std::ranges::find(def_.joints, name, &JointDef::name) == def_.joints.end())
                 return fail(stage, text, "no joint has this name", "Name one of [joint.NAME].");
+            if (is_material && std::ranges::find(def_.materials, name, &MaterialDef::name) == def_.materials.end())
+                return fail(stage, text, "no material has this name", "Name one of [material.NAME].");
             take_over(stage, apply_overrides(document_, {&change, 1}, source_));
         }
         CaseDef again;
@@ -100,24 +115,58 @@ class StageJoints
         read_again_(document_, again, problems);
         take_over(stage, source_.located(problems.errors()));
         if (located_.empty())
-            take(stage, again.joints);
+            take_joints(stage, again.joints);
+        if (located_.empty())
+            take_materials(stage, again.materials);
     }
 
-    void take(std::size_t stage, const std::vector<JointDef>& joints)
+    [[nodiscard]] const std::vector<JointDef>& joints_before(std::size_t stage) const
     {
+        for (; stage > 0; --stage)
+            if (!def_.stages[stage - 1].joints.empty())
+                return def_.stages[stage - 1].joints;
+        return def_.joints;
+    }
+
+    [[nodiscard]] const std::vector<MaterialDef>& materials_before(std::size_t stage) const
+    {
+        for (; stage > 0; --stage)
+            if (!def_.stages[stage - 1].materials.empty())
+                return def_.stages[stage - 1].materials;
+        return def_.materials;
+    }
+
+    void take_joints(std::size_t stage, const std::vector<JointDef>& joints)
+    {
+        const std::vector<JointDef>& before = joints_before(stage);
         for (std::size_t j = 0; j < joints.size(); ++j)
         {
-            const JointDef &was = def_.joints[j], &is = joints[j];
+            const JointDef &was = before[j], &is = joints[j];
             const std::string stays = changed_for_good(was, is);
             if (!stays.empty())
                 return fail(stage, fmt::format("joint.{}.{} = ...", is.name, stays), "contacts bear by it already",
-                            "Change strength and dilation only.");
+                            "Change numbers of the law only.");
             if (needs_memory(was) != needs_memory(is))
                 return fail(stage, fmt::format("joint.{}. ...", is.name),
                             "the joint has no memory of slip and breaking before this stage",
                             "Give residual_cohesion in [joint." + is.name + "] too, so that it has one from the start.");
+            const std::string at_once = changed_at_once(was, is);
+            if (def_.stages[stage].set_cycles > 0 && !at_once.empty())
+                return fail(stage, fmt::format("joint.{}: {}", is.name, at_once), "only strengths change over set_cycles",
+                            "Set it in a stage without set_cycles.");
         }
-        def_.stages[stage].joints = joints;
+        if (joints != before)
+            def_.stages[stage].joints = joints;
+    }
+
+    void take_materials(std::size_t stage, const std::vector<MaterialDef>& materials)
+    {
+        if (materials == materials_before(stage))
+            return;
+        if (def_.stages[stage].set_cycles > 0)
+            return fail(stage, "material...", "only strengths of joints change over set_cycles",
+                        "Set densities in a stage without set_cycles.");
+        def_.stages[stage].materials = materials;
     }
 
     CaseDef& def_;

@@ -127,19 +127,9 @@ void exchange_run(Archive& archive, State& state)
     archive.template rows<double>("/state/statics_residual", state.statics.size(), state.statics,
                                   [](StaticSolution& s) { return std::tie(s.residual); });
     archive.template rows<std::int32_t>("/state/came_loose", any_extent, state.came_loose, block_of_stage);
-    EnergyLedger& ledger = state.ledger;
     archive.group("/state/ledger");
-    archive.template value<double>("/state/ledger", "initial", ledger.initial);
-    archive.template value<double>("/state/ledger", "gravity_work", ledger.gravity_work);
-    archive.template value<double>("/state/ledger", "load_work", ledger.load_work);
-    archive.template value<double>("/state/ledger", "position_correction", ledger.position_correction);
-    archive.template value<double>("/state/ledger", "friction", ledger.friction);
-    archive.template value<double>("/state/ledger", "local_damping", ledger.local_damping);
-    archive.template value<double>("/state/ledger", "global_damping", ledger.global_damping);
-    archive.template value<double>("/state/ledger", "impulse_loss", ledger.impulse_loss);
-    archive.template value<double>("/state/ledger", "contact_changes", ledger.contact_changes);
-    archive.template value<double>("/state/ledger", "removed", ledger.removed);
-    archive.template value<double>("/state/ledger", "coasting", ledger.coasting);
+    for (const LedgerTerm& term : ledger_terms)
+        archive.template value<double>("/state/ledger", term.name, state.ledger.*term.value);
 }
 
 template <typename Archive>

@@ -2,6 +2,7 @@
 
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
+#include "core/stage/properties.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,9 +84,7 @@ std::optional<Damage> damage_of_run(const Model& model, const State& state)
         return Damage{"/state", "counters that no run leaves behind"};
     if (auto damage = damage_of_stages(model, state))
         return damage;
-    const EnergyLedger& e = state.ledger;
-    if (!are_finite({e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
-                     e.impulse_loss, e.contact_changes, e.removed}))
+    if (!std::ranges::all_of(ledger_terms, [&](const LedgerTerm& term) { return std::isfinite(state.ledger.*term.value); }))
         return Damage{"/state/ledger", "not a finite number"};
     return std::nullopt;
 }
@@ -102,6 +101,8 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
 {
     const Blocks& blocks = state.blocks;
     const auto n = static_cast<std::size_t>(blocks.size());
+    const bool densities_change = std::ranges::any_of(model.stage_densities, [](const auto& stage) { return !stage.empty(); });
+    const std::vector<BlockInertia> full = densities_change ? model_in_stage(model, state.stage).full_inertia : model.full_inertia;
     if (state.rebuilt_at.size() != n)
         return Damage{"/blocks/rebuilt_at", "not one row for each block"};
     for (std::size_t i = 0; i < n; ++i)
@@ -121,7 +122,7 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             return Damage{"/blocks/margin", "not a length"};
         if (blocks.rest[i] > left_out || (blocks.rest[i] >= stopped && (m.vx != 0.0 || m.vy != 0.0 || m.w != 0.0)))
             return Damage{"/blocks/rest", "does not belong to the velocity"};
-        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], model.full_inertia[i]))
+        if (blocks.present[i] > 1 || !is_inertia_of(blocks.inertia[i], full[i]))
             return Damage{"/blocks/inverse_inertia", "not that of the block"};
         if (!blocks.reference_position[i].allFinite() || !std::isfinite(blocks.reference_angle[i]))
             return Damage{"/blocks/reference_position", "not a finite number"};
@@ -144,7 +145,8 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
     for (const Triple& f : state.water)
         if (!are_finite({f.x, f.y, f.w}))
             return Damage{"/blocks/water", "not a force"};
-    if (!state.released.empty() && (!state.stage_begun || state.cycle >= released_until(model, state)))
+    const bool may_stay = state.stage_begun && model.stages[static_cast<std::size_t>(state.stage)].relax_to > 0.0;
+    if (!state.released.empty() && !may_stay && (!state.stage_begun || state.cycle >= released_until(model, state)))
         return Damage{"/blocks/released", "not of the running stage"};
     return std::nullopt;
 }

@@ -13,23 +13,16 @@ using Json = nlohmann::ordered_json;
 
 Json energy_json(const RunSummary& s)
 {
-    return {
-        {"initial", s.energy.initial},
-        {"gravity_work", s.energy.gravity_work},
-        {"load_work", s.energy.load_work},
-        {"position_correction", s.energy.position_correction},
-        {"friction", s.energy.friction},
-        {"local_damping", s.energy.local_damping},
-        {"global_damping", s.energy.global_damping},
-        {"impulse_loss", s.energy.impulse_loss},
-        {"contact_changes", s.energy.contact_changes},
-        {"removed", s.energy.removed},
-        {"kinetic", s.stored.kinetic},
-        {"elastic_normal", s.stored.elastic_normal},
-        {"elastic_shear", s.stored.elastic_shear},
-        {"residual", residual(s.energy, s.stored)},
-        {"relative_residual", relative_residual(s.energy, s.stored)},
-    };
+    Json json = Json::object();
+    for (const LedgerTerm& term : ledger_terms)
+        if (term.side != LedgerSide::aside)
+            json[term.name] = s.energy.*term.value;
+    json["kinetic"] = s.stored.kinetic;
+    json["elastic_normal"] = s.stored.elastic_normal;
+    json["elastic_shear"] = s.stored.elastic_shear;
+    json["residual"] = residual(s.energy, s.stored);
+    json["relative_residual"] = relative_residual(s.energy, s.stored);
+    return json;
 }
 
 Json timing_json(const RunSummary& s)

@@ -80,10 +80,15 @@ void CycleRunner::prepare(const Model& model, const State& state)
     }
     list_block_contacts(state.contacts, blocks, work_.block_contacts);
     prepare_forces(model, state);
+    std::vector<Index> loaded = loaded_blocks(model);
+    for (const ReleasedForce& force : state.released)
+        loaded.push_back(force.block);
+    std::ranges::sort(loaded);
     for (BlockPart& part : partition_.blocks)
     {
         find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
-        std::erase_if(part.flying, [&](Index b) { return std::ranges::binary_search(part.pushed, b); });
+        std::erase_if(part.flying,
+                      [&](Index b) { return std::ranges::binary_search(part.pushed, b) || std::ranges::binary_search(loaded, b); });
     }
     work_.loads.resize(state.contacts.stale.size());
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
@@ -99,12 +104,14 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
     work_.held = blocks_held_on_average(model, state);
     work_.external = work_.constant;
     work_.external.resize(rules_.has_loads ? blocks : work_.constant.size());
+    const std::vector<Index> pushed = pushed_blocks(model, state);
     for (BlockPart& part : partition_.blocks)
     {
-        part.pushed.clear();
-        for (Index b = part.range.begin; !work_.constant.empty() && b < part.range.end; ++b)
-            if (const Triple& force = work_.constant[b]; force.x != 0.0 || force.y != 0.0 || force.w != 0.0)
-                part.pushed.push_back(b);
+        part.walls.clear();
+        for (Index b = part.range.begin; rules_.moves_walls && b < part.range.end; ++b)
+            if (model.is_wall(b) && state.blocks.present[b] != 0)
+                part.walls.push_back(b);
+        part.pushed = {std::ranges::lower_bound(pushed, part.range.begin), std::ranges::lower_bound(pushed, part.range.end)};
     }
 }
 
@@ -126,7 +133,8 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, in
     const StageRules rules = find_rules_(model, state);
     const bool same = prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) &&
                       rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
-                      rules.has_loads == rules_.has_loads;
+                      rules.has_loads == rules_.has_loads && rules.tractions_change == rules_.tractions_change &&
+                      rules.moves_walls == rules_.moves_walls;
     rules_ = rules;
     if (!same)
         prepare(model, state);
@@ -177,12 +185,14 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.
     const bool step_changes = state.blocks.step.last != state.blocks.step.next;
-    if (rules_.has_loads || rules_.moves_walls)
+    if (rules_.has_loads || rules_.moves_walls || rules_.tractions_change)
         team.alone(
             [&]
             {
                 if (rules_.moves_walls)
-                    drive_servos(model, work_.block_contacts, state);
+                    drive_walls(model, work_.block_contacts, state);
+                if (rules_.tractions_change)
+                    take_tractions(model, state);
                 if (rules_.has_loads)
                     take_loads(model, state);
             });
@@ -218,11 +228,18 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     return goes_on;
 }
 
+void CycleRunner::take_tractions(const Model& model, const State& state)
+{
+    work_.constant.assign(work_.constant.size(), {});
+    add_constant_forces(model, state, work_.constant);
+    std::ranges::copy(work_.constant, work_.external.begin());
+}
+
 void CycleRunner::take_loads(const Model& model, State& state)
 {
-    prescribe_motions(model, state.cycle, state.blocks, state.ledger);
+    prescribe_motions(model, state);
     clear_released_forces(state, work_.constant, work_.external);
-    apply_loads(model, state.cycle, state.blocks, work_.constant, work_.external, work_.loaded);
+    apply_loads(model, state, work_.constant, work_.external, work_.loaded);
     apply_released_forces(model, state, work_.external, work_.released);
 }
 
@@ -236,7 +253,7 @@ void CycleRunner::close_cycle(const Model& model, State& state)
     }
     if (rules_.has_loads)
     {
-        add_load_work(model, state.cycle, state.blocks, work_.loaded, state.ledger);
+        add_load_work(model, work_.loaded, state);
         add_released_work(model, work_.released, state);
     }
     ++state.cycle;
@@ -285,6 +302,8 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
             part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);
         part.ledger.friction += sum(part.tally.friction);
         part.ledger.contact_changes += sum(part.tally.changes);
+        part.ledger.dilation += sum(part.tally.dilation);
+        part.ledger.bond_breaking += sum(part.tally.broken);
         part.impulses.clear();
         if (part.tally.impulses > 0)
             collect_impulse_points(part.range, model, state.blocks, state.contacts, part.impulses);

@@ -55,6 +55,7 @@ class CycleRunner
     void close_cycle(const Model& model, State& state);
     void prepare(const Model& model, const State& state);
     void prepare_forces(const Model& model, const State& state);
+    void take_tractions(const Model& model, const State& state);
     void take_loads(const Model& model, State& state);
     [[nodiscard]] Index find_unstable_contact() const;
     [[nodiscard]] StageSamples& samples_of(const Team& team);

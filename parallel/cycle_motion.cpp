@@ -18,7 +18,7 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
 {
     part.ledger = {};
     part.rest_changed = false;
-    add_work_before(part.pushed, work_.constant, state.blocks, part.ledger);
+    add_work_before(part.pushed, work_.constant, state, part.ledger);
     for (const IndexRange& range : part.active)
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
@@ -33,11 +33,12 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
     for (const IndexRange& range : part.active)
         update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
     works.add_to(part.ledger);
+    book_walls(part.walls, state.blocks, part.ledger);
 }
 
 double CycleRunner::change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo)
 {
-    add_work_after(part.pushed, work_.constant, state.blocks, part.ledger);
+    add_work_after(part.pushed, work_.constant, state, part.ledger);
     double way = 0.0;
     for (const IndexRange& range : part.active)
         way = std::max(way, update_positions(range, model, state.blocks, pseudo));

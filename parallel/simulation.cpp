@@ -5,11 +5,14 @@
 #include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
+#include "core/motion/loads.h"
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/motion/time_step.h"
 #include "core/observer.h"
 #include "core/rock/build_model.h"
+#include "core/stage/load_changes.h"
+#include "core/stage/properties.h"
 #include "core/state/block_sorting.h"
 #include "core/stress/drawn_joints.h"
 #include "core/water/water_forces.h"
@@ -44,18 +47,26 @@ Simulation::Simulation(Model model, State state, int threads)
 {
     const bool fresh = state_.broad_phase_runs == 0;  // and not from a checkpoint
     for (Index stage = 0; state_.stage_begun && stage <= state_.stage; ++stage)
-        change_joints(stage);
+    {
+        joints_before_ = {model_.joints.laws, model_.joints.rows};
+        set_properties(model_, stage);
+    }
     if (state_.contacts_outdated)
         renew_contacts();
     if (fresh)
     {
         state_.water = water_forces(model_, state_);
         join_drawn_blocks(model_, std::vector<std::uint8_t>(static_cast<std::size_t>(model_.blocks()), 1), state_);
-        state_.ledger.initial = stored_energy(model_, state_).total();
+        const StoredEnergy stored = stored_energy(model_, state_);
+        (model_.insitu.given ? state_.ledger.insitu : state_.ledger.initial) = stored.total() - stored.kinetic;
+        state_.ledger.initial += stored.kinetic;
         find_default_step();
     }
     else if (state_.default_step > 0.0)
+    {
         model_.time_step = model_.default_time_step = state_.default_step;
+        time_loads(model_);
+    }
     runner_.forget_times();
 }
 
@@ -69,6 +80,7 @@ void Simulation::find_default_step()
     if (model_.has_step)
         return;
     state_.default_step = model_.time_step = model_.default_time_step;
+    time_loads(model_);
     state_.blocks.step = {model_.time_step, model_.time_step};
 }
 
@@ -86,10 +98,7 @@ std::vector<Problem> Simulation::find_problems()
                  .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                          " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a "
                          "step."}};
-    double preload = 0.0;
-    for (Index i = 0; i < state_.contacts.size(); ++i)
-        preload = std::max({preload, state_.contacts.preload(0, i), state_.contacts.preload(1, i)});
-    if (preload > 0.5 * skin_width(model_))
+    if (const double preload = greatest_preload(state_); preload > 0.5 * skin_width(model_))
         problems.push_back({.key = "contact.skin",
                             .text = "contact: skin = " + with_digits("%.4g", model_.contact.skin) +
                                     " (in-situ stress presses a joint by " + with_digits("%.4g", preload) +
@@ -106,7 +115,16 @@ std::vector<Problem> Simulation::find_problems()
 
 double Simulation::critical_step()
 {
-    return critical_time_step(model_, state_.blocks, state_.contacts);
+    double step = critical_time_step(model_, state_.blocks, state_.contacts);
+    for (Index stage = state_.stage_begun ? state_.stage + 1 : 0; stage < static_cast<Index>(model_.stages.size()); ++stage)
+        if (changes_properties(model_, stage))
+        {
+            const Model changed = model_in_stage(model_, stage);
+            Blocks blocks = state_.blocks;
+            renew_inertia(changed, blocks);
+            step = std::min(step, critical_time_step(changed, blocks, state_.contacts));
+        }
+    return step;
 }
 
 void Simulation::excavate(const std::string& name)
@@ -199,15 +217,29 @@ void Simulation::change_water()
     runner_.take_contacts();
 }
 
-void Simulation::change_joints(Index stage)
+void Simulation::change_properties()
 {
-    const auto i = static_cast<std::size_t>(stage);
-    if (i >= model_.stage_laws.size() || model_.stage_laws[i].laws.empty())
+    if (!changes_properties(model_, state_.stage))
         return;
-    if (model_.first_laws.laws.empty())
-        model_.first_laws = {model_.joints.laws, model_.joints.rows};
-    std::ranges::copy(model_.stage_laws[i].laws, model_.joints.laws.begin());
-    std::ranges::copy(model_.stage_laws[i].rows, model_.joints.rows.begin());
+    joints_before_ = {model_.joints.laws, model_.joints.rows};
+    const double stored = stored_energy(model_, state_).total();
+    const std::vector<double> density = model_.density;
+    set_properties(model_, state_.stage);
+    const bool stiffness_changes = keep_forces(joints_before_, model_, state_);
+    renew_inertia(model_, state_.blocks);
+    if (stiffness_changes || density != model_.density)
+        state_.contacts_outdated = true;  // the step is found anew
+    state_.ledger.property_changes += stored - stored_energy(model_, state_).total();
+    check_preload(model_, state_);
+    set_joints();
+}
+
+void Simulation::set_joints()
+{
+    const auto stage = static_cast<std::size_t>(state_.stage);
+    if (state_.stage_begun && stage < model_.stage_laws.size() && !model_.stage_laws[stage].laws.empty() &&
+        model_.stages[stage].set_cycles > 0)
+        set_joints_between(joints_before_, state_.stage, share_set(model_, state_), model_);
 }
 
 void Simulation::begin_stage(Index stage)
@@ -215,12 +247,17 @@ void Simulation::begin_stage(Index stage)
     const StageDef& def = model_.stages[stage];
     const Index before = state_.stage;
     const BoundaryChange sides = boundary_change(model_, before, stage);
+    if (state_.stage_begun)
+        set_properties(model_, before);  // to the end, where it was too short for its set_cycles
+    if (state_.stage_begun && def.relax_cycles > 0 && model_.stages[before].relax_to > 0.0)
+        keep_released_forces(model_, state_);
+    else
+        state_.released.clear();
     state_.stage = stage;
-    change_joints(stage);
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
+    change_properties();
     state_.quiet_since = -1.0;
-    state_.released.clear();
     state_.is_calm = false;
     state_.flies_ahead = false;
     state_.rest_changed = true;  // who was left out takes part again
@@ -314,12 +351,17 @@ void Simulation::advance(std::int64_t cycles)
     {
         if (state_.contacts_outdated)
             renew_contacts();
-        std::int64_t stop = state_.released.empty() ? end : std::min(end, released_until(model_, state_));
+        std::int64_t stop = are_forces_released(model_, state_) ? std::min(end, released_until(model_, state_)) : end;
+        if (const std::int64_t steady = steady_from(model_, state_); steady > state_.cycle)  // other rules hold from there on
+            stop = std::min(stop, steady);
+        if (is_setting_joints(model_, state_))
+            stop = std::min(stop, next_share(model_, state_));
         if (model_.water.given)
             stop = std::min(stop, next_multiple(state_.cycle, water_every));
+        set_joints();
         if (const Index stiff = runner_.run(model_, state_, stop - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
-        if (!state_.released.empty() && state_.cycle >= released_until(model_, state_))
+        if (!are_forces_released(model_, state_) && model_.stages[static_cast<std::size_t>(state_.stage)].relax_to == 0.0)
             state_.released.clear();
         if (runner_.found_deep_overlap())
             refuse_overlap(model_, state_);

@@ -77,14 +77,17 @@ class Simulation
     void change_sides(const BoundaryChange& sides);
     /// Forces of the water of the stage that begins, where the blocks are now.
     void change_water();
-    /// What the stage sets of joints.
-    void change_joints(Index stage);
+    /// What the running stage sets of joints and materials.
+    void change_properties();
+    /// Joints of now, where the stage changes them over its set_cycles.
+    void set_joints();
     void excavate(const std::string& name);
     void renew_contacts();
     void solve_statics();
 
     Model model_;
     State state_;
+    StageLaws joints_before_;  ///< the running stage
     CycleRunner runner_;
     int threads_ = 1;
     std::optional<StaticOutcome> statics_;

@@ -1,10 +1,11 @@
 #include "parallel/stages.h"
 
+#include "core/motion/released_forces.h"
+#include "core/stage/load_changes.h"
 #include "core/stage/rules.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace hdem
 {
@@ -137,19 +138,16 @@ class StageRunner
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
         const std::int64_t cycle = simulation_.state().cycle;
-        if (!ends_at_rest(*def_) || cycle == begin_ || cycle % criteria.check_every != 0 || is_load_to_change(cycle))
+        if (!ends_at_rest(*def_) || cycle == begin_ || cycle % criteria.check_every != 0 || is_load_to_change())
             return false;
         return simulation_.check_rest() && cycle - begin_ >= criteria.least_cycles;
     }
 
-    /// Does a load begin or end later in this stage, or do excavated blocks still act? The rock is at rest only after that.
-    [[nodiscard]] bool is_load_to_change(std::int64_t cycle) const
+    /// Does a load or a side change later in this stage, or do excavated blocks still act? The rock is at rest only after that.
+    [[nodiscard]] bool is_load_to_change() const
     {
-        if (!simulation_.state().released.empty())
-            return true;
-        const auto is_to_come = [&](std::int64_t change) { return change >= cycle && change < end_; };
-        return std::ranges::any_of(simulation_.model().loads, [&](const Load& load)
-                                   { return load.from < load.until && (is_to_come(load.from) || is_to_come(load.until)); });
+        const State& state = simulation_.state();
+        return are_forces_released(simulation_.model(), state) || state.cycle < steady_from(simulation_.model(), state);
     }
 
     /// The user's numbers, ascending.
@@ -205,15 +203,6 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
     return results;
 }
 }  // namespace
-
-std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step)
-{
-    if (stage.cycles)
-        return begin + *stage.cycles;
-    if (stage.duration)
-        return begin + static_cast<std::int64_t>(std::ceil(*stage.duration / time_step * (1.0 - 1e-12)));
-    return begin + stage.max_cycles;
-}
 
 std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper)
 {

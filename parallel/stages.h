@@ -40,9 +40,6 @@ struct StageResult
     std::optional<StaticResult> statics;
 };
 
-/// Last cycle the stage may reach, seen from where it begins.
-[[nodiscard]] std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step);
-
 /// Run all stages, or those that are left to a state that comes from a checkpoint, and show the state to the observers. It is checked for
 /// non-finite values and overlaps at least every thousand cycles. A stage that the keeper breaks off is the last of the results.
 std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper = nullptr);

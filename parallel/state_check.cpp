@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/contact/contact_report.h"
+#include "core/detection/contact_tracking.h"
 #include "core/detection/edge_touch.h"
 #include "core/motion/step_check.h"
 #include "core/stage/rules.h"
@@ -74,6 +75,23 @@ void refuse_overlap(const Model& model, const State& state)
                 " m). Give a smaller time.step or a greater joint normal_stiffness, or raise the limit if this overlap is meant.");
     }
     throw RunError(moment(state) + "an overlap is above contact.overlap_limit. Give a smaller time.step.");
+}
+
+double greatest_preload(const State& state)
+{
+    double preload = 0.0;
+    for (Index i = 0; i < state.contacts.size(); ++i)
+        preload = std::max({preload, state.contacts.preload(0, i), state.contacts.preload(1, i)});
+    return preload;
+}
+
+void check_preload(const Model& model, const State& state)
+{
+    if (const double preload = greatest_preload(state); preload > 0.5 * skin_width(model))
+        throw RunError(moment(state) + "stage \"" + model.stages[static_cast<std::size_t>(state.stage)].name +
+                       "\": set makes joints so soft that they are pressed by " + with_digits("%.4g", preload) +
+                       " m (contact.skin = " + with_digits("%.4g", model.contact.skin) +
+                       " would lose them while they still bear). Give a greater skin, or stiffer joints.");
 }
 
 void check_step(const Model& model, const State& state)

@@ -12,6 +12,11 @@ namespace hdem
 /// As C would print it.
 [[nodiscard]] std::string with_digits(const char* format, double value);
 
+/// Greatest preload of a joint [m].
+[[nodiscard]] double greatest_preload(const State& state);
+/// Joints that a stage has made soft must not be lost while they bear.
+void check_preload(const Model& model, const State& state);
+
 void check_finite(const Model& model, const State& state);
 /// @see core/motion/step_check.h
 void check_step(const Model& model, const State& state);

@@ -89,7 +89,7 @@ bool approach_balance(const Model& model, State& state, int threads, const Stati
             return false;
         search.commit();
         state.ledger.friction += search.friction();
-        state.ledger.load_work += work_of(given, from, state.blocks.motion);
+        book_given_work(given, model, state, from, state.blocks.motion, state.ledger);
         stop_all(state.blocks);
         if (search.ratio() < near_balance)
             return true;

@@ -32,6 +32,8 @@ Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, const std::ve
     const ContactTally tally = evaluate_contacts({0, state.contacts.size()}, model, rule, state.blocks, state.contacts, loads);
     state.ledger.friction += sum(tally.friction);
     state.ledger.contact_changes += sum(tally.changes);
+    state.ledger.dilation += sum(tally.dilation);
+    state.ledger.bond_breaking += sum(tally.broken);
     BlockContacts list;
     list_block_contacts(state.contacts, state.blocks.size(), list);
     sum_forces({0, state.blocks.size()}, model, list, loads, given, false, state.blocks);
@@ -106,7 +108,7 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
         const std::vector<Triple> given = given_forces(model, trial, 1.0 - static_cast<double>(part) / parts);
         const std::vector<BlockMotion> from = trial.blocks.motion;
         StaticOutcome outcome = search_balance(model, trial, threads, rule, given);
-        trial.ledger.load_work += work_of(given, from, trial.blocks.motion);
+        book_given_work(given, model, trial, from, trial.blocks.motion, trial.ledger);
         outcome.iterations += all.iterations;
         outcome.solves += all.solves;
         outcome.searches += all.searches;

@@ -58,7 +58,8 @@ class BoundaryResolver
                           .faces = {},
                           .walls = {},
                           .forces = {},
-                          .holds = {}};
+                          .holds = {},
+                          .factor = factor_of(from.factor, def_.stages)};
         for (const StageDef& stage : def_.stages)
             boundary.in_stage.push_back(acts_in(from, stage.name) ? 1 : 0);
         if (def_.stages.empty())
@@ -223,12 +224,6 @@ Blocks with_freed_sides(const Model& model, Blocks blocks)
 bool acts_in(const BoundaryDef& def, const std::string& stage)
 {
     return def.stages.empty() || std::ranges::find(def.stages, stage) != def.stages.end();
-}
-
-bool moves_walls(const Model& model, Index stage)
-{
-    return std::ranges::any_of(model.boundaries,
-                               [&](const Boundary& boundary) { return boundary.acts(stage) && moves_walls(boundary.kind); });
 }
 
 CoulombSlip law_of_walls(const CoulombSlip& standard)

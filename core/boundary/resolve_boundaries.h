@@ -24,9 +24,6 @@ namespace hdem
 /// Does it act in the stage of this name?
 [[nodiscard]] bool acts_in(const BoundaryDef& def, const std::string& stage);
 
-/// Do walls move in the stage of this number?
-[[nodiscard]] bool moves_walls(const Model& model, Index stage);
-
 /// Law of the contacts of walls: springs of the default joint that bear no shear.
 [[nodiscard]] CoulombSlip law_of_walls(const CoulombSlip& standard);
 }  // namespace hdem

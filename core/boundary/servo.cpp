@@ -1,5 +1,6 @@
 #include "core/boundary/servo.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 
 #include <algorithm>
@@ -45,14 +46,25 @@ double servo_velocity(const WallForce& force, double target, double max_velocity
     return std::clamp(gain * (target - force.normal) / (force.stiffness * step), -max_velocity, max_velocity);
 }
 
-void drive_servos(const Model& model, const BlockContacts& list, State& state)
+void drive_walls(const Model& model, const BlockContacts& list, State& state)
 {
+    for (const Boundary& boundary : model.boundaries)
+    {
+        if (boundary.kind != BoundaryKind::velocity || !boundary.factor.varies() || !boundary.acts(state.stage))
+            continue;
+        const Vec2 velocity = factor_of(boundary, model, state) * boundary.velocity;
+        for (const BoundaryWall& wall : boundary.walls)
+        {
+            state.blocks.motion[wall.block].vx = velocity.x();
+            state.blocks.motion[wall.block].vy = velocity.y();
+        }
+    }
     for_servos(model, state,
                [&](const Boundary& boundary, const BoundaryWall& wall)
                {
                    const WallForce force = wall_force(wall.block, model, state.contacts, list);
-                   const Vec2 velocity = servo_velocity(force, boundary.target * wall.length, boundary.max_velocity,
-                                                        state.blocks.step.next) *
+                   const double target = factor_of(boundary, model, state) * boundary.target * wall.length;
+                   const Vec2 velocity = servo_velocity(force, target, boundary.max_velocity, state.blocks.step.next) *
                                          wall.inward();
                    state.blocks.motion[wall.block].vx = velocity.x();
                    state.blocks.motion[wall.block].vy = velocity.y();
@@ -68,8 +80,8 @@ bool servos_press(const Model& model, const State& state)
                {
                    if (list.begin.empty())
                        list_block_contacts(state.contacts, state.blocks.size(), list);
-                   const double target = boundary.target * wall.length;
-                   all = all && std::abs(wall_force(wall.block, model, state.contacts, list).normal - target) <= enough * target;
+                   const double whole = boundary.target * wall.length, target = factor_of(boundary, model, state) * whole;
+                   all = all && std::abs(wall_force(wall.block, model, state.contacts, list).normal - target) <= enough * whole;
                });
     return all;
 }

@@ -25,9 +25,10 @@ struct WallForce
 /// @see verification/unit/core/boundary/servo_test.cpp
 [[nodiscard]] double servo_velocity(const WallForce& force, double target, double max_velocity, double step);
 
-/// Set the velocities of all servo walls of the running stage, before the contacts are evaluated.
-void drive_servos(const Model& model, const BlockContacts& list, State& state);
+/// Set the velocities of all walls of the running stage that move, before the contacts are evaluated: of kind servo, and of kind velocity where
+/// that has a factor. A wall has no mass: that is no energy.
+void drive_walls(const Model& model, const BlockContacts& list, State& state);
 
-/// Does each servo wall of the running stage press with its target, up to 0.1 %?
+/// Does each servo wall of the running stage press with its target of now, up to 0.1 % of the whole one?
 [[nodiscard]] bool servos_press(const Model& model, const State& state);
 }  // namespace hdem

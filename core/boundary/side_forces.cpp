@@ -1,5 +1,9 @@
 #include "core/boundary/side_forces.h"
 
+#include "core/state/stage_cycles.h"
+
+#include <set>
+
 namespace hdem
 {
 namespace
@@ -18,6 +22,24 @@ BoundaryForce force_of_traction(const BoundaryFace& face, const Vec2& first, con
     return {face.block, sum.x(), sum.y(), cross(face.body_from, at_from) + cross(face.body_to, at_to)};
 }
 
+double factor_of(const Boundary& boundary, const Model& model, const State& state)
+{
+    return boundary.factor.varies() ? boundary.factor.at(cycles_since(boundary.factor.since, state), model.time_step) : 1.0;
+}
+
+std::vector<Index> pushed_blocks(const Model& model, const State& state)
+{
+    std::set<Index> pushed;
+    for (const Boundary& boundary : model.boundaries)
+        for (const BoundaryForce& force : boundary.forces)
+            if (boundary.acts(state.stage) && state.blocks.present[force.block] != 0)
+                pushed.insert(force.block);
+    for (Index b = 0; b < static_cast<Index>(state.water.size()); ++b)
+        if (const Triple& f = state.water[b]; state.blocks.present[b] != 0 && (f.x != 0.0 || f.y != 0.0 || f.w != 0.0))
+            pushed.insert(b);
+    return {pushed.begin(), pushed.end()};
+}
+
 void add_constant_forces(const Model& model, const State& state, std::vector<Triple>& forces)
 {
     for (const Boundary& boundary : model.boundaries)
@@ -25,12 +47,13 @@ void add_constant_forces(const Model& model, const State& state, std::vector<Tri
         if (!boundary.acts(state.stage) || boundary.forces.empty())
             continue;
         forces.resize(static_cast<std::size_t>(model.blocks()));
+        const double factor = factor_of(boundary, model, state);
         for (const BoundaryForce& force : boundary.forces)
         {
             if (state.blocks.present[force.block] == 0)
                 continue;
             Triple& on = forces[force.block];
-            on = {on.x + force.x, on.y + force.y, on.w + force.moment};
+            on = {on.x + factor * force.x, on.y + factor * force.y, on.w + factor * force.moment};
         }
     }
     if (!state.water.empty())
@@ -56,20 +79,47 @@ double work_of(const std::vector<Triple>& given, const std::vector<BlockMotion>&
     return work;
 }
 
-void add_work_before(const std::vector<Index>& pushed, const std::vector<Triple>& forces, const Blocks& blocks,
-                     EnergyLedger& ledger)
+void add_work_before(const std::vector<Index>& pushed, const std::vector<Triple>& forces, const State& state, EnergyLedger& ledger)
 {
-    for (const Index b : pushed)
-        ledger.load_work += 0.5 * blocks.step.last * power(forces[b], blocks.motion[b]);
-}
-
-void add_work_after(const std::vector<Index>& pushed, const std::vector<Triple>& forces, const Blocks& blocks, EnergyLedger& ledger)
-{
+    const double half = 0.5 * state.blocks.step.last;
     for (const Index b : pushed)
     {
-        const double work = 0.5 * blocks.step.next * power(forces[b], blocks.motion[b]);
-        ledger.load_work += work;
+        const double of_water = state.water.empty() ? 0.0 : half * power(state.water[b], state.blocks.motion[b]);
+        ledger.water += of_water;
+        ledger.boundary += half * power(forces[b], state.blocks.motion[b]) - of_water;
+    }
+}
+
+void add_work_after(const std::vector<Index>& pushed, const std::vector<Triple>& forces, const State& state, EnergyLedger& ledger)
+{
+    const double half = 0.5 * state.blocks.step.next;
+    for (const Index b : pushed)
+    {
+        const double of_water = state.water.empty() ? 0.0 : half * power(state.water[b], state.blocks.motion[b]);
+        const double work = half * power(forces[b], state.blocks.motion[b]);
+        ledger.water += of_water;
+        ledger.boundary += work - of_water;
         ledger.coasting -= work;
+    }
+}
+
+void book_given_work(const std::vector<Triple>& given, const Model& model, const State& state, const std::vector<BlockMotion>& from,
+                     const std::vector<BlockMotion>& to, EnergyLedger& ledger)
+{
+    const double of_water = work_of(state.water, from, to), constant = work_of(constant_forces(model, state), from, to);
+    ledger.water += of_water;
+    ledger.boundary += constant - of_water;
+    ledger.load_work += work_of(given, from, to) - constant;
+}
+
+void book_walls(const std::vector<Index>& walls, const Blocks& blocks, EnergyLedger& ledger)
+{
+    for (const Index b : walls)
+    {
+        const BlockForce& force = blocks.force[b];
+        const double work = -blocks.step.kick() * power({force.x, force.y, force.moment}, blocks.motion[b]);
+        ledger.load_work -= work;
+        ledger.boundary += work;
     }
 }
 }  // namespace hdem

@@ -1,5 +1,7 @@
 #include "core/boundary/switch_boundaries.h"
 
+#include "core/boundary/side_forces.h"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -74,7 +76,8 @@ void release_tractions(const Model& model, Index from, Index to, State& state)
             if (boundary.acts(from) && !boundary.acts(to) && state.blocks.present[force.block] != 0)
             {
                 ReleasedForce& sum = sums[force.block];
-                sum = {force.block, sum.x + force.x, sum.y + force.y, sum.moment + force.moment};
+                const double factor = factor_of(boundary, model, state);
+                sum = {force.block, sum.x + factor * force.x, sum.y + factor * force.y, sum.moment + factor * force.moment};
             }
     state.released.clear();
     for (const auto& [block, force] : sums)
@@ -110,8 +113,9 @@ void start_walls(const Model& model, State& state)
         for (const BoundaryWall& wall : boundary.walls)
         {
             const bool moves = boundary.kind == BoundaryKind::velocity && boundary.acts(state.stage);
-            state.blocks.motion[wall.block].vx = moves ? boundary.velocity.x() : 0.0;
-            state.blocks.motion[wall.block].vy = moves ? boundary.velocity.y() : 0.0;
+            const Vec2 velocity = moves ? Vec2(factor_of(boundary, model, state) * boundary.velocity) : Vec2(0.0, 0.0);
+            state.blocks.motion[wall.block].vx = velocity.x();
+            state.blocks.motion[wall.block].vy = velocity.y();
         }
 }
 }  // namespace hdem

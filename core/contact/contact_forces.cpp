@@ -39,6 +39,7 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
     LawLanes laws(model.joints.laws);
     RowLanes rows(model.joints.rows);
     Pack friction = before.friction, changes = before.changes;
+    [[maybe_unused]] Pack dilation = before.dilation, broken = before.broken;
     Mask::V closed{}, impulses{}, stale{}, deep{};
     const Pack floors_deep = model.contact.overlap_limit /
                              model.contact.length_floor;  // both are shares of the smaller block's size
@@ -130,6 +131,11 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
         store_lane(l.last_length, g.length);
         friction += sums.friction;
         changes += sums.changes;
+        if constexpr (joints == Joints::laws)
+        {
+            dilation += sums.dilation;
+            broken += sums.broken;
+        }
         const Pack x = g.touch.ex * sums.f_t - g.touch.ey * sums.f_m;
         const Pack y = g.touch.ey * sums.f_t + g.touch.ex * sums.f_m;
         const Pack reserve = sums.strength - sums.used;
@@ -152,7 +158,9 @@ ContactTally evaluate(IndexRange range, const Model& model, const RegimeRule& ru
             before.closed + count(closed),
             before.impulses + count(impulses),
             before.stale + count(stale),
-            before.deep + count(deep)};
+            before.deep + count(deep),
+            dilation,
+            broken};
 }
 template <Joints joints>
 ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,

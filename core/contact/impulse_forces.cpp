@@ -18,9 +18,10 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
         const double dvx = inertia.inverse_mass_x * x;
         const double dvy = inertia.inverse_mass_y * y;
         const BlockMotion& motion = blocks.motion[block];  // what holds a prescribed motion takes the impulse too
-        ledger.load_work -= (inertia.inverse_mass_x > 0.0 ? 0.0 : x * motion.vx) +
-                            (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
-                            (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
+        const double holding = (inertia.inverse_mass_x > 0.0 ? 0.0 : x * motion.vx) +
+                               (inertia.inverse_mass_y > 0.0 ? 0.0 : y * motion.vy) +
+                               (inertia.inverse_inertia > 0.0 ? 0.0 : w * motion.w);
+        (model.is_wall(block) ? ledger.boundary : ledger.load_work) -= holding;
         ledger.gravity_work += half_step * (weight.x() * dvx + weight.y() * dvy);
         const double dw = inertia.inverse_inertia * w;
         ledger.impulse_loss += half_step * (force.x * dvx + force.y * dvy + force.moment * dw);

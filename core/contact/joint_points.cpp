@@ -33,8 +33,9 @@ void take(Mask lanes_of, const Memory& from, Memory& to)
 
 void take(Mask lanes_of, const Stress& from, Stress& to)
 {
-    for (Pack Stress::*const field : {&Stress::normal, &Stress::shear, &Stress::strength, &Stress::slid, &Stress::opening,
-                                      &Stress::energy, &Stress::heat, &Stress::normal_stiffness, &Stress::shear_compliance})
+    for (Pack Stress::*const field :
+         {&Stress::normal, &Stress::shear, &Stress::strength, &Stress::slid, &Stress::opening, &Stress::energy, &Stress::heat,
+          &Stress::freed, &Stress::normal_stiffness, &Stress::shear_compliance})
         to.*field = select(lanes_of, from.*field, to.*field);
 }
 
@@ -118,7 +119,7 @@ template <typename React>
     Memory after = before;
     const Pack slide = (p.v_t - half * dt * g.turning[k].t) * dt;
     const Pack closure = select(shares, share, 1.0) * (overlap - rest);
-    Pack normal = zero, shear = zero, strength = zero, heat = zero, energy = zero;
+    Pack normal = zero, shear = zero, strength = zero, heat = zero, dilated = zero, freed = zero, energy = zero;
     Mask slips{};
     if (any(spring))
     {
@@ -128,6 +129,9 @@ template <typename React>
         shear = force(now.shear);
         strength = force(now.strength);
         heat = select(stays, force(now.heat), zero);
+        dilated = select(stays, half * (last_normal + normal) * (now.opening - before.opening), zero);
+        if (const Mask breaks = spring & (after.broken > before.broken); any(breaks))
+            freed = select(breaks, now.freed * g.length, zero);
         slips = spring & !(now.slid == zero);
         energy = force(now.energy + shear_energy(now.shear, now.shear_compliance));
         put<false>(spring, m.stiffness, now.normal_stiffness);
@@ -154,8 +158,10 @@ template <typename React>
     put<all>(own, l.shear_force[k], select(held, g.last_shear[k], shear));
 
     const auto mine = [&](Pack value) { return all ? value : select(own, value, zero); };
-    sums.friction += mine(heat);
-    sums.changes += mine(half * dt * (normal * p.v_m - shear * p.v_t) + lost - heat);
+    sums.friction += mine(heat + dilated);
+    sums.dilation += mine(dilated);
+    sums.broken += freed;
+    sums.changes += mine(half * dt * (normal * p.v_m - shear * p.v_t) + lost - heat) - freed;
     sums.normal[k] = all ? normal : select(own, normal, sums.normal[k]);
     sums.work += mine(normal * (p.overlap + opening - rest));
     sums.used += mine(abs(shear));

@@ -13,7 +13,7 @@ struct Sums
     Pack f_t = 0.0, f_m = 0.0, moment_ref = 0.0,
          moment_inc = 0.0;            ///< on inc, along and across the edge; moments about the centroids
     Pack used = 0.0, strength = 0.0;  ///< shear force and shear strength of force points
-    Pack friction = 0.0, changes = 0.0;
+    Pack friction = 0.0, changes = 0.0, dilation = 0.0, broken = 0.0;
     Pack normal[2], work = 0.0;  ///< normal forces, and the sum of normal force times stretch
 
     void take(Mask lanes_of, const Sums& from)

@@ -19,6 +19,17 @@ NormalState normal_state(const JointRow& row, double closure)
                       });
 }
 
+JointStress stress_at_rest(const JointRow& row, double closure, double shear, double normal, JointMemory memory)
+{
+    const JointStep step{closure, 0.0, shear, normal};
+    return with_law(row.kind,
+                    [&](auto law)
+                    {
+                        return with_curve(row.curve, [&](auto curve)
+                                          { return decltype(law)::template react<decltype(curve)>(row.numbers, step, memory); });
+                    });
+}
+
 JointMemory drawn_memory(const JointRow& row, double normal_stress, double shear_stress)
 {
     const double broken = row.begins_broken ? 1.0 : 0.0;

@@ -46,6 +46,9 @@ struct NormalState
 };
 [[nodiscard]] NormalState normal_state(const JointRow& row, double closure);
 
+/// What a joint with a memory answers where nothing moves.
+[[nodiscard]] JointStress stress_at_rest(const JointRow& row, double closure, double shear, double normal, JointMemory memory);
+
 /// Memory of a joint that bears these stresses where it is drawn.
 [[nodiscard]] JointMemory drawn_memory(const JointRow& row, double normal_stress, double shear_stress);
 

@@ -3,6 +3,7 @@
 /// What acts follows from the number of the stage alone, so that a checkpoint holds nothing of it but the blocks' own state.
 
 #include "core/model/case_def.h"
+#include "core/model/factor.h"
 
 #include <cstdint>
 #include <string>
@@ -60,6 +61,7 @@ struct Boundary
     std::vector<BoundaryWall> walls;     ///< of roller, velocity and servo
     std::vector<BoundaryForce> forces;   ///< of stress, one a block
     std::vector<Index> holds;            ///< of fixed: blocks that nothing else in the case holds
+    Factor factor;                       ///< of velocity, target, forces
 
     [[nodiscard]] bool acts(Index stage) const
     {

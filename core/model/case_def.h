@@ -137,6 +137,8 @@ struct MaterialDef
 {
     std::string name;
     double density = 0.0;  ///< [kg/m3]
+
+    bool operator==(const MaterialDef&) const = default;
 };
 
 enum class JointLaw
@@ -197,6 +199,8 @@ struct JointDef
     JointFunction function = nullptr;        ///< found there by io/
     std::optional<double> restitution;       ///< [-] instead of contact.restitution
     std::vector<std::string> materials;      ///< the two materials this joint lies between; empty: only used by name
+
+    bool operator==(const JointDef&) const = default;
 };
 
 // ---- stress at the start --------------------------------------------------------------------------------------------
@@ -245,6 +249,28 @@ struct WaterDef
     std::vector<std::string> flooded;              ///< excavations that are not drained
 };
 
+// ---- as time goes on ------------------------------------------------------------------------------------------------
+
+/// Rows [cycle or time, factor].
+using FactorTable = std::vector<std::array<double, 2>>;
+
+enum class TableColumn
+{
+    cycle,
+    time
+};
+
+/// By what a load or a side is multiplied as the run goes on; at most one of ramp_cycles, ramp_time, table, table_file.
+struct FactorDef
+{
+    std::optional<Vec2> ramp_cycles;  ///< from and until: the factor grows from 0 to 1
+    std::optional<Vec2> ramp_time;    ///< the same [s]
+    FactorTable table;                ///< rows; of table_file once io/ has read it
+    std::string table_file;           ///< CSV with a heading: cycle,factor or time,factor
+    TableColumn table_by = TableColumn::cycle;
+    std::string since;  ///< name of a stage at whose start cycles and times are 0; "": the run's
+};
+
 // ---- sides ----------------------------------------------------------------------------------------------------------
 
 enum class BoundaryKind
@@ -269,6 +295,7 @@ struct BoundaryDef
     std::optional<double> max_velocity;  ///< servo; not given: convergence.mean_speed [m/s]
     Vec2 velocity = {0.0, 0.0};          ///< velocity [m/s]
     std::vector<std::string> stages;     ///< in which it acts; empty: all
+    FactorDef factor;                    ///< of stress, velocity, target
 };
 
 // ---- loads, method, time --------------------------------------------------------------------------------------------
@@ -294,6 +321,7 @@ struct LoadDef
     std::optional<double> velocity_y;
     std::optional<double> angular_velocity;
     Interval interval;
+    FactorDef factor;  ///< of all of these
 };
 
 /// [contact]
@@ -382,13 +410,16 @@ struct StageDef
     std::int64_t max_cycles = 1'000'000;
     RestSolver solver = RestSolver::dynamics;
     std::int64_t relax_cycles = 0;         ///< over which the forces of excavated blocks are taken off; 0: at once
+    double relax_to = 0.0;                 ///< share of these forces that is left then, until the stage ends [-]
     std::vector<std::string> excavate;     ///< excavation or block names removed at the start of the stage
     std::vector<std::string> fix;          ///< block names fixed at the start
     std::vector<std::string> free;         ///< block names freed at the start
-    std::vector<std::string> set;          ///< "joint.NAME.KEY = VALUE": numbers of joints from here on
     std::optional<double> water_level;     ///< of [water] from here on [m]
     Polygon water_table;                   ///< or the table [m]
+    std::vector<std::string> set;          ///< "joint.NAME.KEY = VALUE", "material.NAME.density = VALUE": numbers from here on
+    std::int64_t set_cycles = 0;           ///< over which strengths of joints come to these values; 0: at once
     std::vector<JointDef> joints;          ///< all joints from here on, where `set` changes some; found by io/
+    std::vector<MaterialDef> materials;    ///< all materials from here on, likewise
     std::optional<Method> method;          ///< from here on
     std::optional<DampingPreset> damping;  ///< from here on
 };

@@ -64,7 +64,7 @@ struct StageLaws
     std::vector<JointRow> rows;
 };
 
-/// A load with names resolved to blocks and times to cycles: acts while from <= cycle < until.
+/// A load with names resolved to blocks and times to cycles: acts while from <= cycle < until, counted from factor.since.
 struct Load
 {
     std::vector<Index> blocks;
@@ -75,8 +75,13 @@ struct Load
     std::optional<double> velocity_x;        ///< [m/s]
     std::optional<double> velocity_y;        ///< [m/s]
     std::optional<double> angular_velocity;  ///< [rad/s]
+    Interval interval;                       ///< as the case gives it
     std::int64_t from = 0;
     std::int64_t until = 0;
+    Factor factor;  ///< of all of these
+
+    [[nodiscard]] bool prescribes() const { return velocity_x || velocity_y || angular_velocity; }
+    [[nodiscard]] bool has_times() const { return interval.from_time || interval.until_time || factor.is_by_time; }
 };
 
 /// Stress at the start: linear in y. See core/stress/insitu_stress.h.
@@ -118,8 +123,10 @@ struct Model
     Water water;
     std::vector<Boundary> boundaries;
     JointTable joints;
-    std::vector<StageLaws> stage_laws;  ///< per stage; empty ones change nothing
-    StageLaws first_laws;               ///< those of the case, once a stage has changed them
+    std::vector<StageLaws> stage_laws;                 ///< per stage; empty ones change nothing
+    std::vector<std::vector<double>> stage_densities;  ///< per stage and material; empty ones change nothing [kg/m3]
+    std::vector<double> density;                       ///< per material, now [kg/m3]
+    std::optional<std::uint64_t> drawn_hash;           ///< model_hash of the case as it begins, once a stage has changed something
     std::vector<Load> loads;
     std::vector<StageDef> stages;
     std::vector<HistoryDef> histories;
@@ -133,14 +140,15 @@ struct Model
     double paper_time_step = 0.0;    ///< Eq. (32) [s]
     double default_time_step = 0.0;  ///< what a case without a step takes, see core/motion/time_step.h [s]
     bool holds_mean = false;         ///< the blocks at pressed sides together neither move nor turn, see core/boundary/mean_hold.h
-    bool is_driven = false;          ///< some motion is prescribed, by a load or of a block that cannot leave it
+    bool is_driven = false;          ///< a block has a motion that it cannot leave
     bool has_step = false;           ///< the case gives the time step
     double stable_fraction = 0.9;    ///< that share [-]
     double threshold_scale = 1.0;    ///< C_scale of Eq. (25) [-]
     double mean_size = 0.0;          ///< square root of the mean block area [m]
 
     [[nodiscard]] Index blocks() const { return static_cast<Index>(mass.size()); }
-    [[nodiscard]] double size(Index block) const;                         ///< square root of the area [m]
-    [[nodiscard]] Index find_block(const std::string& block_name) const;  ///< or no_index
+    [[nodiscard]] bool is_wall(Index block) const { return mass[block] == 0.0; }  ///< of a [[boundary]]
+    [[nodiscard]] double size(Index block) const;                                 ///< square root of the area [m]
+    [[nodiscard]] Index find_block(const std::string& block_name) const;          ///< or no_index
 };
 }  // namespace hdem

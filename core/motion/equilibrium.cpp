@@ -1,5 +1,8 @@
 #include "core/motion/equilibrium.h"
 
+#include "core/boundary/side_forces.h"
+#include "core/motion/loads.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,18 +41,17 @@ namespace
 /// its weight is small.
 std::vector<Vec2> loads_on(IndexRange range, const Model& model, const State& state)
 {
-    const std::int64_t cycle = state.cycle;
     std::vector<Vec2> loads(static_cast<std::size_t>(range.size()), Vec2::Zero());
     for (const Load& load : model.loads)
-        if (load.from < cycle && cycle <= load.until)
+        if (const double factor = last_factor_of(load, model, state); factor != 0.0)
             for (const Index i : load.blocks)
                 if (i >= range.begin && i < range.end)
-                    loads[i - range.begin] += model.mass[i] * load.acceleration + load.force;
+                    loads[i - range.begin] += factor * (model.mass[i] * load.acceleration + load.force);
     if (model.gravity.isZero())
         for (const Boundary& boundary : model.boundaries)
             for (const BoundaryForce& force : boundary.forces)
                 if (boundary.acts(state.stage) && force.block >= range.begin && force.block < range.end)
-                    loads[force.block - range.begin] += Vec2(force.x, force.y);
+                    loads[force.block - range.begin] += factor_of(boundary, model, state) * Vec2(force.x, force.y);
     return loads;
 }
 }  // namespace

@@ -1,12 +1,29 @@
 #include "core/motion/loads.h"
 
+#include "core/state/stage_cycles.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
 namespace hdem
 {
 namespace
 {
-bool acts(const Load& load, std::int64_t cycle)
+/// A load at a cycle counted from where its own times begin.
+bool acts_at(const Load& load, std::int64_t cycle)
 {
     return cycle >= load.from && cycle < load.until;
+}
+
+bool acts(const Load& load, const State& state)
+{
+    return acts_at(load, cycles_since(load.factor.since, state));
+}
+
+double factor_of(const Load& load, const Model& model, const State& state)
+{
+    return load.factor.varies() ? load.factor.at(cycles_since(load.factor.since, state), model.time_step) : 1.0;
 }
 
 /// Of a force about the centroid. Its arm turns with the block [N m].
@@ -26,32 +43,48 @@ double prescribe(double& velocity, const std::optional<double>& value, double ma
     return gain;
 }
 
-enum class Prescription
+/// @param factor  of the prescribed velocities
+void prescribe(const Load& load, double factor, const Model& model, State& state)
 {
-    acts,
-    ends  ///< velocities are zero again
-};
-
-void prescribe(const Load& load, const Model& model, Blocks& blocks, EnergyLedger& ledger, Prescription what)
-{
-    if (!load.velocity_x && !load.velocity_y && !load.angular_velocity)
+    if (!load.prescribes())
         return;
-    const auto now = [&](const std::optional<double>& value)
-    { return what == Prescription::ends && value ? std::optional<double>(0.0) : value; };
+    const auto now = [&](const std::optional<double>& value) { return value ? std::optional<double>(factor * *value) : value; };
     for (const Index i : load.blocks)
     {
-        if (blocks.present[i] == 0)
+        if (state.blocks.present[i] == 0)
             continue;
-        BlockMotion& motion = blocks.motion[i];
-        ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
-        ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
-        ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
+        BlockMotion& motion = state.blocks.motion[i];
+        state.ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
+        state.ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
+        state.ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
     }
 }
 }  // namespace
 
-void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& constant,
-                 std::vector<Triple>& external, std::vector<LoadedBlock>& before)
+void time_loads(Model& model)
+{
+    constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();
+    const auto cycle_of = [&](double time)
+    {
+        const double cycle = std::ceil(time / model.time_step * (1.0 - 1e-12));
+        return cycle < 9.0e18 ? static_cast<std::int64_t>(cycle) : for_ever;
+    };
+    for (Load& load : model.loads)
+    {
+        const Interval& when = load.interval;
+        load.from = when.from_cycle ? *when.from_cycle : (when.from_time ? cycle_of(*when.from_time) : 0);
+        load.until = when.until_cycle ? *when.until_cycle : (when.until_time ? cycle_of(*when.until_time) : for_ever);
+    }
+}
+
+double last_factor_of(const Load& load, const Model& model, const State& state)
+{
+    const std::int64_t last = cycles_since(load.factor.since, state) - 1;
+    return acts_at(load, last) ? load.factor.at(last, model.time_step) : 0.0;
+}
+
+void apply_loads(const Model& model, const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external,
+                 std::vector<LoadedBlock>& before)
 {
     before.clear();
     for (const Load& load : model.loads)
@@ -59,51 +92,64 @@ void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, c
             external[i] = constant.empty() ? Triple{} : constant[i];
     for (const Load& load : model.loads)
     {
-        if (!acts(load, cycle))
+        if (!acts(load, state))
             continue;
+        const double factor = factor_of(load, model, state);
         for (std::size_t k = 0; k < load.blocks.size(); ++k)
         {
             const Index i = load.blocks[k];
-            if (blocks.present[i] == 0)
+            if (state.blocks.present[i] == 0)
                 continue;
-            const BlockMotion& motion = blocks.motion[i];
-            const double moment = load.moment + (load.arm.empty() ? 0.0 : moment_of(load.force, load.arm[k], motion));
-            external[i].x += model.mass[i] * load.acceleration.x() + load.force.x();
-            external[i].y += model.mass[i] * load.acceleration.y() + load.force.y();
+            const BlockMotion& motion = state.blocks.motion[i];
+            const double moment = factor * (load.moment + (load.arm.empty() ? 0.0 : moment_of(load.force, load.arm[k], motion)));
+            external[i].x += factor * (model.mass[i] * load.acceleration.x() + load.force.x());
+            external[i].y += factor * (model.mass[i] * load.acceleration.y() + load.force.y());
             external[i].w += moment;
             before.push_back({motion.vx, motion.vy, motion.w, moment});
         }
     }
 }
 
-void prescribe_motions(const Model& model, std::int64_t cycle, Blocks& blocks, EnergyLedger& ledger)
+void prescribe_motions(const Model& model, State& state)
 {
     // What a load prescribed ends with it; first, so that another load may take over in the same cycle, wherever it is listed.
     for (const Load& load : model.loads)
-        if (cycle == load.until && load.from < load.until)
-            prescribe(load, model, blocks, ledger, Prescription::ends);
+        if (cycles_since(load.factor.since, state) == load.until && load.from < load.until)
+            prescribe(load, 0.0, model, state);
     for (const Load& load : model.loads)
-        if (acts(load, cycle))
-            prescribe(load, model, blocks, ledger, Prescription::acts);
+        if (acts(load, state))
+            prescribe(load, factor_of(load, model, state), model, state);
 }
 
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<LoadedBlock>& before,
-                   EnergyLedger& ledger)
+void add_load_work(const Model& model, const std::vector<LoadedBlock>& before, State& state)
 {
     std::size_t at = 0;
+    const Blocks& blocks = state.blocks;
     for (const Load& load : model.loads)
-        if (acts(load, cycle))
-            for (const Index i : load.blocks)
-            {
-                if (blocks.present[i] == 0)
-                    continue;
-                const BlockMotion& motion = blocks.motion[i];
-                const LoadedBlock& was = before[at++];
-                const Vec2 force = model.mass[i] * load.acceleration + load.force;
-                const auto power = [&](double x, double y, double w) { return force.x() * x + force.y() * y + was.moment * w; };
-                const double after = 0.5 * blocks.step.next * power(motion.vx, motion.vy, motion.w);
-                ledger.load_work += 0.5 * blocks.step.last * power(was.vx, was.vy, was.w) + after;
-                ledger.coasting -= after;
-            }
+    {
+        if (!acts(load, state))
+            continue;
+        const double factor = factor_of(load, model, state);
+        for (const Index i : load.blocks)
+        {
+            if (blocks.present[i] == 0)
+                continue;
+            const BlockMotion& motion = blocks.motion[i];
+            const LoadedBlock& was = before[at++];
+            const Vec2 force = factor * (model.mass[i] * load.acceleration + load.force);
+            const auto power = [&](double x, double y, double w) { return force.x() * x + force.y() * y + was.moment * w; };
+            const double after = 0.5 * blocks.step.next * power(motion.vx, motion.vy, motion.w);
+            state.ledger.load_work += 0.5 * blocks.step.last * power(was.vx, was.vy, was.w) + after;
+            state.ledger.coasting -= after;
+        }
+    }
+}
+
+std::vector<Index> loaded_blocks(const Model& model)
+{
+    std::set<Index> loaded;
+    for (const Load& load : model.loads)
+        loaded.insert(load.blocks.begin(), load.blocks.end());
+    return {loaded.begin(), loaded.end()};
 }
 }  // namespace hdem

@@ -7,16 +7,24 @@
 
 namespace hdem
 {
+/// Find from and until of all loads [cycles]; to be done anew when the model's time step has changed.
+void time_loads(Model& model);
+
+/// What a load was multiplied with in the last cycle; 0 where it did not act.
+[[nodiscard]] double last_factor_of(const Load& load, const Model& model, const State& state);
+
 /// Forces of the case's loads that act in this cycle, in `external`, one entry a block, on top of `constant` ones (none: empty). `before` receives the
 /// velocities of the loaded blocks, load by load, for add_load_work.
-void apply_loads(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<Triple>& constant,
-                 std::vector<Triple>& external, std::vector<LoadedBlock>& before);
+void apply_loads(const Model& model, const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external,
+                 std::vector<LoadedBlock>& before);
 
 /// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
 /// spring sheared at a given velocity answers to the displacement at the end of the cycle.
-void prescribe_motions(const Model& model, std::int64_t cycle, Blocks& blocks, EnergyLedger& ledger);
+void prescribe_motions(const Model& model, State& state);
 
 /// Work of these loads, once the velocities are updated.
-void add_load_work(const Model& model, std::int64_t cycle, const Blocks& blocks, const std::vector<LoadedBlock>& before,
-                   EnergyLedger& ledger);
+void add_load_work(const Model& model, const std::vector<LoadedBlock>& before, State& state);
+
+/// Ascending numbers of the blocks on which a load acts in the state's stage or later.
+[[nodiscard]] std::vector<Index> loaded_blocks(const Model& model);
 }  // namespace hdem

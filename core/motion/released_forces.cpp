@@ -2,6 +2,8 @@
 
 #include "core/detection/edge_touch.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 namespace
@@ -40,11 +42,6 @@ ContactForce force_of(const State& state, Index contact)
     return force;
 }
 
-double released_share(const Model& model, const State& state)
-{
-    return static_cast<double>(released_until(model, state) - state.cycle) /
-           static_cast<double>(model.stages[state.stage].relax_cycles);
-}
 }  // namespace
 
 void release_forces(const std::vector<std::uint8_t>& removed, State& state)
@@ -80,6 +77,27 @@ void release_forces(const std::vector<std::uint8_t>& removed, State& state)
 std::int64_t released_until(const Model& model, const State& state)
 {
     return state.stage_begin_cycle + model.stages[state.stage].relax_cycles;
+}
+
+double released_share(const Model& model, const State& state)
+{
+    const StageDef& stage = model.stages[state.stage];
+    const auto left = static_cast<double>(std::max<std::int64_t>(released_until(model, state) - state.cycle, 0));
+    return stage.relax_to + (1.0 - stage.relax_to) * (left / static_cast<double>(stage.relax_cycles));
+}
+
+bool are_forces_released(const Model& model, const State& state)
+{
+    return !state.released.empty() && state.cycle < released_until(model, state);
+}
+
+void keep_released_forces(const Model& model, State& state)
+{
+    if (state.released.empty())
+        return;
+    const double share = released_share(model, state);
+    for (ReleasedForce& force : state.released)
+        force = {force.block, share * force.x, share * force.y, share * force.moment};
 }
 
 void clear_released_forces(const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external)

@@ -13,16 +13,23 @@ namespace hdem
 /// @pre    the contacts are still those of before the excavation
 void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 
-/// The cycle from which on nothing is left of them.
+/// The cycle from which on nothing is left of them, or the stage's relax_to.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);
+
+/// Do they become less from cycle to cycle?
+[[nodiscard]] bool are_forces_released(const Model& model, const State& state);
+
+/// What is left of them now becomes F_0 of the stage that follows.
+void keep_released_forces(const Model& model, State& state);
 
 /// No force on their blocks in `external` but the `constant` ones (none: empty): before loads and released forces are put there.
 void clear_released_forces(const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external);
 
 /// What is left of them in this cycle, added to `external`, one entry a block. In the n-th cycle of the stage
 ///
-///   F = (1 - n / relax_cycles) F_0      in the axes of the model, at the centroid, with their moment about it
+///   F = (r + (1 - r) (1 - n / relax_cycles)) F_0      in the axes of the model, at the centroid, with their moment about it
 ///
+/// r is relax_to, 0 as a rule.
 /// `before` receives the velocities of their blocks, for add_released_work.
 void apply_released_forces(const Model& model, const State& state, std::vector<Triple>& external, std::vector<Triple>& before);
 

@@ -193,6 +193,43 @@ double greatest_stiffness(const JointTable& joints)
     return stiffness;
 }
 
+/// Of all stages.
+double greatest_stiffness(const Model& model)
+{
+    double stiffness = greatest_stiffness(model.joints);
+    for (const StageLaws& stage : model.stage_laws)
+        for (const CoulombSlip& joint : stage.laws)
+            stiffness = std::max({stiffness, joint.normal_stiffness, joint.shear_stiffness});
+    return stiffness;
+}
+
+/// The least mass that each block has in a stage [kg].
+std::vector<double> least_masses(const Model& model)
+{
+    std::vector<double> least = model.density;
+    for (const std::vector<double>& stage : model.stage_densities)
+        for (std::size_t m = 0; m < stage.size(); ++m)
+            least[m] = std::min(least[m], stage[m]);
+    std::vector<double> masses = model.mass;
+    for (std::size_t b = 0; b < masses.size(); ++b)
+        masses[b] *= least[static_cast<std::size_t>(model.material[b])] /
+                     model.density[static_cast<std::size_t>(model.material[b])];
+    return masses;
+}
+
+/// By a stage.
+bool is_stiffness_changed(const Model& model)
+{
+    const auto is_changed = [&](const StageLaws& stage)
+    {
+        for (std::size_t i = 0; i < stage.laws.size(); ++i)
+            if (stage.laws[i].normal_stiffness != model.joints.laws[i].normal_stiffness)
+                return true;
+        return false;
+    };
+    return std::ranges::any_of(model.stage_laws, is_changed);
+}
+
 /// @param origin  of the model in the blocks' coordinates
 void add_initial_state(const RockMass& rock, const std::vector<Index>& order, const std::vector<BlockMoments>& moments,
                        const Vec2& origin, const Model& model, State& state)
@@ -303,9 +340,17 @@ Setup build_model(const CaseDef& def)
         .reach = 0.5 * def.contact.skin * model.mean_size};
     add_laws(def, around, model.joints);
     model.stage_laws = laws_of_stages(def, around);
+    for (const MaterialDef& material : def.materials)
+        model.density.push_back(material.density);
+    for (const StageDef& stage : def.stages)
+    {
+        model.stage_densities.emplace_back();
+        for (const MaterialDef& material : stage.materials)
+            model.stage_densities.back().push_back(material.density);
+    }
     add_joints(def, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
-    setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory();
+    setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory() || is_stiffness_changed(model);
 
     model.gravity = def.gravity;
     model.contact = def.contact;
@@ -322,14 +367,17 @@ Setup build_model(const CaseDef& def)
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
     const Blocks free_at_times = with_freed_sides(model, setup.state.blocks);
+    std::vector<double> masses = least_masses(model);
+    std::swap(masses, model.mass);  // the step must be good in all stages
     const double smallest = smallest_free_mass(model, free_at_times);
-    const double stiffest = greatest_stiffness(model.joints);
+    const double stiffest = greatest_stiffness(model);
     model.paper_time_step = paper_time_step(smallest, stiffest, def.time.fraction);
     model.default_time_step = takes_paper_step(def) ? model.paper_time_step
                                                     : default_time_step(model, free_at_times, stiffest, def.time.fraction);
+    std::swap(masses, model.mass);
     model.time_step = def.time.step.value_or(model.default_time_step);
     setup.state.blocks.step = {model.time_step, model.time_step};
-    model.is_driven = is_driven(def);
+    model.is_driven = have_driven_blocks(def);
     model.has_step = def.time.step.has_value();
     model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale

@@ -184,6 +184,18 @@ bool needs_memory(const JointDef& joint)
            joint.initially == JointStart::broken;
 }
 
+namespace
+{
+/// By which a load or a side is ever multiplied.
+double greatest_factor(const FactorDef& factor)
+{
+    double greatest = factor.table.empty() ? 1.0 : 0.0;
+    for (const auto& row : factor.table)
+        greatest = std::max(greatest, std::abs(row[1]));
+    return greatest;
+}
+}  // namespace
+
 double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high, double block_size)
 {
     double density = 0.0;
@@ -199,10 +211,11 @@ double expected_stress(const CaseDef& def, const InsituField& insitu, double low
     constexpr double concentration = 2.0, of_loads = 4.0;
     stress *= concentration;
     for (const LoadDef& load : def.loads)
-        stress = std::max(stress, of_loads * (load.force.norm() / block_size + density * load.acceleration.norm() * (high - low)));
+        stress = std::max(stress, greatest_factor(load.factor) * of_loads *
+                                      (load.force.norm() / block_size + density * load.acceleration.norm() * (high - low)));
     for (const BoundaryDef& boundary : def.boundaries)
-        stress = std::max(stress,
-                          of_loads * std::max(boundary.stress.value_or(Vec2(0.0, 0.0)).lpNorm<1>(), std::abs(boundary.target)));
+        stress = std::max(stress, greatest_factor(boundary.factor) * of_loads *
+                                      std::max(boundary.stress.value_or(Vec2(0.0, 0.0)).lpNorm<1>(), std::abs(boundary.target)));
     return stress > 0.0 ? stress : 1e7;
 }
 

@@ -1,8 +1,8 @@
 #include "core/rock/resolve_names.h"
 
+#include "core/motion/loads.h"
+
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <unordered_map>
 
@@ -10,8 +10,6 @@ namespace hdem
 {
 namespace
 {
-constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();
-
 class Resolver
 {
   public:
@@ -25,6 +23,9 @@ class Resolver
     {
         for (std::size_t i = 0; i < def_.loads.size(); ++i)
             add_load(def_.loads[i], "load[" + std::to_string(i) + "]");
+        time_loads(model_);
+        for (std::size_t i = 0; i < model_.loads.size(); ++i)
+            check_times(model_.loads[i], "load[" + std::to_string(i) + "]");
         for (std::size_t i = 0; i < def_.stages.size(); ++i)
             check_stage(def_.stages[i], "stage[" + std::to_string(i) + "]");
         for (std::size_t i = 0; i < def_.histories.size(); ++i)
@@ -98,18 +99,16 @@ class Resolver
                     fail(key + ".point", "load on block \"" + model_.name[i] +
                                              "\": point (it is not in the block as drawn). Give a point of the block.");
             }
-        const auto cycle_of = [&](double time)
-        {
-            const double cycle = std::ceil(time / model_.time_step * (1.0 - 1e-12));
-            return cycle < 9.0e18 ? static_cast<std::int64_t>(cycle) : for_ever;
-        };
-        const Interval& when = from.interval;
-        load.from = when.from_cycle ? *when.from_cycle : (when.from_time ? cycle_of(*when.from_time) : 0);
-        load.until = when.until_cycle ? *when.until_cycle : (when.until_time ? cycle_of(*when.until_time) : for_ever);
+        load.interval = from.interval;
+        load.factor = factor_of(from.factor, def_.stages);
+        model_.loads.push_back(std::move(load));
+    }
+
+    void check_times(const Load& load, const std::string& key)
+    {
         if (load.until <= load.from)
             warn(key, "load: acts from cycle " + std::to_string(load.from) + " until cycle " + std::to_string(load.until) +
                           " (never). Check its times.");
-        model_.loads.push_back(std::move(load));
     }
 
     /// In one of its parts, or on the outline up to a millionth of its size?

@@ -1,6 +1,8 @@
 #include "core/stage/rules.h"
 
 #include "core/boundary/resolve_boundaries.h"
+#include "core/motion/released_forces.h"
+#include "core/stage/load_changes.h"
 
 #include <algorithm>
 
@@ -51,12 +53,17 @@ StageSetting setting_of(const Model& model, const State& state)
             .gravity = model.gravity.norm(),
             .until_converged = begun && model.stages[state.stage].until_converged,
             .has_loads = !model.loads.empty(),
-            .releases = !state.released.empty(),
+            .loads_change = state.cycle < steady_from(model, state),
+            .tractions_change = do_tractions_change(model, state),
+            .times_to_come = are_times_to_come(model, state),
+            .releases = are_forces_released(model, state),
+            .holds_released = !state.released.empty(),
             .is_calm = state.is_calm,
-            .is_driven = model.is_driven || moves_walls(model, state.stage),
-            .moves_walls = moves_walls(model, state.stage),
+            .is_driven = model.is_driven || do_loads_drive(model, state) || do_walls_move(model, state),
+            .moves_walls = do_walls_move(model, state),
             .holds_mean = model.holds_mean,
             .has_step = model.has_step,
+            .keeps_released = begun && model.stages[state.stage].relax_to > 0.0,
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
 }
 }  // namespace
@@ -66,6 +73,7 @@ StageRules resolve_rules(const StageSetting& s)
     const bool looks_for_rest = s.until_converged && s.preset == DampingPreset::automatic;
     const double g = s.gravity > 0.0 ? s.gravity : 9.81;
     const double settling = looks_for_rest ? settling_speeds * s.convergence.mean_speed : 0.0;
+    const bool is_steady = !s.is_driven && !s.loads_change;
     const bool whole_cycles = s.preset == DampingPreset::paper;
     return {.contact = {.law = law_of(s.method),
                         .rock_keeps_springs = looks_for_rest,
@@ -76,20 +84,21 @@ StageRules resolve_rules(const StageSetting& s)
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,
                         .settling = settling},
-            .step = {.varies = looks_for_rest && !s.is_driven && !s.has_loads,
+            .step = {.varies = looks_for_rest && is_steady && !s.times_to_come,
                      .keeps_given = s.has_step,
-                     .flies_ahead = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases,
+                     .flies_ahead = looks_for_rest && is_steady && !s.times_to_come && !s.releases,
                      .stable_share = s.stable_fraction,
                      .falls_by = s.method == Method::impulse ? g : 0.0,
                      .slow = slow_speeds * s.convergence.mean_speed,
                      .loose_distance = s.convergence.loose_distance},
             // A block that is left out would not follow those that are held with it.
-            .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases && !s.holds_mean ? rest_of(s, g) : RestRule{},
+            .rest = looks_for_rest && is_steady && !s.releases && !s.holds_mean ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
-            .has_loads = s.has_loads || s.releases,
+            .has_loads = s.has_loads || s.releases || s.holds_released,
+            .tractions_change = s.tractions_change,
             .moves_walls = s.moves_walls,
-            .tries_statics = looks_for_rest && !s.is_driven && !s.has_loads && !s.holds_mean && s.method != Method::impulse &&
-                             s.gravity > 0.0 && s.solver == RestSolver::statics};
+            .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.holds_mean && !s.keeps_released &&
+                             s.method != Method::impulse && s.gravity > 0.0 && s.solver == RestSolver::statics};
 }
 
 StageRules resolve_rules(const Model& model, const State& state)
@@ -123,6 +132,7 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
         setting.preset = stage.damping.value_or(setting.preset);
         setting.until_converged = stage.until_converged;
         setting.solver = stage.solver;
+        setting.keeps_released = stage.relax_to > 0.0;
         setting.moves_walls = std::ranges::any_of(def.boundaries, [&](const BoundaryDef& side)
                                                   { return moves_walls(side.kind) && acts_in(side, stage.name); });
         setting.is_driven = is_driven(def) || setting.moves_walls;
@@ -144,12 +154,17 @@ bool takes_paper_step(const CaseDef& def)
 bool is_driven(const CaseDef& def)
 {
     const auto prescribes = [](const LoadDef& load) { return load.velocity_x || load.velocity_y || load.angular_velocity; };
+    return std::ranges::any_of(def.loads, prescribes) || have_driven_blocks(def);
+}
+
+bool have_driven_blocks(const CaseDef& def)
+{
     const auto moves = [](const BlockDef& block)
     {
         return (block.fix_x && block.velocity.x() != 0.0) || (block.fix_y && block.velocity.y() != 0.0) ||
                (block.fix_rotation && block.angular_velocity != 0.0);
     };
-    return std::any_of(def.loads.begin(), def.loads.end(), prescribes) || std::any_of(def.blocks.begin(), def.blocks.end(), moves);
+    return std::ranges::any_of(def.blocks, moves);
 }
 
 const char* name_of(Method method)

@@ -25,15 +25,20 @@ struct StageSetting
     DampingDef damping;
     double stable_fraction = 0.9;  ///< time.stable_fraction
     ConvergenceDef convergence;
-    double gravity = 9.81;         ///< size of [m/s2]
-    bool until_converged = false;  ///< the stage ends when the rock is at rest
-    bool has_loads = false;        ///< the case has loads of any kind
-    bool releases = false;         ///< forces of excavated blocks are being taken off
-    bool is_calm = false;          ///< no block moves any more; what is out of balance still keeps the stage from ending
-    bool is_driven = false;        ///< some motion is prescribed
-    bool moves_walls = false;      ///< by a [[boundary]]
-    bool holds_mean = false;       ///< domain.hold
-    bool has_step = false;         ///< the case gives the time step
+    double gravity = 9.81;          ///< size of [m/s2]
+    bool until_converged = false;   ///< the stage ends when the rock is at rest
+    bool has_loads = false;         ///< the case has loads of any kind
+    bool loads_change = false;      ///< loads or sides change, now or later in the stage
+    bool tractions_change = false;  ///< those on sides
+    bool times_to_come = false;     ///< something changes at a time given in seconds
+    bool releases = false;          ///< forces of excavated blocks are being taken off
+    bool holds_released = false;    ///< some of them act, whether or not they become less
+    bool is_calm = false;           ///< no block moves any more; what is out of balance still keeps the stage from ending
+    bool is_driven = false;         ///< some motion is prescribed
+    bool moves_walls = false;       ///< by a [[boundary]]
+    bool holds_mean = false;        ///< domain.hold
+    bool has_step = false;          ///< the case gives the time step
+    bool keeps_released = false;    ///< a share of them stays to the end of the stage
     RestSolver solver = RestSolver::dynamics;
 };
 
@@ -44,10 +49,11 @@ struct StageRules
     DampingRule damping;
     StepRule step;
     RestRule rest;
-    bool ends_at_rest = false;   ///< the stage ends when the rock is at rest
-    bool has_loads = false;      ///< there are loads to be looked at in each cycle
-    bool moves_walls = false;    ///< walls of [[boundary]] move
-    bool tries_statics = false;  ///< the state of rest is sought by a static solution first, from where the stage begins
+    bool ends_at_rest = false;      ///< the stage ends when the rock is at rest
+    bool has_loads = false;         ///< there are loads to be looked at in each cycle
+    bool tractions_change = false;  ///< those on sides have to be found anew in each cycle
+    bool moves_walls = false;       ///< walls of [[boundary]] move
+    bool tries_statics = false;     ///< the state of rest is sought by a static solution first, from where the stage begins
 };
 
 [[nodiscard]] StageRules resolve_rules(const StageSetting& setting);
@@ -58,7 +64,7 @@ struct StageRules
 /// Of the cycles that bring a static solution near: those of the stage by springs alone.
 [[nodiscard]] StageRules approach_rules(const Model& model, const State& state);
 
-/// Of each stage of a case, in their order.
+/// Of each stage of a case, in their order, once its loads do not change any more.
 [[nodiscard]] std::vector<StageRules> resolve_rules(const CaseDef& def);
 
 /// Does a stage end when the rock is at rest?
@@ -67,7 +73,10 @@ struct StageRules
 /// Is the step of Eq. (32) taken to the letter where a case gives none?
 [[nodiscard]] bool takes_paper_step(const CaseDef& def);
 
-/// Does something move in a way that forces do not change?
+/// Do blocks move in a way that forces do not change, by what they begin with?
+[[nodiscard]] bool have_driven_blocks(const CaseDef& def);
+
+/// Does something do so, by that or by loads?
 [[nodiscard]] bool is_driven(const CaseDef& def);
 
 /// As the case file spells it.

@@ -111,6 +111,8 @@ std::uint64_t state_hash(const Model& model, const State& state)
 
 std::uint64_t model_hash(const Model& model)
 {
+    if (model.drawn_hash)
+        return *model.drawn_hash;
     XXH3_state_t* const hash = XXH3_createState();
     XXH3_64bits_reset(hash);
     const auto add = [&](std::initializer_list<double> values)
@@ -128,10 +130,9 @@ std::uint64_t model_hash(const Model& model)
         for (Index v = shapes.vertex_begin[shapes.part_begin[i]]; v < shapes.vertex_begin[shapes.part_begin[i + 1]]; ++v)
             add({shapes.vertex[v].x(), shapes.vertex[v].y(), static_cast<double>(shapes.edge_source[v])});
     }
-    const bool have_changed = !model.first_laws.laws.empty();
-    for (const CoulombSlip& law : have_changed ? model.first_laws.laws : model.joints.laws)
+    for (const CoulombSlip& law : model.joints.laws)
         add({law.normal_stiffness, law.shear_stiffness, law.friction_coefficient, law.cohesion, law.restitution});
-    for (const JointRow& row : have_changed ? model.first_laws.rows : model.joints.rows)
+    for (const JointRow& row : model.joints.rows)
     {
         add({static_cast<double>(row.kind), static_cast<double>(row.curve), row.reach, row.torn_reach, row.tension,
              row.residual_friction, row.residual_cohesion});
@@ -144,6 +145,8 @@ std::uint64_t model_hash(const Model& model)
     {
         add({static_cast<double>(boundary.kind), boundary.velocity.x(), boundary.velocity.y(), boundary.target,
              boundary.max_velocity});
+        for (const auto& row : boundary.factor.rows)
+            add({row[0], row[1], boundary.factor.is_by_time ? 1.0 : 0.0, static_cast<double>(boundary.factor.since)});
         for (const std::uint8_t acts : boundary.in_stage)
             add({static_cast<double>(acts)});
         for (const BoundaryForce& force : boundary.forces)

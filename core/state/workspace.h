@@ -44,12 +44,14 @@ struct ContactLoads
 /// of those at rest take part.
 struct ContactTally
 {
-    Pack friction = 0.0;  ///< energy spent by slip [J]
+    Pack friction = 0.0;  ///< EnergyLedger::friction [J]
     Pack changes = 0.0;   ///< EnergyLedger::contact_changes [J]
     Index closed = 0;     ///< closed points
     Index impulses = 0;   ///< of these, in the impulse regime
     Index stale = 0;      ///< contacts whose features are to be searched anew
     Index deep = 0;       ///< contacts with an overlap above contact.overlap_limit
+    Pack dilation = 0.0;  ///< EnergyLedger::dilation [J]
+    Pack broken = 0.0;    ///< EnergyLedger::bond_breaking [J]
 };
 
 /// Which contacts a block has: `entry` holds 2 contact + side (0: the block of part_a, 1: of part_b) from begin[block] to begin[block + 1], ascending.

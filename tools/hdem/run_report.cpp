@@ -243,6 +243,25 @@ void print_straight_joints(Log& log, const Model& model, const Contacts& contact
 }
 }  // namespace
 
+std::string words(std::string name)
+{
+    std::ranges::replace(name, '_', ' ');
+    return name;
+}
+
+/// Terms of the ledger that are not zero, by their names.
+std::string energy_line(const RunSummary& s)
+{
+    std::vector<std::string> in, spent;
+    for (const LedgerTerm& term : ledger_terms)
+        if (term.side != LedgerSide::aside && s.energy.*term.value != 0.0)
+            (term.side == LedgerSide::in ? in : spent).push_back(fmt::format("{} {:.4g}", words(term.name), s.energy.*term.value));
+    spent.push_back(fmt::format("stored {:.4g}", s.stored.total()));
+    return fmt::format("energy [J]: {} -> {}; residual {:.2g} ({:.1e} of the largest)",
+                       in.empty() ? "none" : fmt::format("{}", fmt::join(in, ", ")), fmt::join(spent, ", "),
+                       residual(s.energy, s.stored), relative_residual(s.energy, s.stored));
+}
+
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
@@ -262,13 +281,7 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                          1e3 * s.max_displacement, 1e3 * s.mean_displacement_all, 1e3 * s.max_displacement_all));
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
                          fmt::join(s.detached_blocks, ", ")));
-    const EnergyLedger& e = s.energy;
-    log.line(fmt::format(
-        "energy [J]: at the start {:.4g}, gravity {:.4g}, loads {:.4g}, position correction {:.4g} -> friction {:.4g}, "
-        "local damping {:.4g}, global damping {:.4g}, impulses {:.4g}, contact changes {:.4g}, removed {:.4g}, stored {:.4g}; "
-        "residual {:.2g} ({:.1e} of the largest)",
-        e.initial, e.gravity_work, e.load_work, e.position_correction, e.friction, e.local_damping, e.global_damping,
-        e.impulse_loss, e.contact_changes, e.removed, s.stored.total(), residual(e, s.stored), relative_residual(e, s.stored)));
+    log.line(energy_line(s));
     const ContactCounts contacts = simulation.count_contacts();
     log.line(
         fmt::format("contact points: {} stick, {} slip, {} impulse", contacts.points[1], contacts.points[2], contacts.points[3]));

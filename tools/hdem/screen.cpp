@@ -1,6 +1,7 @@
 #include "tools/hdem/screen.h"
 
 #include "core/check.h"
+#include "core/stage/load_changes.h"
 #include "core/stage/rules.h"
 #include "io/fresh_file.h"
 #include "io/printable.h"

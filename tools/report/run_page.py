@@ -17,10 +17,13 @@ OUTCOME = [("method", "contact method", ""), ("cycles", "cycles", ""), ("cycles_
            ("max_displacement", "greatest displacement next to the excavation", "m"), ("mean_displacement_all", "mean displacement of all free blocks", "m"),
            ("max_displacement_all", "greatest displacement of all free blocks", "m"), ("state_hash", "hash of the final state", "")]
 # term of the ledger -> what it is, +1 put in, -1 taken out, 0 stored at the end
-LEDGER = {"initial": ("stored at the start", 1), "gravity_work": ("work of gravity", 1), "load_work": ("work of loads and prescribed motions", 1),
-          "position_correction": ("put in by the position correction", 1), "friction": ("spent by slip of springs", -1),
-          "local_damping": ("spent by local damping", -1), "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),
-          "contact_changes": ("taken by changes of contacts", -1), "removed": ("gone with removed blocks", -1), "kinetic_energy": ("kinetic", 0),
+LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by in-situ stress at the start", 1), "gravity_work": ("work of gravity", 1),
+          "load_work": ("work of loads and prescribed motions", 1), "boundary": ("work of tractions and walls at the sides", 1), "water": ("work of water pressures", 1),
+          "position_correction": ("put in by the position correction", 1), "dilation": ("of slip: given back against the normal force", 1),
+          "friction": ("spent by slip of springs", -1), "bond_breaking": ("freed by bonds that break", -1), "local_damping": ("spent by local damping", -1),
+          "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),
+          "contact_changes": ("taken by changes of contacts", -1), "property_changes": ("taken by changed stiffness and density", -1),
+          "removed": ("gone with removed blocks", -1), "kinetic_energy": ("kinetic", 0),
           "elastic_normal": ("in normal springs", 0), "elastic_shear": ("in shear springs", 0)}
 # what else the page takes from summary.json, and its kind
 SUMMARY = {"stages": list, "warnings": list, "converged": bool, "max_displacement": float, "wall_seconds": float, "cycles": float,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 
 namespace hdem::verification
 {
@@ -9,26 +11,28 @@ namespace
 {
 struct Term
 {
-    const char* name;
-    double (*value)(const LedgerSample&);
+    std::string name;
+    std::function<double(const LedgerSample&)> value;
 };
 
 /// Energy that came in is positive, and so is what is stored or spent.
 const std::vector<Term>& all_terms()
 {
-    static const std::vector<Term> terms{
-        {"work of gravity", [](const LedgerSample& s) { return s.sums.gravity_work; }},
-        {"work of loads", [](const LedgerSample& s) { return s.sums.load_work; }},
-        {"kinetic", [](const LedgerSample& s) { return s.stored.kinetic; }},
-        {"in springs", [](const LedgerSample& s) { return s.stored.elastic_normal + s.stored.elastic_shear; }},
-        {"friction", [](const LedgerSample& s) { return s.sums.friction; }},
-        {"local damping", [](const LedgerSample& s) { return s.sums.local_damping; }},
-        {"global damping", [](const LedgerSample& s) { return s.sums.global_damping; }},
-        {"impulses", [](const LedgerSample& s) { return s.sums.impulse_loss; }},
-        {"contact changes", [](const LedgerSample& s) { return s.sums.contact_changes; }},
-        {"position correction", [](const LedgerSample& s) { return s.sums.position_correction; }},
-        {"removed blocks", [](const LedgerSample& s) { return s.sums.removed; }},
-        {"at the start", [](const LedgerSample& s) { return s.sums.initial; }}};
+    static const std::vector<Term> terms = []
+    {
+        std::vector<Term> all{
+            {"kinetic", [](const LedgerSample& s) { return s.stored.kinetic; }},
+            {"in springs", [](const LedgerSample& s) { return s.stored.elastic_normal + s.stored.elastic_shear; }}};
+        for (const LedgerTerm& term : ledger_terms)
+        {
+            if (term.side == LedgerSide::aside)
+                continue;
+            std::string name = term.name;
+            std::ranges::replace(name, '_', ' ');
+            all.push_back({name, [value = term.value](const LedgerSample& s) { return s.sums.*value; }});
+        }
+        return all;
+    }();
     return terms;
 }
 

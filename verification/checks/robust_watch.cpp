@@ -103,8 +103,8 @@ void RobustWatch::look_at_shapes(const Model& model, const Blocks& blocks)
 void RobustWatch::look_at_energy(const Model& model, const State& state)
 {
     const StoredEnergy stored = stored_energy(model, state);
-    const double energy = stored.total() - stored.pending - state.ledger.gravity_work - state.ledger.load_work +
-                          state.ledger.removed;
+    const double energy = stored.total() - stored.pending - state.ledger.gravity_work - state.ledger.load_work -
+                          state.ledger.boundary - state.ledger.water + state.ledger.removed;
     least_energy_ = std::min(least_energy_, energy);
     worst_rise_ = std::max(worst_rise_, energy - least_energy_);
     greatest_energy_ = std::max({greatest_energy_, stored.total(), std::abs(state.ledger.gravity_work)});

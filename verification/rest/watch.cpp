@@ -34,7 +34,7 @@ void EnergyWatch::observe(const Model& model, const State& state)
 void EnergyWatch::look_at_speeds(const Model& model, const State& state)
 {
     const Blocks& blocks = state.blocks;
-    double work = state.ledger.load_work;
+    double work = state.ledger.load_work + state.ledger.boundary + state.ledger.water;
     for (Index i = 0; i < model.blocks(); ++i)
         work += model.mass[i] * model.gravity.dot(Vec2(blocks.motion[i].x, blocks.motion[i].y) - start_[i]);
     const double energy = (1.0 + beyond_energy) * std::max(work + initial_, 0.0);
@@ -54,7 +54,8 @@ void EnergyWatch::look_at_speeds(const Model& model, const State& state)
 void EnergyWatch::look_at_energy(const Model& model, const State& state)
 {
     const StoredEnergy stored = stored_energy(model, state);
-    const double energy = stored.total() - stored.pending - state.ledger.gravity_work - state.ledger.load_work;
+    const double energy = stored.total() - stored.pending - state.ledger.gravity_work - state.ledger.load_work -
+                          state.ledger.boundary - state.ledger.water;
     least_energy_ = std::min(least_energy_, energy);
     rise_ = std::max(rise_, energy - least_energy_);
     greatest_energy_ = std::max({greatest_energy_, stored.total(), std::abs(state.ledger.gravity_work)});

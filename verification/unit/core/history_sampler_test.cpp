@@ -1,5 +1,6 @@
 #include "core/check.h"
 #include "core/history_sampler.h"
+#include "core/joint/all_laws.h"
 #include "verification/unit/small_run.h"
 
 #include <gmock/gmock.h>
@@ -79,7 +80,7 @@ TEST(HistorySampler, ContactQuantitiesAreSumsOverThePairWhicheverWayItIsNamed)
     {
         HistorySampler sampler(run.model, test::history("h", between, contact_history_quantities()));
         const auto v = sample(sampler, run);
-        EXPECT_EQ(v.size(), 8U);
+        EXPECT_EQ(v.size(), 13U);
         EXPECT_DOUBLE_EQ(v.at("normal_force"), 26487.0);
         EXPECT_DOUBLE_EQ(v.at("shear_force"), -100.0);
         EXPECT_NEAR(v.at("overlap"), 1e-5, 1e-15);
@@ -154,6 +155,36 @@ TEST(HistorySampler, IsDueAtMultiplesOfItsInterval)
     EXPECT_EQ(sampler.next_after(0), 10);
     EXPECT_EQ(sampler.next_after(19), 20);
     EXPECT_EQ(sampler.next_after(20), 30);
+}
+
+/// Means over both points of the one contact; friction angle from the forces.
+TEST(HistorySampler, TellsWhatJointsRemember)
+{
+    SmallRun run = test::small_run();
+    run.model.joints.rows = {{.kind = kind_of<CoulombResidual>()}};
+    Contact contact = run.state.contacts.get(0);
+    run.state.contacts = {};
+    run.state.contacts.has_memory = run.state.contacts.has_preload = true;
+    run.state.contacts.resize(1);
+    contact.point[0].memory = {.slip = 2e-3, .opening = 1e-4, .broken = 1.0};
+    contact.point[1].memory = {.slip = 4e-3, .opening = 3e-4};
+    run.state.contacts.put(0, contact);
+    test::load_contact(run, 0, 1000.0, -1000.0, Regime::slip);
+    HistorySampler sampler(
+        run.model, test::history("h", {"ground", "block"}, {"plastic_slip", "opening", "damage", "broken", "mobilised_friction"}));
+    const auto closed = sample(sampler, run);
+    EXPECT_NEAR(closed.at("plastic_slip"), 3e-3, 1e-15);
+    EXPECT_NEAR(closed.at("opening"), 2e-4, 1e-15);
+    EXPECT_NEAR(closed.at("broken"), 0.5, 1e-15);
+    EXPECT_NEAR(closed.at("damage"), 0.5, 1e-15);
+    EXPECT_NEAR(closed.at("mobilised_friction"), 45.0, 1e-12);
+    test::load_contact(run, 0, 0.0, 0.0, Regime::open);
+    const auto open = sample(sampler, run);
+    EXPECT_NEAR(open.at("broken"), 0.5, 1e-15) << "of a joint that is open too";
+    EXPECT_EQ(open.at("mobilised_friction"), 0.0);
+    run.model.joints.rows.clear();
+    run.state.contacts.has_memory = false;
+    EXPECT_EQ(sample(sampler, run).at("plastic_slip"), 0.0) << "no memory";
 }
 }  // namespace
 }  // namespace hdem

@@ -59,32 +59,19 @@ TEST(CaseFormat, EveryKeyHasAnEffectAndAKnownDefault)
 /// A field of case_def.h that no key sets would be a setting that users cannot reach.
 TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
 {
-    const std::map<std::string, std::string> section_of = {{"DomainDef", "domain"},
-                                                           {"FaultDef", "fault"},
-                                                           {"RegionDef", "region"},
-                                                           {"JointSetDef", "joint_set"},
-                                                           {"GeneratorDef", "generator"},
-                                                           {"ExcavationDef", "excavation"},
-                                                           {"BlockDef", "block"},
-                                                           {"MaterialDef", "material"},
-                                                           {"JointDef", "joint"},
-                                                           {"InsituDef", "insitu"},
-                                                           {"BoundaryDef", "boundary"},
-                                                           {"LoadDef", "load"},
-                                                           {"Interval", "load"},
-                                                           {"ContactDef", "contact"},
-                                                           {"DampingDef", "damping"},
-                                                           {"TimeDef", "time"},
-                                                           {"ConvergenceDef", "convergence"},
-                                                           {"StageDef", "stage"},
-                                                           {"WaterDef", "water"},
-                                                           {"WaterCrackDef", "water_crack"},
-                                                           {"HistoryDef", "history"},
-                                                           {"OutputDef", "output"}};
-    const std::set<std::string> otherwise = {"domain.given",          "insitu.given",   "block.fix_x",        "block.fix_y",
-                                             "block.fix_rotation",    "material.name",  "joint.name",         "load.interval",
-                                             "stage.until_converged", "stage.joints",   "boundary.is_insitu", "water.given",
-                                             "joint.library",         "joint.function", "water.pressures"};
+    const std::map<std::string, std::string> section_of = {
+        {"DomainDef", "domain"},      {"FaultDef", "fault"},         {"RegionDef", "region"},
+        {"JointSetDef", "joint_set"}, {"GeneratorDef", "generator"}, {"ExcavationDef", "excavation"},
+        {"BlockDef", "block"},        {"MaterialDef", "material"},   {"JointDef", "joint"},
+        {"InsituDef", "insitu"},      {"BoundaryDef", "boundary"},   {"LoadDef", "load"},
+        {"Interval", "load"},         {"FactorDef", "load"},         {"ContactDef", "contact"},
+        {"DampingDef", "damping"},    {"TimeDef", "time"},           {"ConvergenceDef", "convergence"},
+        {"StageDef", "stage"},        {"WaterDef", "water"},         {"WaterCrackDef", "water_crack"},
+        {"HistoryDef", "history"},    {"OutputDef", "output"}};
+    const std::set<std::string> otherwise = {
+        "domain.given", "insitu.given",    "block.fix_x",           "block.fix_y",     "block.fix_rotation", "material.name",
+        "joint.name",   "load.interval",   "stage.until_converged", "stage.joints",    "boundary.is_insitu", "stage.materials",
+        "load.factor",  "boundary.factor", "water.given",           "water.pressures", "joint.library",      "joint.function"};
     std::istringstream header(text_of(source_folder / "core/model/case_def.h"));
     std::string line, section;
     int fields = 0;
@@ -109,7 +96,7 @@ TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
             EXPECT_TRUE(!section.empty() || name == "CaseDef" || name == "StressDef")
                 << name << " is a struct this test does not know";
         }
-        else if (line.starts_with("    ") && line.find(';') != std::string::npos && !section.empty() &&
+        else if (line.starts_with("    ") && line.find(';') != std::string::npos && !section.empty() && name != "operator" &&
                  !otherwise.contains(section + "." + name))
         {
             ++fields;

@@ -90,6 +90,12 @@ velocity_y = -1
 angular_velocity = 0.5
 from_time = 0.25
 until_time = 1
+table = [[0, 1], [0.5, -2]]
+table_by = "time"
+[[load]]
+blocks = ["b12"]
+moment = 1
+ramp_cycles = [5, 15]
 [contact]
 method = "impulse"
 restitution = 0.3
@@ -201,7 +207,12 @@ TEST(CaseSections, FillMaterialsJointsAndLoads)
     EXPECT_THAT(def.joints[1].materials, ElementsAre("rock", "shale"));
     EXPECT_EQ(def.gravity, Vec2(1, -9));
 
-    ASSERT_EQ(def.loads.size(), 2U);
+    ASSERT_EQ(def.loads.size(), 3U);
+    EXPECT_EQ(def.loads[1].factor.table, (FactorTable{{0.0, 1.0}, {0.5, -2.0}}));
+    EXPECT_EQ(def.loads[1].factor.table_by, TableColumn::time);
+    EXPECT_TRUE(def.loads[0].factor.table.empty());
+    EXPECT_EQ(def.loads[2].factor.ramp_cycles, Vec2(5, 15));
+    EXPECT_FALSE(def.loads[2].factor.ramp_time);
     EXPECT_THAT(def.loads[0].blocks, ElementsAre("*", "b12"));
     EXPECT_EQ(def.loads[0].acceleration, Vec2(1, 2));
     EXPECT_EQ(def.loads[0].force, Vec2(3, 4));

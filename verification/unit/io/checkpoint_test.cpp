@@ -64,11 +64,10 @@ Ended run(Simulation& simulation, Keeper* keeper)
                                              stage.statics->residual, fmt::join(stage.statics->loose, " ")));
     }
     const State& state = simulation.state();
-    const EnergyLedger& e = state.ledger;
     ended.hash = state_hash(simulation.model(), state);
     ended.cycle = state.cycle;
-    ended.ledger = {e.initial,       e.gravity_work,   e.load_work,    e.position_correction, e.friction,
-                    e.local_damping, e.global_damping, e.impulse_loss, e.contact_changes,     e.removed};
+    for (const LedgerTerm& term : ledger_terms)
+        ended.ledger.push_back(state.ledger.*term.value);
     ended.counters = state.broad_phase_runs + state.feature_searches + state.excavation_cycle;
     return ended;
 }

@@ -101,10 +101,13 @@ TEST(StageJoints, AreRefusedWhereContactsBearByThem)
         return std::string("none");
     };
     using testing::HasSubstr;
-    EXPECT_THAT(complaint(R"("joint.default.shear_stiffness = 1e9")"), HasSubstr("contacts bear by it already"));
+    EXPECT_THAT(complaint(R"("joint.default.greatest_closure = 1e-3")"), HasSubstr("contacts bear by it already"));
+    EXPECT_THAT(complaint(R"("joint.default.law = \"patton\"")"), HasSubstr("law"));
+    EXPECT_THAT(complaint(R"("material.other.density = 5")"), HasSubstr("no material has this name"));
+    EXPECT_THAT(complaint(R"("material.rock.density = -5")"), HasSubstr("density"));
     EXPECT_THAT(complaint(R"("joint.default.dilation_angle_deg = 5")"), HasSubstr("no memory"));
     EXPECT_THAT(complaint(R"("joint.other.cohesion = 5")"), HasSubstr("no joint has this name"));
-    EXPECT_THAT(complaint(R"("gravity = 5")"), HasSubstr("does not say joint.NAME.KEY = VALUE"));
+    EXPECT_THAT(complaint(R"("gravity = 5")"), HasSubstr("does not say joint.NAME.KEY = VALUE or material.NAME.density = VALUE"));
     EXPECT_THAT(complaint(R"("joint.default.cohesion = -5")"), HasSubstr("cohesion"));
     EXPECT_THAT(complaint(R"("joint.default.frction = 5")"), HasSubstr("unknown key"));
 }

@@ -127,7 +127,7 @@ TEST(SideForces, AreKnownToTheStaticSolution)
         {
             ASSERT_EQ(run.state().statics[0].end, StaticOutcome::Kind::balanced);
             EXPECT_LT(ledger_residual(run), 1e-9);
-            EXPECT_GT(run.state().ledger.load_work, 0.5 * 2e6 * 15.0 * 15.0 * 2e-4) << "at least what the springs take";
+            EXPECT_GT(run.state().ledger.boundary, 0.5 * 2e6 * 15.0 * 15.0 * 2e-4) << "at least what the springs take";
         }
         const StageResult stage = run_stages(run.simulation, {}).front();
         EXPECT_TRUE(stage.at_rest);
@@ -149,8 +149,8 @@ TEST(SideForces, AreTheSameOnSeveralThreads)
         one.advance(300);
         three.advance(300);
         EXPECT_EQ(one.hash(), three.hash());
-        EXPECT_EQ(one.state().ledger.load_work, three.state().ledger.load_work);
-        EXPECT_NE(one.state().ledger.load_work, 0.0);
+        EXPECT_EQ(one.state().ledger.boundary, three.state().ledger.boundary);
+        EXPECT_NE(one.state().ledger.boundary, 0.0);
     }
 }
 }  // namespace

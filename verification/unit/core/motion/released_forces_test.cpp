@@ -75,6 +75,82 @@ TEST(ReleasedForces, AreTakenOffEvenly)
     EXPECT_LT(relative_residual(run.state().ledger, stored_energy(run.model(), run.state())), 1e-9);
 }
 
+/// A share that is left acts until its stage ends; the next one takes it off.
+TEST(ReleasedForces, StopAtTheShareThatIsToBeLeft)
+{
+    CaseDef scene = two_on_ground("upper");
+    scene.stages[1].relax_to = 0.4;
+    scene.stages[1].cycles = 10 * relaxed;
+    scene.stages.push_back({.name = "rest", .cycles = 10 * relaxed, .relax_cycles = relaxed});
+    CaseRun run(scene);
+    run.advance(settled);
+    run.simulation.begin_stage(1);
+    const double load = weight(run, "upper"), own = weight(run, "lower");
+    run.advance(10 * relaxed);
+    EXPECT_FALSE(run.state().released.empty());
+    EXPECT_NEAR(on_ground(run), own + 0.4 * load, 1e-3 * load);
+    EXPECT_LT(relative_residual(run.state().ledger, stored_energy(run.model(), run.state())), 1e-9);
+    hdem::Setup again = build_model(scene);
+    Simulation going_on(std::move(again.model), run.state(), 1);
+    for (Simulation* simulation : {&run.simulation, &going_on})
+    {
+        simulation->begin_stage(2);
+        simulation->advance(relaxed / 2);
+    }
+    EXPECT_NEAR(on_ground(run), own + 0.2 * load, 0.02 * load);
+    run.advance(9 * relaxed);
+    going_on.advance(9 * relaxed);
+    EXPECT_EQ(state_hash(going_on.model(), going_on.state()), run.hash());
+    EXPECT_TRUE(run.state().released.empty());
+    EXPECT_NEAR(on_ground(run), own, 1e-3 * load);
+}
+
+/// A stage that looks for rest ends with what is left, and its blocks rest.
+TEST(ReleasedForces, ThatAreLeftLetBlocksRest)
+{
+    CaseDef scene = two_on_ground("upper");
+    scene.contact.method = Method::hybrid;
+    scene.stages[1] = {.name = "dig", .until_converged = true, .relax_cycles = relaxed, .relax_to = 0.5, .excavate = {"upper"}};
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+    const std::vector<StageResult> results = run_stages(simulation, {});
+    EXPECT_TRUE(results[1].at_rest);
+    EXPECT_GT(results[1].cycles, relaxed);
+    EXPECT_FALSE(simulation.state().released.empty());
+}
+
+/// Forces of rock under in-situ stress, in a stage of cycles: what is excavated leaves slowly, and the ledger explains all.
+TEST(ReleasedForces, OfStressedRockInAStageOfCycles)
+{
+    CaseDef scene = scenes::joints(12.0, 12.0, 1.5, 0.0);
+    scene.domain.fixed = {"left", "right", "bottom", "top"};
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::force;
+    scene.insitu = {.given = true, .stress = StressDef{-2e6, -1e6, 0.0}};
+    scene.excavations = {{.name = "room", .shape = OutlineShape::rectangle, .position = {6.0, 4.5}, .width = 3.0, .height = 3.0}};
+    scene.stages = {{.name = "hold", .cycles = 200}, {.name = "dig", .cycles = 6000, .excavate = {"room"}}};
+    CaseDef slowly = scene;
+    slowly.stages[1].relax_cycles = 3000;
+    const auto greatest_kinetic = [](const CaseDef& def)
+    {
+        CaseRun run(def);
+        run.advance(200);
+        EXPECT_LT(run.state().ledger.friction, 1e-9) << "J: nothing moves before";
+        run.simulation.begin_stage(1);
+        EXPECT_EQ(run.state().released.empty(), def.stages[1].relax_cycles == 0);
+        double most = 0.0;
+        for (int i = 0; i < 600; ++i)
+        {
+            run.advance(10);
+            most = std::max(most, stored_energy(run.model(), run.state()).kinetic);
+        }
+        EXPECT_TRUE(run.state().released.empty());
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6);
+        return most;
+    };
+    EXPECT_LT(greatest_kinetic(slowly), 0.1 * greatest_kinetic(scene));
+}
+
 /// What stood on the removed block falls with a(t) = g t / T, so far as g T^2 / 6.
 TEST(ReleasedForces, OfASupportLetItsLoadFallSlowly)
 {

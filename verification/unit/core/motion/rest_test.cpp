@@ -270,7 +270,7 @@ TEST(Rest, IsForStagesThatLookForRestOnly)
     timed.stages = {{.name = "rest", .cycles = 100'000}};
     dynamic.damping.preset = DampingPreset::dynamic;
     paper.damping.preset = DampingPreset::paper;
-    loaded.loads.push_back({.blocks = {"block1"}, .acceleration = {0.0, 0.0}});
+    loaded.loads.push_back({.blocks = {"block1"}, .acceleration = {0.0, 0.0}, .interval = {.until_cycle = 20'000}});
     scenes::add_fixed_block(driven, "plate", scenes::rectangle({5, 5}, {6, 6})).velocity = {0.1, 0.0};
     for (const CaseDef& scene : {timed, dynamic, paper, loaded, driven, impulses})
     {
@@ -296,7 +296,7 @@ TEST(Rest, OfAPartiallyFixedBlockLeavesItsPrescribedVelocityAlone)
     EXPECT_NEAR(moved.displacement("block3").x(), 1e-5 * 15'000 * step, 1e-12);
 }
 
-/// A load of nothing keeps all blocks awake.
+/// A load of nothing that is still to end keeps all blocks awake.
 TEST(Rest, ChangesTheAnswerByLessThanTheCriterionLeaves)
 {
     CaseDef calm = room();
@@ -307,7 +307,7 @@ TEST(Rest, ChangesTheAnswerByLessThanTheCriterionLeaves)
         calm.time.step = 0.9 * critical_time_step(probe.model(), probe.state().blocks, probe.state().contacts);
     }
     CaseDef awake = calm;
-    awake.loads.push_back({.blocks = {}, .acceleration = {0.0, 0.0}});
+    awake.loads.push_back({.blocks = {}, .acceleration = {0.0, 0.0}, .interval = {.until_cycle = 20'000}});
     CaseRun with(calm), without(awake);
     constexpr std::int64_t cycles = 10'000;
     with.advance(cycles);

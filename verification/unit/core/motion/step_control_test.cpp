@@ -146,7 +146,7 @@ TEST(StepControl, IsForStagesThatLookForRestUnderTheDefaultDamping)
     timed.stages = {{.name = "fall", .cycles = 100'000}};
     dynamic.damping.preset = DampingPreset::dynamic;
     paper.damping.preset = DampingPreset::paper;
-    loaded.loads.push_back({.blocks = {"block"}, .force = {0.0, 0.0}});
+    loaded.loads.push_back({.blocks = {"block"}, .force = {0.0, 0.0}, .interval = {.until_cycle = 20'000}});
     for (const CaseDef& scene : {timed, dynamic, paper, far, loaded})
     {
         CaseRun run(scene);

@@ -1,0 +1,30 @@
+#pragma once
+/// What a load or a side is multiplied with as a run goes on.
+
+#include "core/model/case_def.h"
+
+#include <cstdint>
+
+namespace hdem
+{
+/// Linear between its rows, constant before the first and after the last.
+struct Factor
+{
+    FactorTable rows;         ///< ascending; empty: always 1
+    bool is_by_time = false;  ///< the first column is in seconds, else in cycles
+    Index since = no_index;   ///< stage at whose start it is 0; no_index: at the run's
+
+    [[nodiscard]] bool varies() const { return !rows.empty(); }
+
+    /// @param cycles  since then; below 0: that stage has not begun
+    /// @param step    [s] a cycle, of rows by time
+    [[nodiscard]] double at(std::int64_t cycles, double step) const;
+
+    /// First and last of the cycles in which it changes.
+    [[nodiscard]] std::int64_t first_cycle(double step) const;
+    [[nodiscard]] std::int64_t last_cycle(double step) const;
+};
+
+/// Of what a case says; its stage by number.
+[[nodiscard]] Factor factor_of(const FactorDef& def, const std::vector<StageDef>& stages);
+}  // namespace hdem

@@ -1,0 +1,147 @@
+#include "core/stage/load_changes.h"
+
+#include "core/state/stage_cycles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+/// Cycle of the run at which those of a factor, or of its load, begin to count. @pre that stage has begun
+std::int64_t zero_of(const Factor& factor, const State& state)
+{
+    return state.cycle - cycles_since(factor.since, state);
+}
+
+std::int64_t later(std::int64_t cycle, std::int64_t by)
+{
+    return by < std::numeric_limits<std::int64_t>::max() - cycle ? cycle + by : std::numeric_limits<std::int64_t>::max();
+}
+
+/// Collects changes of the running stage.
+class Changes
+{
+  public:
+    Changes(const Model& model, const State& state) : model_(model), state_(state)
+    {
+        if (state.stage_begun)
+            end_ = last_cycle(model.stages[static_cast<std::size_t>(state.stage)], state.stage_begin_cycle, model.time_step);
+    }
+
+    void add(const Load& load)
+    {
+        if (load.from >= load.until || cycles_since(load.factor.since, state_) < 0)
+            return;
+        const std::int64_t zero = zero_of(load.factor, state_);
+        add(later(zero, load.from), later(zero, load.from));
+        add(later(zero, load.until), later(zero, load.until));
+        add(load.factor);
+    }
+
+    void add(const Factor& factor)
+    {
+        if (!factor.varies() || cycles_since(factor.since, state_) < 0)
+            return;
+        const std::int64_t zero = zero_of(factor, state_);
+        add(later(zero, factor.first_cycle(model_.time_step)), later(zero, factor.last_cycle(model_.time_step)));
+    }
+
+    /// Those that the stage changes over its set_cycles.
+    void add_joints()
+    {
+        const auto stage = static_cast<std::size_t>(state_.stage);
+        if (state_.stage_begun && stage < model_.stage_laws.size() && !model_.stage_laws[stage].laws.empty())
+            add(state_.stage_begin_cycle, state_.stage_begin_cycle + model_.stages[stage].set_cycles);
+    }
+
+    [[nodiscard]] std::int64_t over_from() const { return over_from_; }
+
+  private:
+    void add(std::int64_t first, std::int64_t last)
+    {
+        if (last > state_.stage_begin_cycle && first < end_)
+            over_from_ = std::max(over_from_, later(last, 1));
+    }
+
+    const Model& model_;
+    const State& state_;
+    std::int64_t end_ = std::numeric_limits<std::int64_t>::max();
+    std::int64_t over_from_ = 0;
+};
+
+/// Is the factor 0, and stays so?
+bool has_faded(const Factor& factor, const Model& model, const State& state)
+{
+    return factor.varies() && factor.rows.back()[1] == 0.0 &&
+           cycles_since(factor.since, state) > factor.last_cycle(model.time_step);
+}
+}  // namespace
+
+std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step)
+{
+    if (stage.cycles)
+        return begin + *stage.cycles;
+    if (stage.duration)
+        return begin + static_cast<std::int64_t>(std::ceil(*stage.duration / time_step * (1.0 - 1e-12)));
+    return begin + stage.max_cycles;
+}
+
+std::int64_t steady_from(const Model& model, const State& state)
+{
+    Changes changes(model, state);
+    for (const Load& load : model.loads)
+        changes.add(load);
+    for (const Boundary& boundary : model.boundaries)
+        if (boundary.acts(state.stage))
+            changes.add(boundary.factor);
+    changes.add_joints();
+    return changes.over_from();
+}
+
+bool are_times_to_come(const Model& model, const State& state)
+{
+    const auto is_to_come = [&](const Factor& factor, std::int64_t cycle)
+    { return cycles_since(factor.since, state) >= 0 && later(zero_of(factor, state), cycle) >= state.cycle; };
+    const auto has_rows_to_come = [&](const Factor& factor)
+    { return factor.is_by_time && factor.varies() && is_to_come(factor, factor.last_cycle(model.time_step)); };
+    return std::ranges::any_of(model.loads,
+                               [&](const Load& load)
+                               {
+                                   return (load.interval.from_time && is_to_come(load.factor, load.from)) ||
+                                          (load.interval.until_time && is_to_come(load.factor, load.until)) ||
+                                          has_rows_to_come(load.factor);
+                               }) ||
+           std::ranges::any_of(model.boundaries, [&](const Boundary& boundary) { return has_rows_to_come(boundary.factor); });
+}
+
+bool do_tractions_change(const Model& model, const State& state)
+{
+    Changes changes(model, state);
+    for (const Boundary& boundary : model.boundaries)
+        if (boundary.acts(state.stage) && boundary.kind == BoundaryKind::stress)
+            changes.add(boundary.factor);
+    return state.cycle < changes.over_from();
+}
+
+bool do_loads_drive(const Model& model, const State& state)
+{
+    return std::ranges::any_of(model.loads,
+                               [&](const Load& load) {
+                                   return load.prescribes() && cycles_since(load.factor.since, state) <= load.until &&
+                                          !has_faded(load.factor, model, state);
+                               });
+}
+
+bool do_walls_move(const Model& model, const State& state)
+{
+    return std::ranges::any_of(model.boundaries,
+                               [&](const Boundary& boundary)
+                               {
+                                   return boundary.acts(state.stage) && moves_walls(boundary.kind) &&
+                                          !(boundary.kind == BoundaryKind::velocity && has_faded(boundary.factor, model, state));
+                               });
+}
+}  // namespace hdem
