@@ -353,6 +353,18 @@ struct StageDef
     std::optional<DampingPreset> damping;  ///< from here on
 };
 
+/// [factor_of_safety]: strength reduction by `hdem fos`, once all stages have run.
+struct FactorOfSafetyDef
+{
+    std::vector<std::string> reduce = {"joints"};  ///< "joints": all; or names of [joint.NAME]
+    Vec2 bracket = {0.5, 3.0};                     ///< factors that the search begins with where no bound is known [-]
+    double tolerance = 0.01;                       ///< width of the last bracket [-]
+    std::optional<double> displacement;            ///< a block that moved farther has failed; not given: core/stage/failure.h [m]
+    double least_size = 0.0;                       ///< smaller blocks may fall [m2]
+    bool peak = true;                              ///< find the factor of the peak strength too, where slip or breaking takes some
+    double check_stiffness = 3.0;  ///< look whether the factor is the same with joints that many times as stiff; 1: do not
+};
+
 /// [[history]]: quantities sampled every n cycles into results.h5.
 struct HistoryDef
 {
@@ -397,6 +409,7 @@ struct CaseDef
     TimeDef time;
     ConvergenceDef convergence;
     std::vector<StageDef> stages;
+    FactorOfSafetyDef factor_of_safety;
     std::vector<HistoryDef> histories;
     OutputDef output;
 };

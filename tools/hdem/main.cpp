@@ -44,6 +44,18 @@ void add_run(CLI::App& app, RunOptions& options)
         });
 }
 
+void add_fos(CLI::App& app, FosOptions& options)
+{
+    CLI::App* fos = app.add_subcommand("fos", "Find the factor of safety: run a case, then divide its strength until blocks fail");
+    RunOptions& run = options.run;
+    fos->add_option("case", run.case_file, "Case file (TOML); its table [factor_of_safety] says how")->required();
+    fos->add_option("-o,--output", run.folder, "Folder of the results; default: the case file's name without its ending");
+    fos->add_flag("--overwrite", run.overwrite, "Begin anew in a folder that has trials or a run that was cut short");
+    fos->add_option("--threads", run.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    fos->add_option("--set", run.overrides, "key.path=value instead of the case file's; repeatable");
+    fos->add_flag("-q,--quiet", run.quiet, "Nothing on the screen but errors; run.log has it all");
+}
+
 void add_check(CLI::App& app, CheckOptions& options)
 {
     CLI::App* check = app.add_subcommand("check", "Read a case and generate its blocks, without running it");
@@ -86,6 +98,9 @@ int dispatch(int argc, char** argv)
     bool markdown = false;
     add_run(app, run);
     add_check(app, check);
+    FosOptions fos;
+    fos.run.command_line = run.command_line;
+    add_fos(app, fos);
     CLI::App* info = app.add_subcommand("info", "Say what a file holds: results, a frame, a checkpoint, a case");
     std::string file;
     info->add_option("file", file, "Folder of a run, results.h5, blocks_NNNNNN.hdf, contacts_NNNNNN.hdf, checkpoint.h5 or a case")
@@ -113,6 +128,8 @@ int dispatch(int argc, char** argv)
         say("{}", describe_file(file));
         return exit_done;
     }
+    if (app.got_subcommand("fos"))
+        return fos_command(fos);
     if (*plot)
         return run_script("plot", "plot.py", plot->remaining());
     if (*report)

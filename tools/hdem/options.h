@@ -33,6 +33,12 @@ struct RunOptions
 
 int run_command(const RunOptions& options);
 
+struct FosOptions
+{
+    RunOptions run;
+};
+int fos_command(const FosOptions& options);
+
 struct CheckOptions
 {
     std::string case_file;

@@ -77,6 +77,7 @@ TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
                                                            {"TimeDef", "time"},
                                                            {"ConvergenceDef", "convergence"},
                                                            {"StageDef", "stage"},
+                                                           {"FactorOfSafetyDef", "factor_of_safety"},
                                                            {"HistoryDef", "history"},
                                                            {"OutputDef", "output"}};
     const std::set<std::string> otherwise = {"domain.given",          "insitu.given",  "block.fix_x",       "block.fix_y",
