@@ -14,16 +14,16 @@ namespace
 {
 constexpr std::int64_t look_every_cycles = 20;
 constexpr std::int64_t check_state_every = 1000;
-constexpr std::int64_t least_most_cycles = 50'000;
+constexpr std::int64_t least_creep_cycles = 5000;
+constexpr int creep_looks = 4;  ///< at T, 2 T, 4 T and 8 T
 constexpr std::int64_t most_cycles_of_elastic_state = 1'000'000;
-constexpr double patience = 4.0;
 
-/// How long rock that is half a tolerance above its strength takes to move by `way`, held back by local damping, times `patience` [s].
-double longest_trial(const Model& model, double way, double tolerance, double factor)
+/// How long rock that is half a tolerance above its strength takes to move by `way`, held back by local damping [s].
+double creep_time(const Model& model, double way, double tolerance, double factor)
 {
     const double g = std::max(model.gravity.norm(), 1.0);
     const double acceleration = (1.0 - model.damping.local) * g * 0.5 * (0.5 * tolerance / factor);
-    return patience * std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
+    return std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
 }
 
 class TrialRun
@@ -86,9 +86,22 @@ class TrialRun
             return fail(failed);
         if (!small.empty())
             let_fall(small);
+        look_for_creep();
+    }
+
+    void look_for_creep()
+    {
         const FailureWatch::Farthest& far = watch_->farthest();
-        if (trial_.cycles >= least_most_cycles &&
-            trial_.time >= longest_trial(model, std::max(far.limit, far.moved), rule_.tolerance, trial_.factor))
+        if (far.block == no_index)
+            return;
+        if (creep_time_ == 0.0 && trial_.cycles >= least_creep_cycles)
+            creep_time_ = std::max(trial_.time, creep_time(simulation_.model(), far.limit, rule_.tolerance, trial_.factor));
+        if (creep_time_ == 0.0 || trial_.time < creep_time_)
+            return;
+        creep_time_ *= 2.0;
+        if (watch_->find_creeping() != no_index)
+            return fail(far.block);
+        if (++looks_ == creep_looks)
             end(TrialEnd::undecided, "neither at rest nor failing: block " + name(far.block) + " has moved " +
                                          with_digits("%.3g", far.moved) + " m of " + with_digits("%.3g", far.limit) + " m");
     }
@@ -139,6 +152,8 @@ class TrialRun
     Simulation simulation_;
     std::optional<FailureWatch> watch_;
     Trial trial_;
+    double creep_time_ = 0.0;  ///< of the next look for creep [s]
+    int looks_ = 0;
     bool has_ended_ = false;
 };
 

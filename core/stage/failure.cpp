@@ -13,6 +13,8 @@ namespace
 constexpr double first_mark = 0.5;  ///< in L
 constexpr int last_mark = 4;        ///< 8 L
 constexpr double growth = 1.15;     ///< of speed from mark to mark
+constexpr double way_growth = 1.7;  ///< of d in twice the time
+constexpr double creep_share = 0.05;  ///< of L
 
 /// Greatest elastic strain of the joints of each block: of the normal spring by its secant, and of the shear spring [m].
 std::vector<double> joint_strains(const Model& model, const State& state)
@@ -93,6 +95,22 @@ std::vector<Index> FailureWatch::look(const Model& model, const State& state)
             farthest_ = {user, moved, track.limit};
     }
     return failed;
+}
+
+Index FailureWatch::find_creeping()
+{
+    Index creeping = no_index;
+    for (Index user = 0; user < static_cast<Index>(track_.size()); ++user)
+    {
+        Track& track = track_[user];
+        const bool grows = has_noted_ && track.last >= way_growth * track.noted;
+        track.grown = grows ? track.grown + 1 : 0;
+        track.noted = track.last;
+        if (user == farthest_.block && track.grown >= 2 && track.last >= creep_share * track.limit)
+            creeping = user;
+    }
+    has_noted_ = true;
+    return creeping;
 }
 
 std::vector<Index> blocks_moving_with(Index failed, const Model& model, const State& state)

@@ -29,6 +29,11 @@ struct FailureRule
 ///
 /// The mean speed between two looks counts, which the swinging of a block on its springs does not change much. Neither stiffness nor time step
 /// enters but through L.
+///
+/// Rock just above its strength is slow: local damping takes four fifths of what drives it, and columns that chatter creep at an even speed.
+/// `find_creeping` sees it before they pass L. From the start of the trial on d is noted at T, 2 T, 4 T and 8 T. Under a constant force it is four times as great
+/// each time, at an even speed twice as great; where the block comes to rest it stays. The block has failed when d has grown by 1.7 and
+/// again by 1.7, to L/20 at least.
 /// @see verification/unit/core/stage/failure_test.cpp
 class FailureWatch
 {
@@ -38,6 +43,9 @@ class FailureWatch
 
     /// After some cycles. @return  blocks that have failed since, the user's numbers
     [[nodiscard]] std::vector<Index> look(const Model& model, const State& state);
+
+    /// To be asked at T, 2 T, 4 T, ... @return  the block that has gone farthest, if it creeps away, or no_index; the user's number
+    [[nodiscard]] Index find_creeping();
 
     /// The block that has gone farthest in terms of its L, and how far; the user's number.
     struct Farthest
@@ -59,6 +67,8 @@ class FailureWatch
     {
         double limit = 0.0;
         double last = 0.0;        ///< d at the last look [m]
+        double noted = 0.0;       ///< d when creep was looked for last [m]
+        int grown = 0;            ///< times in a row that d had grown then
         double mark_speed = 0.0;  ///< at the last mark [m/s]
         int marks = 0;            ///< passed
         bool has_failed = false;
@@ -68,6 +78,7 @@ class FailureWatch
     FailureRule rule_;
     std::vector<Track> track_;  ///< by the user's number
     double time_ = 0.0;
+    bool has_noted_ = false;
     Farthest farthest_;
 };
 
