@@ -27,6 +27,12 @@ class Trials
         return search_bracket(rule, setting_.threads, stands, after);
     }
 
+    /// Where the trial at this factor has ended, if it was run.
+    [[nodiscard]] std::optional<Moment> failure_at(double factor)
+    {
+        return failed_at_ == factor ? std::move(failure_) : std::nullopt;
+    }
+
   private:
     Trial trial(double factor, int threads, const std::stop_token& stop)
     {
@@ -36,7 +42,8 @@ class Trials
             std::stop_source either;
             const std::stop_callback first(stop, [&] { either.request_stop(); });
             const std::stop_callback second(setting_.stop, [&] { either.request_stop(); });
-            found = run_trial(start_, trial_rule(start_.model, setting_.def, search_, factor), threads, either.get_token());
+            std::optional<Moment> end;
+            found = run_trial(start_, trial_rule(start_.model, setting_.def, search_, factor), threads, either.get_token(), &end);
             if (either.stop_requested())
             {
                 if (setting_.stop.stop_requested() && !stop.stop_requested())
@@ -45,10 +52,20 @@ class Trials
             }
             if (setting_.store != nullptr)
                 setting_.store->add(search_, *found);
+            keep_failure(*found, end);
         }
         const std::lock_guard lock(mutex_);
         ended_[factor] = *found;
         return *found;
+    }
+
+    void keep_failure(const Trial& trial, std::optional<Moment>& end)
+    {
+        const std::lock_guard lock(mutex_);
+        if (trial.end == TrialEnd::stable || (failure_ && failed_at_ <= trial.factor))
+            return;
+        failure_ = std::move(end);
+        failed_at_ = trial.factor;
     }
 
     /// Of a pair the second counts only where the first stands.
@@ -70,6 +87,8 @@ class Trials
     Moment start_;
     std::mutex mutex_;
     std::map<double, Trial> ended_;  ///< of the present pair
+    std::optional<Moment> failure_;
+    double failed_at_ = 0.0;
 };
 
 bool is_before(const Trial* a, const Trial& b)
@@ -133,7 +152,10 @@ SafetyFactor find_safety_factor(const Moment& reference, const FactorSetting& se
                      .least = std::min(least_factor, def.bracket.x()),
                      .most = std::max(greatest_factor, def.bracket.y())};
     SafetyFactor found;
-    found.as_given = Trials(reference, setting, FactorSearch::as_given).find(rule, found.trials);
+    Trials as_given(reference, setting, FactorSearch::as_given);
+    found.as_given = as_given.find(rule, found.trials);
+    if (found.as_given.fails)
+        found.failure = as_given.failure_at(*found.as_given.fails);
     if (def.peak && loses_strength(reference.model.joints, weakened_joints(reference.model.joints, def)))
         found.peak = Trials(reference, setting, FactorSearch::peak).find(rule, found.trials);
     if (def.check_stiffness > 1.0 && found.as_given.is_closed())

@@ -64,6 +64,7 @@ struct SafetyFactor
     std::optional<Bracket> peak;      ///< where slip or breaking takes strength
     std::optional<Bracket> stiffer;   ///< where it was looked at
     std::vector<FactorTrial> trials;  ///< those that count, in the order of the search
+    std::optional<Moment> failure;    ///< where the first failing trial has ended, if it was run by this call
     /// The failing trial with the least factor, or null.
     [[nodiscard]] const Trial* first_failure() const;
     [[nodiscard]] const Trial* last_stable() const;

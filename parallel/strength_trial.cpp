@@ -15,15 +15,15 @@ namespace
 constexpr std::int64_t look_every_cycles = 20;
 constexpr std::int64_t check_state_every = 1000;
 constexpr std::int64_t least_creep_cycles = 5000;
-constexpr int creep_looks = 4;  ///< at T, 2 T, 4 T and 8 T
+constexpr int creep_looks = 6;  ///< at T, 2 T, ... 32 T
 constexpr std::int64_t most_cycles_of_elastic_state = 1'000'000;
 
-/// How long rock that is half a tolerance above its strength takes to move by `way`, held back by local damping [s].
+/// A quarter of the time in which rock that is half a tolerance above its strength moves by `way`, held back by local damping [s].
 double creep_time(const Model& model, double way, double tolerance, double factor)
 {
     const double g = std::max(model.gravity.norm(), 1.0);
     const double acceleration = (1.0 - model.damping.local) * g * 0.5 * (0.5 * tolerance / factor);
-    return std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
+    return 0.25 * std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
 }
 
 class TrialRun

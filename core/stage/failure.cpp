@@ -10,10 +10,10 @@ namespace hdem
 {
 namespace
 {
-constexpr double first_mark = 0.5;  ///< in L
-constexpr int last_mark = 4;        ///< 8 L
-constexpr double growth = 1.15;     ///< of speed from mark to mark
-constexpr double way_growth = 1.7;  ///< of d in twice the time
+constexpr double first_mark = 0.5;    ///< in L
+constexpr int last_mark = 4;          ///< 8 L
+constexpr double growth = 1.15;       ///< of speed from mark to mark
+constexpr double way_growth = 1.7;    ///< of d in twice the time
 constexpr double creep_share = 0.05;  ///< of L
 
 /// Greatest elastic strain of the joints of each block: of the normal spring by its secant, and of the shear spring [m].

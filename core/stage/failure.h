@@ -31,7 +31,7 @@ struct FailureRule
 /// enters but through L.
 ///
 /// Rock just above its strength is slow: local damping takes four fifths of what drives it, and columns that chatter creep at an even speed.
-/// `find_creeping` sees it before they pass L. From the start of the trial on d is noted at T, 2 T, 4 T and 8 T. Under a constant force it is four times as great
+/// `find_creeping` sees it before they pass L. From the start of the trial on d is noted at T, 2 T, 4 T and so on. Under a constant force it is four times as great
 /// each time, at an even speed twice as great; where the block comes to rest it stays. The block has failed when d has grown by 1.7 and
 /// again by 1.7, to L/20 at least.
 /// @see verification/unit/core/stage/failure_test.cpp
