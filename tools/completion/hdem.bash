@@ -5,12 +5,13 @@ _hdem_words()
 {
     case "$1" in
         run) echo "-o --output --restart --overwrite --max-wall --method --threads --set -q --quiet -h --help" ;;
+        fos) echo "-o --output --overwrite --threads --set -q --quiet -h --help" ;;
         check) echo "--set --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
-        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --crosses --history --title --width --dpi -h --help" ;;
+        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --crosses --history --factor --title --width --dpi -h --help" ;;
         report) echo "-o --output -h --help" ;;
-        *) echo "run check info schema plot report --version -h --help" ;;
+        *) echo "run fos check info schema plot report --version -h --help" ;;
     esac
 }
 
@@ -31,7 +32,7 @@ _hdem()
     fi
     compopt -o filenames 2>/dev/null
     case "$command" in
-        run | check) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word") ;;
+        run | check | fos) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
     esac
 }
