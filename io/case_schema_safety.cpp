@@ -56,6 +56,12 @@ SectionSpec factor_of_safety_section()
                   .unit = "m²",
                   .effect = "Smaller blocks may fail without counting. They are taken away when they do, and named.",
                   .range = non_negative}),
+             field<&FactorOfSafetyDef::begin>(
+                 {.name = "begin",
+                  .effect = "Where blocks gave way in the last stage by their own strength: `\"last_stage\"` runs the stage anew "
+                            "under great strength, and F says where they would have stood; `\"last_state\"` takes the rock as it "
+                            "lies, and F is that of what still stands.",
+                  .choices = {"last_stage", "last_state"}}),
              field<&FactorOfSafetyDef::peak>(
                  {.name = "peak",
                   .effect = "Where slip or breaking takes strength: find the factor with residual strength = peak strength too."}),

@@ -21,7 +21,9 @@ class Search
 
     Bracket run()
     {
-        if (rule_.guess)
+        if (rule_.known.is_closed())
+            found_ = rule_.known;
+        else if (rule_.guess)
             look_at(std::max(*rule_.guess - 0.5 * rule_.tolerance, rule_.least),
                     std::min(*rule_.guess + 0.5 * rule_.tolerance, rule_.most));
         else

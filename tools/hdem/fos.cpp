@@ -165,8 +165,8 @@ class Fos
         const bool found_rest = !run_.stages.back().sought_rest || run_.stages.back().at_rest;
         const std::vector<Index> gave_way = blocks_that_gave_way(last, found_rest, outcome.def.least_size);
         outcome.gave_way = names_of_blocks(last.model, gave_way);
-        const Reference reference = find_reference(last, gave_way, gave_way.empty() ? std::nullopt : moment_before(before_, run_),
-                                                   threads_);
+        const bool runs_anew = !gave_way.empty() && outcome.def.begin == FactorStart::last_stage;
+        const Reference reference = find_reference(last, gave_way, runs_anew ? moment_before(before_, run_) : std::nullopt, threads_);
         const Model& model = reference.moment.model;
         outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
                                        greatest_factor);
