@@ -2,7 +2,7 @@
 
 #include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
-#include "core/joint/coulomb_residual.h"
+#include "core/joint/all_laws.h"
 #include "core/state/workspace.h"
 #include "limit/linear_program.h"
 
@@ -60,7 +60,7 @@ PointStrength strength_of(const Model& model, const Contacts& contacts, Index co
     if (!model.joints.has_memory(law))
         return {slip.friction_coefficient, slip.cohesion * length, 0.0};
     const JointRow& row = model.joints.rows[law];
-    if (row.kind != JointKind::coulomb)
+    if (row.kind != kind_of<CoulombResidual>())
         return tangent_of(row, contacts.normal_force(k, contact) / length, length);
     if (contacts.memory(k, contact).broken > 0.5)
         return {row.residual_friction, row.residual_cohesion * length, row.numbers[CoulombResidual::residual_tension] * length};

@@ -2,6 +2,7 @@
 
 #include "core/motion/equilibrium.h"
 #include "core/observer.h"
+#include "core/stage/rules.h"
 #include "parallel/state_check.h"
 
 #include <algorithm>
@@ -163,8 +164,8 @@ void hold_loads(std::vector<Load>& loads, std::int64_t cycle)
     std::erase_if(loads, [&](const Load& load) { return !(load.from <= cycle && cycle < load.until); });
     for (Load& load : loads)
     {
-        load.from = std::numeric_limits<std::int64_t>::min() / 2;
-        load.until = std::numeric_limits<std::int64_t>::max() / 2;
+        load.from = always_from;
+        load.until = always_until;
     }
 }
 }  // namespace

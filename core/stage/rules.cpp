@@ -40,6 +40,11 @@ constexpr double settling_speeds = 40.0;
 /// Of the same: while rock that stands is faster a given step is kept.
 constexpr double slow_speeds = 10.0;
 
+bool acts_for_ever(const Load& load)
+{
+    return load.from == always_from && load.until == always_until && !load.velocity_x && !load.velocity_y && !load.angular_velocity;
+}
+
 StageSetting setting_of(const Model& model, const State& state)
 {
     const bool begun = state.stage_begun;
@@ -51,6 +56,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .gravity = model.gravity.norm(),
             .until_converged = begun && model.stages[state.stage].until_converged,
             .has_loads = !model.loads.empty(),
+            .loads_stay = std::ranges::all_of(model.loads, acts_for_ever),
             .releases = !state.released.empty(),
             .is_calm = state.is_calm,
             .is_driven = model.is_driven || moves_walls(model, state.stage),
@@ -65,6 +71,7 @@ StageRules resolve_rules(const StageSetting& s)
     const bool looks_for_rest = s.until_converged && s.preset == DampingPreset::automatic;
     const double g = s.gravity > 0.0 ? s.gravity : 9.81;
     const double settling = looks_for_rest ? settling_speeds * s.convergence.mean_speed : 0.0;
+    const bool loads_change = s.has_loads && !s.loads_stay;
     const bool whole_cycles = s.preset == DampingPreset::paper;
     return {.contact = {.law = law_of(s.method),
                         .rock_keeps_springs = looks_for_rest,
@@ -75,14 +82,14 @@ StageRules resolve_rules(const StageSetting& s)
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,
                         .settling = settling},
-            .step = {.varies = looks_for_rest && !s.is_driven && !s.has_loads,
+            .step = {.varies = looks_for_rest && !s.is_driven && !loads_change,
                      .keeps_given = s.has_step,
                      .flies_ahead = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases,
                      .stable_share = s.stable_fraction,
                      .falls_by = s.method == Method::impulse ? g : 0.0,
                      .slow = slow_speeds * s.convergence.mean_speed,
                      .loose_distance = s.convergence.loose_distance},
-            .rest = looks_for_rest && !s.is_driven && !s.has_loads && !s.releases ? rest_of(s, g) : RestRule{},
+            .rest = looks_for_rest && !s.is_driven && !loads_change && !s.releases ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
             .has_loads = s.has_loads || s.releases,
             .moves_walls = s.moves_walls,

@@ -13,10 +13,16 @@
 #include "core/motion/step_control.h"
 #include "core/state/state.h"
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hdem
 {
+/// Bounds of a load that acts for ever, whatever the cycle.
+inline constexpr std::int64_t always_from = std::numeric_limits<std::int64_t>::min() / 2;
+inline constexpr std::int64_t always_until = std::numeric_limits<std::int64_t>::max() / 2;
+
 /// What the rules follow from.
 struct StageSetting
 {
@@ -28,6 +34,7 @@ struct StageSetting
     double gravity = 9.81;         ///< size of [m/s2]
     bool until_converged = false;  ///< the stage ends when the rock is at rest
     bool has_loads = false;        ///< the case has loads of any kind
+    bool loads_stay = false;       ///< all of them act for ever, with the same force: they are like weight
     bool releases = false;         ///< forces of excavated blocks are being taken off
     bool is_calm = false;          ///< no block moves any more; what is out of balance still keeps the stage from ending
     bool is_driven = false;        ///< some motion is prescribed

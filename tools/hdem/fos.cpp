@@ -1,22 +1,21 @@
 /// hdem fos: the factor of safety by strength reduction.
 
+#include "core/boundary/resolve_boundaries.h"
 #include "io/digest.h"
 #include "io/run_recorder.h"
 #include "io/text_file.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/finished_run.h"
 #include "tools/hdem/fos_report.h"
-#include "tools/hdem/signals.h"
+#include "tools/hdem/signal_watch.h"
 #include "tools/hdem/trial_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <limits>
-#include <thread>
 
 namespace hdem
 {
@@ -58,6 +57,7 @@ struct Question
     std::string text;
     NamedFiles files;
     std::vector<std::string> overrides;
+    CaseDef def;
 
     [[nodiscard]] bool is_of(const RunRecord& record) const
     {
@@ -78,7 +78,7 @@ Question read_question(const RunOptions& run)
     for (const std::string& text : run.overrides)
         overrides.push_back(parse_override(text));
     const CaseFile file = read_case_file(run.case_file, overrides);
-    return {file.source.text(), file.files, run.overrides};
+    return {file.source.text(), file.files, run.overrides, file.def};
 }
 
 /// Does the folder hold a checkpoint of this case? Then the run goes on, or has come to its end.
@@ -107,23 +107,6 @@ std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedR
     return Moment{simulation.model(), simulation.state()};
 }
 
-/// Asks the search to stop when a signal has come.
-class SignalWatch
-{
-  public:
-    [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-
-  private:
-    std::stop_source source_;
-    std::jthread thread_{[this](const std::stop_token& end)
-                         {
-                             while (!end.stop_requested() && interrupt() == 0)
-                                 std::this_thread::sleep_for(std::chrono::milliseconds(50));
-                             if (interrupt() != 0)
-                                 source_.request_stop();
-                         }};
-};
-
 /// A frame in which the blocks that fail are detached.
 void write_failure(const fs::path& folder, const RunStart& start, const RunOptions& options, Moment& end, const Trial& trial)
 {
@@ -142,6 +125,24 @@ void write_failure(const fs::path& folder, const RunStart& start, const RunOptio
     describe_machine(provenance);
     RunRecorder recorder(failure_folder(folder), end.model, std::move(provenance));
     recorder.finish(end.model, end.state);
+}
+
+/// What moves by itself is never at rest: there is no factor of safety.
+void refuse_driven(const CaseDef& def)
+{
+    const auto refuse = [](const std::string& what)
+    {
+        throw InputError(Problem{.key = {},
+                                 .text = fmt::format("hdem fos: {} (a motion is prescribed: the rock is never at rest). End it before the "
+                                                     "last stage.",
+                                                     what)});
+    };
+    for (const BoundaryDef& side : def.boundaries)
+        if (side.kind == BoundaryKind::velocity && !side.velocity.isZero() && acts_in(side, def.stages.back().name))
+            refuse(fmt::format("boundary \"{}\": velocity", printable(side.name)));
+    for (const LoadDef& load : def.loads)
+        if ((load.velocity_x || load.velocity_y || load.angular_velocity) && !load.interval.until_cycle && !load.interval.until_time)
+            refuse("load: velocity");
 }
 
 class Fos
@@ -231,6 +232,7 @@ int fos_command(const FosOptions& options)
 {
     RunOptions run_options = options.run;
     const Question question = read_question(run_options);
+    refuse_driven(question.def);
     const fs::path folder = run_options.folder.empty() ? fs::path(fs::path(run_options.case_file).stem())
                                                        : fs::path(run_options.folder);
     if (!run_options.overwrite && has_begun(folder, question))

@@ -39,6 +39,20 @@ struct FosOptions
 };
 int fos_command(const FosOptions& options);
 
+struct CriticalOptions
+{
+    std::string case_file;
+    std::string vary;    ///< KEY=LOW:HIGH
+    std::string fails;   ///< displacement:BLOCK>0.1
+    std::string folder;  ///< of the results; "" = the case's name with _critical
+    std::optional<double> tolerance;
+    std::optional<int> threads;
+    std::vector<std::string> overrides;
+    bool overwrite = false;
+    bool quiet = false;
+};
+int critical_command(const CriticalOptions& options);
+
 struct CheckOptions
 {
     std::string case_file;

@@ -39,6 +39,7 @@ std::vector<Check> recycling_checks();
 std::vector<Check> robust_checks();
 std::vector<Check> insitu_checks();
 std::vector<Check> joint_checks();
+std::vector<Check> fos_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();
