@@ -18,12 +18,12 @@ struct Bracket
 /// Where it is looked for.
 struct BracketRule
 {
-    double low = 0.0, high = 0.0;  ///< to begin with
-    double tolerance = 0.0;        ///< width of the last bracket
+    double low = 0.0, high = 0.0;   ///< to begin with
+    double tolerance = 0.0;         ///< width of the last bracket
     std::optional<double> guess{};  ///< where it probably is: looked at first
-    double least = 0.0;            ///< nothing below is looked at
-    double most = 0.0;             ///< nothing above
-    Bracket known{};               ///< both ends, where they are known: nothing outside is looked at
+    double least = 0.0;             ///< nothing below is looked at
+    double most = 0.0;              ///< nothing above
+    Bracket known{};                ///< both ends, where they are known: nothing outside is looked at
 };
 
 /// Does the model stand at x? Called from two threads at once. When asked to stop, its answer is not used.

@@ -54,7 +54,7 @@ class ConditionWatch : public Observer
     }
 
     const FailureCondition& condition_;
-    std::vector<BlockMotion> start_;     ///< by the user's number
+    std::vector<BlockMotion> start_;  ///< by the user's number
     std::vector<std::uint8_t> counts_;
     ConditionResult result_;
 };

@@ -85,7 +85,7 @@ struct ContinuouslyYielding
         return max((whole - n[friction]) / (R(1.0) + whole * n[friction]), R(0.0));
     }
 
-    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) 
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
     {
         return stress * n[strength_share] * n[first_friction];
     }

@@ -369,7 +369,7 @@ struct FactorOfSafetyDef
     std::optional<double> displacement;            ///< a block that moved farther has failed; not given: core/stage/failure.h [m]
     double least_size = 0.0;                       ///< smaller blocks may fall [m2]
     FactorStart begin = FactorStart::last_stage;
-    bool peak = true;                              ///< find the factor of the peak strength too, where slip or breaking takes some
+    bool peak = true;              ///< find the factor of the peak strength too, where slip or breaking takes some
     double check_stiffness = 3.0;  ///< look whether the factor is the same with joints that many times as stiff; 1: do not
 };
 

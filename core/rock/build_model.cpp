@@ -301,7 +301,8 @@ Setup build_model(const CaseDef& def)
     if (def.insitu.given)
     {
         const std::string& material = def.domain.given ? def.domain.material : rock.blocks.front().material;
-        model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, tilted_gravity(def), model.origin);
+        model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, tilted_gravity(def),
+                                  model.origin);
     }
     model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
     const JointSurroundings around{

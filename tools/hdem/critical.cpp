@@ -7,8 +7,8 @@
 #include "parallel/critical_search.h"
 #include "tools/hdem/critical_options.h"
 #include "tools/hdem/screen.h"
-#include "tools/hdem/signals.h"
 #include "tools/hdem/signal_watch.h"
+#include "tools/hdem/signals.h"
 #include "tools/hdem/trial_file.h"
 
 #include <fmt/format.h>
@@ -60,8 +60,8 @@ class Critical
         const std::array<bool, 2> stands = look_at_ends();
         show(false);
         if (stands[0] == stands[1])
-            refuse(fmt::format("--vary {}={}:{}: (at both ends the case {}, {}). Give a range in which it begins to fail.", vary_.key,
-                               vary_.low, vary_.high, stands[0] ? "stands" : "fails", options_.fails));
+            refuse(fmt::format("--vary {}={}:{}: (at both ends the case {}, {}). Give a range in which it begins to fail.",
+                               vary_.key, vary_.low, vary_.high, stands[0] ? "stands" : "fails", options_.fails));
         const CriticalRange range = stands[0] ? CriticalRange{vary_.low, vary_.high} : CriticalRange{vary_.high, vary_.low};
         return search_between(
             range, options_.tolerance.value_or((vary_.high - vary_.low) / 200.0), threads_,
@@ -200,8 +200,8 @@ std::string question_of(const CriticalOptions& options)
     for (const std::string& text : options.overrides)
         overrides.push_back(parse_override(text));
     const CaseFile file = read_case_file(options.case_file, overrides);
-    std::string sum = file.source.text() + fmt::format("\n{}\n{}\n{}", fmt::join(options.overrides, "\n"), options.vary.substr(0, options.vary.find('=')),
-                                                       options.fails);
+    std::string sum = file.source.text() + fmt::format("\n{}\n{}\n{}", fmt::join(options.overrides, "\n"),
+                                                       options.vary.substr(0, options.vary.find('=')), options.fails);
     for (const auto& [name, content] : file.files)
         sum += name + sha256_hex(content);
     return sum;
@@ -278,7 +278,8 @@ int critical_command(const CriticalOptions& options)
     }
     catch (const SearchStopped&)
     {
-        log.line(fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
+        log.line(
+            fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
         return 128 + interrupt();
     }
 }

@@ -132,16 +132,18 @@ void refuse_driven(const CaseDef& def)
 {
     const auto refuse = [](const std::string& what)
     {
-        throw InputError(Problem{.key = {},
-                                 .text = fmt::format("hdem fos: {} (a motion is prescribed: the rock is never at rest). End it before the "
-                                                     "last stage.",
-                                                     what)});
+        throw InputError(
+            Problem{.key = {},
+                    .text = fmt::format("hdem fos: {} (a motion is prescribed: the rock is never at rest). End it before the "
+                                        "last stage.",
+                                        what)});
     };
     for (const BoundaryDef& side : def.boundaries)
         if (side.kind == BoundaryKind::velocity && !side.velocity.isZero() && acts_in(side, def.stages.back().name))
             refuse(fmt::format("boundary \"{}\": velocity", printable(side.name)));
     for (const LoadDef& load : def.loads)
-        if ((load.velocity_x || load.velocity_y || load.angular_velocity) && !load.interval.until_cycle && !load.interval.until_time)
+        if ((load.velocity_x || load.velocity_y || load.angular_velocity) && !load.interval.until_cycle &&
+            !load.interval.until_time)
             refuse("load: velocity");
 }
 
@@ -167,7 +169,8 @@ class Fos
         const std::vector<Index> gave_way = blocks_that_gave_way(last, found_rest, outcome.def.least_size);
         outcome.gave_way = names_of_blocks(last.model, gave_way);
         const bool runs_anew = !gave_way.empty() && outcome.def.begin == FactorStart::last_stage;
-        const Reference reference = find_reference(last, gave_way, runs_anew ? moment_before(before_, run_) : std::nullopt, threads_);
+        const Reference reference = find_reference(last, gave_way, runs_anew ? moment_before(before_, run_) : std::nullopt,
+                                                   threads_);
         const Model& model = reference.moment.model;
         outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
                                        greatest_factor);

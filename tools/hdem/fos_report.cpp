@@ -135,11 +135,11 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
     const SafetyFactor& f = outcome.factor;
     std::vector<std::string> warnings;
     if (!outcome.gave_way.empty())
-        warnings.push_back(
-            fmt::format("these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
-                        outcome.def.begin == FactorStart::last_stage
-                            ? "It was run anew with a thousand times the strength; the factor is that of the blocks where they were."
-                            : "The factor is that of the rock as it lies now."));
+        warnings.push_back(fmt::format(
+            "these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
+            outcome.def.begin == FactorStart::last_stage
+                ? "It was run anew with a thousand times the strength; the factor is that of the blocks where they were."
+                : "The factor is that of the rock as it lies now."));
     if (const Trial* const first = f.first_failure(); first != nullptr && first->end == TrialEnd::undecided)
         warnings.push_back(
             fmt::format("the trial at F = {:.4f} is undecided and counts as failed ({}).", first->factor, first->reason));

@@ -49,7 +49,8 @@ void TrialFile::add(const std::string& search, double at, Json trial)
     entry.update(trial);
     trials_.push_back(std::move(entry));
     const Json all = {{"question", question_}, {"trials", trials_}};
-    write_atomically(file_, all.dump(1) + "\n", Flush::later);  // whole for whoever reads it after a kill; a power failure may cost trials
+    write_atomically(file_, all.dump(1) + "\n",
+                     Flush::later);  // whole for whoever reads it after a kill; a power failure may cost trials
 }
 
 std::optional<Trial> FactorTrialFile::find(FactorSearch search, double factor)

@@ -1,9 +1,8 @@
-#include "limit/strength_bound.h"
-
 #include "io/case_reader.h"
-#include "limit/linear_program.h"
 #include "verification/unit/case_run.h"
 
+#include "limit/linear_program.h"
+#include "limit/strength_bound.h"
 #include <gtest/gtest.h>
 
 #include <limits>

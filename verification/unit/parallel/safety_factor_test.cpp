@@ -1,9 +1,8 @@
-#include "parallel/safety_factor.h"
-
 #include "core/contact/contact_report.h"
 #include "core/rock/build_model.h"
 #include "io/case_reader.h"
 #include "parallel/reference_state.h"
+#include "parallel/safety_factor.h"
 
 #include <gtest/gtest.h>
 
@@ -157,10 +156,7 @@ class Remembered : public TrialStore
         trials_[{search, trial.factor}] = trial;
         ++runs;
     }
-    void forget_one()
-    {
-        trials_.erase(trials_.begin());
-    }
+    void forget_one() { trials_.erase(trials_.begin()); }
     int runs = 0;
 
   private:

@@ -1,7 +1,6 @@
-#include "core/rock/strength_reduction.h"
-
 #include "core/joint/all_laws.h"
 #include "core/rock/build_model.h"
+#include "core/rock/strength_reduction.h"
 #include "io/case_reader.h"
 #include "verification/unit/core/joint/law_point.h"
 
@@ -95,8 +94,9 @@ TEST(StrengthReduction, OfPlainJointsAndOfBlocksThatHaveMet)
 
 TEST(StrengthReduction, OnlyOfJointsThatAreNamed)
 {
-    const JointTable table = table_of(springs + "friction_angle_deg = 30.0\n[joint.bedding]\nnormal_stiffness = 1e10\nshear_stiffness = "
-                                                "1e9\nfriction_angle_deg = 20.0\n");
+    const JointTable table = table_of(springs +
+                                      "friction_angle_deg = 30.0\n[joint.bedding]\nnormal_stiffness = 1e10\nshear_stiffness = "
+                                      "1e9\nfriction_angle_deg = 20.0\n");
     const StageLaws reduced = reduced_laws(table, {.factor = 2.0, .joints = {0, 1}});
     EXPECT_DOUBLE_EQ(reduced.laws[0].friction_coefficient, table.laws[0].friction_coefficient);
     EXPECT_DOUBLE_EQ(2.0 * reduced.laws[1].friction_coefficient, table.laws[1].friction_coefficient);

@@ -1,5 +1,4 @@
 #include "core/stage/failure.h"
-
 #include "io/case_reader.h"
 #include "verification/unit/case_run.h"
 
