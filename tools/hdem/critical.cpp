@@ -18,6 +18,8 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -207,11 +209,13 @@ std::string question_of(const CriticalOptions& options)
     return sum;
 }
 
-std::optional<double> number_of(const std::string& text)
+/// Not finite where the text is no number.
+double number_of(const std::string& text)
 {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     char* end = nullptr;
     const double x = std::strtod(text.c_str(), &end);
-    return text.empty() || *end != '\0' || !std::isfinite(x) ? std::nullopt : std::optional(x);
+    return text.empty() || *end != '\0' ? none : x;
 }
 }  // namespace
 
@@ -219,13 +223,13 @@ Vary parse_vary(const std::string& text)
 {
     const auto equals = text.find('='), colon = text.rfind(':');
     const bool is_whole = equals != std::string::npos && colon != std::string::npos && colon > equals && equals > 0;
-    const auto low = is_whole ? number_of(text.substr(equals + 1, colon - equals - 1)) : std::nullopt;
-    const auto high = is_whole ? number_of(text.substr(colon + 1)) : std::nullopt;
-    if (!low || !high)
+    const double low = is_whole ? number_of(text.substr(equals + 1, colon - equals - 1)) : number_of("");
+    const double high = is_whole ? number_of(text.substr(colon + 1)) : number_of("");
+    if (!std::isfinite(low) || !std::isfinite(high))
         refuse(fmt::format("--vary {}: (not of the form KEY=LOW:HIGH). Write e.g. --vary gravity.tilt_deg=0:60.", printable(text)));
-    if (*low >= *high)
+    if (low >= high)
         refuse(fmt::format("--vary {}: (its end is not above its beginning). Give the lower number first.", printable(text)));
-    return {text.substr(0, equals), *low, *high};
+    return {text.substr(0, equals), low, high};
 }
 
 FailureCondition parse_condition(const std::string& text)
@@ -233,9 +237,10 @@ FailureCondition parse_condition(const std::string& text)
     const auto colon = text.find(':'), greater = text.rfind('>');
     FailureCondition condition;
     const std::string quantity = text.substr(0, colon);
-    const auto limit = greater == std::string::npos ? std::nullopt : number_of(text.substr(greater + 1));
+    const double limit = number_of(greater == std::string::npos ? "" : text.substr(greater + 1));
     const bool is_known = quantity == "displacement" || quantity == "rotation";
-    if (colon == std::string::npos || greater == std::string::npos || greater < colon + 2 || !is_known || !limit || *limit < 0.0)
+    if (colon == std::string::npos || greater == std::string::npos || greater < colon + 2 || !is_known || !std::isfinite(limit) ||
+        limit < 0.0)
         refuse(fmt::format("--fails {}: (not of the form displacement:BLOCK>METRES or rotation:BLOCK>DEGREES). Write e.g. --fails "
                            "'displacement:wedge>0.1', or * for any block.",
                            printable(text)));
@@ -244,7 +249,7 @@ FailureCondition parse_condition(const std::string& text)
     const std::string name = text.substr(colon + 1, greater - colon - 1);
     if (name != "*")
         condition.blocks = {name};
-    condition.limit = limit.value_or(0.0);
+    condition.limit = limit;
     return condition;
 }
 

@@ -101,8 +101,17 @@ std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedR
     for (const std::string& text : run.start.record.overrides)
         overrides.push_back(parse_override(text));
     LoadedCase loaded = load_case(run.start.record.case_text, run.start.record.files, run.start.record.case_file, overrides);
-    if (loaded.setup.model.stages.size() > 1)
-        loaded.setup.state = CheckpointReader(checkpoint_file(before_folder(run.start.folder))).state(loaded.setup.model);
+    const fs::path before = checkpoint_file(before_folder(run.start.folder));
+    const bool has_earlier_stages = loaded.setup.model.stages.size() > 1;
+    if (has_earlier_stages && !fs::exists(before))
+        throw InputError(
+            Problem{.key = {},
+                    .text = fmt::format(
+                        "{}: (is missing: the run in this folder was made by hdem run, and blocks did not stand in its last "
+                        "stage, which is to be run anew). Begin anew with --overwrite.",
+                        before.string())});
+    if (has_earlier_stages)
+        loaded.setup.state = CheckpointReader(before).state(loaded.setup.model);
     const Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state));
     return Moment{simulation.model(), simulation.state()};
 }

@@ -140,6 +140,11 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             outcome.def.begin == FactorStart::last_stage
                 ? "It was run anew with a thousand times the strength; the factor is that of the blocks where they were."
                 : "The factor is that of the rock as it lies now."));
+    if (!outcome.gave_way.empty() && outcome.def.begin == FactorStart::last_stage && f.as_given.stands && *f.as_given.stands > 1.0)
+        warnings.push_back(
+            "they fell by their own strength, but stand at a factor above 1 where the rock first comes to rest under great "
+            "strength: what "
+            "holds them depends on how the stress gets there. Count on less than 1, or let the stage relax slowly (relax_cycles).");
     if (const Trial* const first = f.first_failure(); first != nullptr && first->end == TrialEnd::undecided)
         warnings.push_back(
             fmt::format("the trial at F = {:.4f} is undecided and counts as failed ({}).", first->factor, first->reason));

@@ -61,7 +61,7 @@ struct Case
     Reference reference;
 };
 
-Case begin(const std::string& text)
+Case started(const std::string& text)
 {
     Case c{.def = read_case_text(text, "case.toml").def, .reference = {}};
     Setup setup = build_model(c.def);
@@ -75,7 +75,7 @@ Case begin(const std::string& text)
     return c;
 }
 
-SafetyFactor find(const Case& c, int threads = 1, TrialStore* store = nullptr)
+SafetyFactor factor_of(const Case& c, int threads = 1, TrialStore* store = nullptr)
 {
     return find_safety_factor(c.reference.moment, {.def = c.def.factor_of_safety, .bound = {}, .threads = threads, .store = store});
 }
@@ -89,8 +89,8 @@ const std::string once = "[factor_of_safety]\ncheck_stiffness = 1\n";
 
 TEST(SafetyFactor, IsThatOfTheFirstBlockToFail)
 {
-    const Case c = begin(slope(once));
-    const SafetyFactor found = find(c);
+    const Case c = started(slope(once));
+    const SafetyFactor found = factor_of(c);
     EXPECT_NEAR(found.as_given.middle(), slides_at(22.0), 0.005);
     ASSERT_NE(found.first_failure(), nullptr);
     EXPECT_EQ(found.first_failure()->failing, std::vector<Index>{2});
@@ -101,27 +101,27 @@ TEST(SafetyFactor, IsThatOfTheFirstBlockToFail)
 
 TEST(SafetyFactor, BlocksBelowTheLeastSizeMayFall)
 {
-    const SafetyFactor found = find(begin(slope(once + "least_size = 0.5\n")));
+    const SafetyFactor found = factor_of(started(slope(once + "least_size = 0.5\n")));
     EXPECT_NEAR(found.as_given.middle(), slides_at(30.0), 0.01);
     EXPECT_EQ(found.last_stable()->let_fall, std::vector<Index>{2});
 }
 
 TEST(SafetyFactor, JointsMayBeNamed)
 {
-    const SafetyFactor found = find(begin(slope(once + "reduce = [\"default\"]\n")));
+    const SafetyFactor found = factor_of(started(slope(once + "reduce = [\"default\"]\n")));
     EXPECT_NEAR(found.as_given.middle(), slides_at(30.0), 0.01);
 }
 
 TEST(SafetyFactor, BelowOneWhereTheRockDoesNotStand)
 {
-    const Case c = begin(slope(once + "least_size = 0.5\n", 15.0));
+    const Case c = started(slope(once + "least_size = 0.5\n", 15.0));
     EXPECT_EQ(c.reference.gave_way, std::vector<Index>{1});
-    EXPECT_NEAR(find(c).as_given.middle(), slides_at(15.0), 0.005);
+    EXPECT_NEAR(factor_of(c).as_given.middle(), slides_at(15.0), 0.005);
 }
 
 TEST(SafetyFactor, IsTheSameWithStifferJoints)
 {
-    const SafetyFactor found = find(begin(slope()));
+    const SafetyFactor found = factor_of(started(slope()));
     ASSERT_TRUE(found.stiffer && found.stiffer->is_closed());
     EXPECT_NEAR(found.stiffer->middle(), found.as_given.middle(), 0.01);
 }
@@ -129,7 +129,7 @@ TEST(SafetyFactor, IsTheSameWithStifferJoints)
 /// Blocks do not move when their joints are made stiffer: forces and places are those of before.
 TEST(SafetyFactor, StiffeningKeepsForces)
 {
-    const Case c = begin(slope());
+    const Case c = started(slope());
     const Moment& soft = c.reference.moment;
     const Moment stiff = stiffened_state(soft, 3.0);
     Simulation simulation(trial_model(stiff, {.stiffness = 3.0}), stiff.state, 1);
@@ -166,13 +166,13 @@ class Remembered : public TrialStore
 
 TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)
 {
-    const Case c = begin(slope(once));
+    const Case c = started(slope(once));
     Remembered store;
-    const SafetyFactor first = find(c, 1, &store);
+    const SafetyFactor first = factor_of(c, 1, &store);
     const int runs = store.runs;
     EXPECT_GT(runs, 3);
     store.forget_one();
-    const SafetyFactor again = find(c, 2, &store);
+    const SafetyFactor again = factor_of(c, 2, &store);
     EXPECT_EQ(store.runs, runs + 1);
     EXPECT_EQ(again.as_given.middle(), first.as_given.middle());
     EXPECT_EQ(again.trials.size(), first.trials.size());
@@ -180,7 +180,7 @@ TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)
 
 TEST(SafetyFactor, ASearchThatIsAskedToStopStops)
 {
-    const Case c = begin(slope(once));
+    const Case c = started(slope(once));
     std::stop_source source;
     source.request_stop();
     EXPECT_THROW(static_cast<void>(find_safety_factor(
@@ -193,7 +193,7 @@ TEST(SafetyFactor, PeakStrengthBesideTheResidualOne)
 {
     std::string text = slope(once + "least_size = 0.5\n");
     text.replace(text.find("[joint.smooth]"), 0, "cohesion = 4e3\nresidual_cohesion = 0.0\n");
-    const SafetyFactor found = find(begin(text));
+    const SafetyFactor found = factor_of(started(text));
     ASSERT_TRUE(found.peak && found.peak->is_closed());
     const double with_cohesion = slides_at(30.0) + 4e3 / (2700.0 * 9.81 * std::sin(20.0 * degree));
     EXPECT_NEAR(found.peak->middle(), with_cohesion, 0.01 * with_cohesion);
