@@ -186,7 +186,7 @@ class RockCheck : public CaseCheck
         if (!def_.insitu.stress)
             for (const char* key : {"gradient", "reference"})
                 belongs(key, "stress");
-        if (def_.insitu.surface && (def_.gravity.x() != 0.0 || def_.gravity.y() >= 0.0))
+        if (def_.insitu.surface && (def_.gravity.x() != 0.0 || def_.gravity.y() >= 0.0 || def_.gravity_tilt_deg != 0.0))
             problems_.add("insitu.surface", "[insitu]", "surface", "needs a gravity that points straight down",
                           "Give stress and gradient instead.");
     }

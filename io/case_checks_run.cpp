@@ -20,6 +20,7 @@ class RunCheck : public CaseCheck
             check_load(def_.loads[i], fmt::format("load[{}]", i), fmt::format("load {}", i + 1));
         check_settings();
         check_stages();
+        check_factor_of_safety();
         for (std::size_t i = 0; i < def_.histories.size(); ++i)
             check_history(def_.histories[i], fmt::format("history[{}]", i));
     }
@@ -246,6 +247,25 @@ class RunCheck : public CaseCheck
             else if (!seen.insert(quantity).second)
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity), "is listed twice",
                               "List it once.");
+    }
+
+    void check_factor_of_safety()
+    {
+        const FactorOfSafetyDef& def = def_.factor_of_safety;
+        const std::string path = "factor_of_safety", object = "[factor_of_safety]";
+        if (given(path + ".reduce") && def.reduce.empty())
+            problems_.add(path + ".reduce", object, "reduce = []", "weakens nothing",
+                          "Name joints, or write [\"joints\"] for all.");
+        Names known = joints_;
+        known.insert("joints");
+        for (const std::string& name : def.reduce)
+            check_reference(path + ".reduce", object, name, "joint", known);
+        if (def.bracket.y() <= def.bracket.x())
+            problems_.add(path + ".bracket", object, fmt::format("bracket = [{}, {}]", def.bracket.x(), def.bracket.y()),
+                          "its end is not above its beginning", "Give the lower factor first.");
+        else if (given(path + ".tolerance") && def.tolerance >= def.bracket.y() - def.bracket.x())
+            problems_.add(path + ".tolerance", object, fmt::format("tolerance = {}", def.tolerance),
+                          "is no less than the width of the bracket", "Give a smaller one.");
     }
 
     static constexpr const char* effects[] = {"acceleration", "force", "moment", "velocity_x", "velocity_y", "angular_velocity"};

@@ -41,7 +41,12 @@ SectionSpec gravity_section()
             {field<&CaseDef::gravity>({.name = "vector",
                                        .unit = "m/s2",
                                        .effect = "Acceleration [x, y]; y points up. Tilt it to tilt the model.",
-                                       .range = {.low = -1e6, .high = 1e6}})},
+                                       .range = {.low = -1e6, .high = 1e6}}),
+             field<&CaseDef::gravity_tilt_deg>({.name = "tilt_deg",
+                                                .unit = "deg",
+                                                .effect = "The model is tilted by this angle, anticlockwise: `vector` is turned "
+                                                          "clockwise by it. So one number tilts a model (`hdem critical`).",
+                                                .range = {.low = -180, .high = 180}})},
             whole_case};
 }
 

@@ -38,6 +38,9 @@ SectionSpec water_crack_section();
 // case_schema_boundary.cpp
 SectionSpec boundary_section();
 
+// case_schema_safety.cpp
+SectionSpec factor_of_safety_section();
+
 // case_schema_run.cpp: stages and results
 SectionSpec convergence_section();
 SectionSpec stage_section();

@@ -30,6 +30,13 @@ namespace hdem
 namespace
 {
 constexpr double stirs = 10.0;  ///< mean speeds of the criterion: calm rock in which a block is faster is calm no more
+
+void remove_block(Index block, Blocks& blocks)
+{
+    blocks.present[block] = 0;
+    blocks.inertia[block] = {};
+    blocks.motion[block].vx = blocks.motion[block].vy = blocks.motion[block].w = 0.0;
+}
 }  // namespace
 int default_threads()
 {
@@ -155,16 +162,25 @@ void Simulation::excavate(const std::string& name)
     }
     for (Index i = 0; i < model_.blocks(); ++i)
         if (removed[i] != 0)
-        {
-            state_.blocks.present[i] = 0;
-            state_.blocks.inertia[i] = {};
-            state_.blocks.motion[i].vx = state_.blocks.motion[i].vy = state_.blocks.motion[i].w = 0.0;
-        }
+            remove_block(i, state_.blocks);
     std::erase_if(near, [&](Index i) { return state_.blocks.present[i] == 0; });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     state_.contacts_outdated = true;
     state_.excavation_cycle = state_.cycle;
+}
+
+void Simulation::take_away(const std::vector<Index>& blocks)
+{
+    const double stored = stored_energy(model_, state_).total();
+    const double changes = state_.ledger.contact_changes;
+    for (const Index block : blocks)
+        remove_block(block, state_.blocks);
+    std::erase_if(state_.next_to_excavation, [&](Index i) { return state_.blocks.present[i] == 0; });
+    wake_all(state_.blocks);
+    state_.rest_changed = true;
+    renew_contacts();
+    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 
 void Simulation::change_sides(const BoundaryChange& sides)

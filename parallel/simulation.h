@@ -41,6 +41,8 @@ class Simulation
     void begin_stage(Index stage);
     /// Free blocks that have left the model are held where they are; their kinetic energy is removed.
     void hold_lost_blocks();
+    /// Take blocks out of the model, as an excavation does.
+    void take_away(const std::vector<Index>& blocks);
     void find_calm(const Equilibrium& now);
     /// Asked now and then within a static solution, from this thread: true breaks it off, and BrokenOff leaves the function that sought it.
     void ask_in_statics(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }

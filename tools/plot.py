@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws one frame of a run, or one of its histories. Called by `hdem plot`; see its --help.
+"""Draws one frame of a run, one of its histories, or its factor of safety. Called by `hdem plot`; see its --help.
 
 The blocks that stay in place decide the range of the colours: one fallen block must not wash out the rest. Detached blocks are
 drawn hatched where they are.
@@ -22,6 +22,7 @@ from matplotlib.patches import Patch    # noqa: E402
 
 from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E402
 from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
+from plot_factor import draw_factor    # noqa: E402
 from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
 from plot_rock import JOINTS, draw_crosses, draw_joints    # noqa: E402
 
@@ -62,10 +63,13 @@ def parse(arguments):
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
+    parser.add_argument("--factor", action="store_true", help="draw displacement against the factor of the trials of hdem fos instead")
     parser.add_argument("--title", help="instead of the case's title")
     parser.add_argument("--width", type=float, default=160.0, help="of the picture [mm] (default: 160)")
     parser.add_argument("--dpi", type=float, default=200.0, help="of a PNG (default: 200)")
     options = parser.parse_args(arguments)
+    if options.factor and (options.history or options.result.suffix == ".hdf"):
+        parser.error("argument --factor: needs the folder of hdem fos, and no --history")
     if options.frame != "last" and not options.frame.isdigit():
         parser.error("argument --frame: a number, or last")
     for name, low in (("width", 20.0), ("dpi", 10.0)):
@@ -241,15 +245,15 @@ def make_picture(options):
     """The file it is in."""
     single = options.result.suffix == ".hdf"
     run = None if single else open_run(options.result)
-    figure = draw_history(run, options) if options.history else draw_frame(run, options)
+    figure = draw_factor(run, options) if options.factor else draw_history(run, options) if options.history else draw_frame(run, options)
     output = options.output
     if output is None:
         folder = options.result if options.result.is_dir() else options.result.parent
-        name = options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
+        name = "factor_of_safety" if options.factor else options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
         output = folder / f"{as_file_name(name)}.png"
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
-    if run and not options.history and state_of(run):
+    if run and not options.history and not options.factor and state_of(run):
         print(f"the picture shows {one_line(moment_of(run, run.frame(options.frame)))}", file=sys.stderr)
     return output
 

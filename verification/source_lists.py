@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ("core", "parallel", "io", "verification", "perf", "tools")
+FOLDERS = ("core", "parallel", "io", "limit", "verification", "perf", "tools")
 
 
 def find_problems(root):

@@ -66,9 +66,9 @@ struct BartonBandis
         per_displacement,    ///< 1 / delta_p [1/m]
         damage,              ///< 1 / M
         scaled_roughness,    ///< JRC_n, for reports
-        scaled_strength      ///< JCS_n [Pa], for reports
+        strength_share       ///< 1; under strength reduction by F 1/F: tau_max is multiplied by it
     };
-    static_assert(scaled_strength + 1 < joint_numbers);  // the last is that of user_law.h
+    static_assert(strength_share + 1 < joint_numbers);  // the last is that of user_law.h
 
     static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
 
@@ -102,13 +102,13 @@ struct BartonBandis
         constexpr double ln10 = 2.302585092994046;
         const double scale = in.length / 0.1;
         n[scaled_roughness] = in.roughness * power(scale, -0.02 * in.roughness);
-        n[scaled_strength] = in.wall_strength * power(scale, -0.03 * in.roughness);
         n[residual_friction] = radians(in.residual_friction);
         n[roughness] = radians(n[scaled_roughness]) / ln10;
-        n[log_strength] = log(n[scaled_strength]);
+        n[log_strength] = log(in.wall_strength * power(scale, -0.03 * in.roughness));
         n[greatest_roughness] = radians(70.0) - n[residual_friction];
         n[peak_displacement] = in.length / 500.0 * power(n[scaled_roughness] / in.length, 0.33);
         n[damage] = 1.0 / in.damage;
+        n[strength_share] = 1.0;
         n[shear_stiffness] = max(in.shear_stiffness, steepest(n, in.normal_stress));
         return with_inverses(n);
     }
@@ -135,14 +135,15 @@ struct BartonBandis
 
     /// dw/du_p while delta grows from `from` to `to`. dw = tan(m i / M) d delta, and of d delta the share 1 - (d tau_max/d delta) / K_S is slip.
     /// No more than slip pays for.
+    /// @param t  tan(angle), not reduced
     template <typename R>
     [[nodiscard]] static R first_dilation(const BasicJointNumbers<R>& n, R from, R to, R i, R angle, R t, R normal)
     {
         const R one = 1.0, peak = n[peak_displacement], way = to - from;
         const R turned = angle - friction_angle(n, from / peak, i);
-        const R gain = normal * turned * (one + t * t) * (one - t * turned);  // in the middle of the step
+        const R gain = n[strength_share] * normal * turned * (one + t * t) * (one - t * turned);  // in the middle of the step
         const R dilation = tan(mobilised(R(0.5) * (from + to) / peak) * i * n[damage]);
-        return min(safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way)), t);
+        return min(safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way)), n[strength_share] * t);
     }
 
     /// i [rad]
@@ -153,7 +154,7 @@ struct BartonBandis
     }
     [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
     {
-        return stress * tan(n[residual_friction] + roughness_angle(n, stress));
+        return stress * n[strength_share] * tan(n[residual_friction] + roughness_angle(n, stress));
     }
     [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
     {
@@ -170,17 +171,24 @@ struct BartonBandis
         for (int k = 0; k < 60; ++k)
         {
             const double x = 0.5 * (low + high);
-            const bool bears = normal * tan(friction_angle(n, x, i)) >= magnitude(shear);
+            const bool bears = normal * n[strength_share] * tan(friction_angle(n, x, i)) >= magnitude(shear);
             (bears ? high : low) = x;
         }
         return high * n[peak_displacement];
+    }
+
+    static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
     }
 
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)
     {
-        const R zero = 0.0, one = 1.0, k = n[shear_stiffness];
+        const R zero = 0.0, k = n[shear_stiffness];
         const R w = m.opening;
         const R trial = step.last_shear - k * step.slide, sign = direction_of(trial);
         const R delta = max(m.state, magnitude(m.slip + trial * n[shear_compliance]));
@@ -198,7 +206,7 @@ struct BartonBandis
             i = min(max(free_i, zero), n[greatest_roughness]);
             share = mobilised(x);
         }
-        const R angle = base_angle(n, x) + share * i, t = tan(angle);
+        const R angle = base_angle(n, x) + share * i, whole = tan(angle), t = n[strength_share] * whole;
         const R excess = magnitude(trial) - before.stress * t;
         R mu = zero, dilation = zero, lambda = zero;
         if (any(excess > zero))  // most points of most cycles stick
@@ -208,8 +216,9 @@ struct BartonBandis
             if (is_rough)
             {
                 // d tau_max / d sigma; i falls as sigma grows.
-                mu = max(t - select(i == free_i, (one + t * t) * share * n[roughness], zero), zero);
-                dilation = select(grows, first_dilation(n, m.state, delta, i, angle, t, sigma), zero);
+                const R falls = select(i == free_i, (R(1.0) + whole * whole) * share * n[roughness], zero);
+                mu = n[strength_share] * max(whole - falls, zero);
+                dilation = select(grows, first_dilation(n, m.state, delta, i, angle, whole, sigma), zero);
                 const R climbing = max(excess, zero) / (k + before.stiffness * mu * dilation);
                 lambda = select(dilation > zero, climbing, lambda);
             }

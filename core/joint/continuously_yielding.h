@@ -43,7 +43,8 @@ struct ContinuouslyYielding
         lost_angle,      ///< phi_m0 - phi [rad]
         friction,        ///< tan phi
         first_friction,  ///< tan phi_m0
-        roughness        ///< 1 / R [1/m]
+        roughness,       ///< 1 / R [1/m]
+        strength_share   ///< 1; under strength reduction by F 1/F: tau_m is multiplied by it
     };
 
     [[nodiscard]] static JointNumbers numbers(const ContinuouslyYieldingInput& in, JointNumbers n)
@@ -56,6 +57,7 @@ struct ContinuouslyYielding
         n[friction] = tan(radians(in.friction));
         n[first_friction] = tan(radians(in.first_friction));
         n[roughness] = 1.0 / in.roughness;
+        n[strength_share] = 1.0;
         return n;
     }
 
@@ -68,24 +70,37 @@ struct ContinuouslyYielding
         return min(k, n[greatest_stiffness]);
     }
 
-    /// tan phi_m after the plastic path P.
+    /// tau_m / sigma after the plastic path P: tan phi_m, or its share.
     template <typename R>
     [[nodiscard]] static R bound(const BasicJointNumbers<R>& n, R path)
     {
-        return tan(n[friction_angle] + n[lost_angle] * exp(-path * n[roughness]));
+        return n[strength_share] * tan(n[friction_angle] + n[lost_angle] * exp(-path * n[roughness]));
     }
 
-    /// tan(atan(slope) - phi), no less than 0.
+    /// tan(atan(slope) - phi), no less than 0, with the stress ratio that the whole strength would have.
     template <typename R>
     [[nodiscard]] static R dilation(const BasicJointNumbers<R>& n, R slope)
     {
-        return max((slope - n[friction]) / (R(1.0) + slope * n[friction]), R(0.0));
+        const R whole = slope / n[strength_share];
+        return max((whole - n[friction]) / (R(1.0) + whole * n[friction]), R(0.0));
     }
 
-    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) { return stress * n[first_friction]; }
+    [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
+    {
+        return stress * n[strength_share] * n[first_friction];
+    }
     [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
     {
         return 1.0 - exp(-m.state * n[roughness]);
+    }
+
+    static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
+    static void keep_peak(JointNumbers& n) { n[roughness] = 0.0; }
+    [[nodiscard]] static bool loses_strength(const JointNumbers& n) { return n[roughness] > 0.0 && n[lost_angle] > 0.0; }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_factor] *= times;
+        n[greatest_stiffness] *= times;
     }
 
     template <typename Curve, typename R>
@@ -98,7 +113,7 @@ struct ContinuouslyYielding
         const R sigma = max(before.stress, R(1.0));
         const R k = stiffness(n, select(step.last_normal > zero, step.last_normal, sigma));
 
-        const R most = sigma * n[first_friction], start = min(max(step.last_shear, -most), most);
+        const R most = sigma * (n[strength_share] * n[first_friction]), start = min(max(step.last_shear, -most), most);
         const R way = magnitude(step.slide), turned = direction_of(m.turn);
         const R sign = select(way > zero, -direction_of(step.slide), turned);
         const R tangent = bound(n, m.state), along = sign * start;

@@ -91,6 +91,29 @@ struct CoulombResidual
     }
     [[nodiscard]] static double damage_of(const JointNumbers&, const JointMemory& m) { return m.broken; }
 
+    static void weaken(JointNumbers& n, double factor)
+    {
+        for (const int i : {friction, cohesion, tension, residual_friction, residual_cohesion, residual_tension})
+            n[i] /= factor;
+    }
+    static void keep_peak(JointNumbers& n)
+    {
+        n[residual_friction] = n[friction];
+        n[residual_cohesion] = n[cohesion];
+        n[residual_tension] = n[tension];
+    }
+    [[nodiscard]] static bool loses_strength(const JointNumbers& n)
+    {
+        return n[residual_friction] < n[friction] || n[residual_cohesion] < n[cohesion] || n[residual_tension] < n[tension];
+    }
+    /// F from which on dilation takes more than residual friction pays for.
+    [[nodiscard]] static double greatest_factor(const JointNumbers& n) { return safe_ratio(n[residual_friction], n[dilation]); }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
+    }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)

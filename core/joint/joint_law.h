@@ -31,7 +31,7 @@
 
 namespace hdem
 {
-inline constexpr int joint_numbers = 19;
+inline constexpr int joint_numbers = 20;
 inline constexpr double no_limit = 1e30;  ///< a length or a stress that is never reached; finite, so that no lane gets a NaN
 
 /// Numbers of a joint, SI units, angles in radians; each law names its positions.

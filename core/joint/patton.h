@@ -80,6 +80,19 @@ struct Patton
     [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress) { return strength(n, stress); }
     [[nodiscard]] static double damage_of(const JointNumbers&, const JointMemory& m) { return m.broken; }
 
+    static void weaken(JointNumbers& n, double factor)
+    {
+        for (const int i : {friction, residual_friction, cohesion})  // sigma_T stays
+            n[i] /= factor;
+    }
+    /// F from which on slip climbs more than friction pays for.
+    [[nodiscard]] static double greatest_factor(const JointNumbers& n) { return safe_ratio(n[friction], n[dilation]); }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
+    }
+
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
                                                    BasicJointMemory<R>& m)

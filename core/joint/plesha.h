@@ -32,7 +32,8 @@ struct Plesha
         shear_compliance,  ///< 1 / K_S
         friction,          ///< tan phi
         roughness,         ///< alpha_0 [rad]
-        wear               ///< C [m^2/J]
+        wear,              ///< C [m^2/J]
+        strength_share     ///< 1; under strength reduction by F 1/F: tau_max is multiplied by it
     };
 
     [[nodiscard]] static JointNumbers numbers(const PleshaInput& in, JointNumbers n)
@@ -42,15 +43,25 @@ struct Plesha
         n[friction] = tan(radians(in.friction));
         n[roughness] = radians(in.roughness);
         n[wear] = in.wear;
+        n[strength_share] = 1.0;
         return n;
     }
 
     [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
     {
         const double tilt = tan(n[roughness]);
-        return stress * (n[friction] + tilt) / (1.0 - n[friction] * tilt);
+        return stress * n[strength_share] * (n[friction] + tilt) / (1.0 - n[friction] * tilt);
     }
     [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m) { return 1.0 - exp(-n[wear] * m.state); }
+
+    static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
+    static void keep_peak(JointNumbers& n) { n[wear] = 0.0; }
+    [[nodiscard]] static bool loses_strength(const JointNumbers& n) { return n[wear] > 0.0 && n[roughness] > 0.0; }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
+    }
 
     template <typename Curve, typename R>
     [[nodiscard]] static BasicJointStress<R> react(const BasicJointNumbers<R>& n, const BasicJointStep<R>& step,
@@ -60,7 +71,8 @@ struct Plesha
         const R w = m.opening;
         const R trial = step.last_shear - k * step.slide, sign = direction_of(trial), slipped = sign * m.slip;
         const R tilt = tan(n[roughness] * exp(-n[wear] * m.state)), phi = n[friction];
-        const R mu_up = (phi + tilt) / (one - phi * tilt), mu_down = max((phi - tilt) / (one + phi * tilt), zero);
+        const R share = n[strength_share];
+        const R mu_up = share * ((phi + tilt) / (one - phi * tilt)), mu_down = share * max((phi - tilt) / (one + phi * tilt), zero);
         const BasicCurvePoint<R> before = Curve::at(n, step.closure + w);
         const auto open = before.stress <= zero;
 

@@ -44,7 +44,8 @@ struct SaebAmadei
         rock_cohesion,
         rock_friction,  ///< tan phi_0
         residual_slip,
-        residual_share
+        residual_share,
+        strength_share  ///< 1; under strength reduction by F 1/F: tau_p and tau_r are multiplied by it
     };
 
     [[nodiscard]] static JointNumbers numbers(const SaebAmadeiInput& in, JointNumbers n)
@@ -58,6 +59,7 @@ struct SaebAmadei
         n[rock_friction] = tan(radians(in.rock_friction));
         n[residual_slip] = in.residual_slip;
         n[residual_share] = in.residual_share;
+        n[strength_share] = 1.0;
         return n;
     }
 
@@ -91,7 +93,8 @@ struct SaebAmadei
         const R peak_rate = climb * whole + normal * (climb_rate * whole + climb * whole_rate) + (one - whole) * n[rock_friction] -
                             whole_rate * rock;
         const R lost = (one - n[residual_share]) * worn, kept = one - lost * (one - x);
-        return {peak * kept, peak_rate * kept + select(x < one, peak * lost / n[rock_strength], R(0.0))};
+        const R share = n[strength_share];
+        return {share * (peak * kept), share * (peak_rate * kept + select(x < one, peak * lost / n[rock_strength], R(0.0)))};
     }
 
     /// sigma at a closure and a slip u >= 0, from a guess.
@@ -128,6 +131,15 @@ struct SaebAmadei
     [[nodiscard]] static double damage_of(const JointNumbers& n, const JointMemory& m)
     {
         return min(m.state / n[residual_slip], 1.0);
+    }
+
+    static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
+    static void keep_peak(JointNumbers& n) { n[residual_share] = 1.0; }
+    [[nodiscard]] static bool loses_strength(const JointNumbers& n) { return n[residual_share] < 1.0; }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
     }
 
     template <typename Curve, typename R>

@@ -22,21 +22,19 @@ int keep_user_law(const UserLawInput& input)
     return static_cast<int>(kept_laws().size());
 }
 
-void ask_user_law(int number, int from, int count, UserLawPoints& points)
+void ask_user_law(int number, const UserLawSprings& springs, int from, int count, UserLawPoints& points)
 {
-    if (number == 0)
-        return;
     const UserLawInput& law = kept_laws()[static_cast<std::size_t>(number) - 1];
     for (int i = from; i < from + count; ++i)
     {
         points.energy[i] = std::numeric_limits<double>::quiet_NaN();
-        points.normal_tangent[i] = law.normal_stiffness;
+        points.normal_tangent[i] = springs.normal;
     }
     const hdem_joint_points asked{.count = count,
                                   .parameter_count = static_cast<int>(law.parameters.size()),
                                   .parameters = law.parameters.data(),
-                                  .normal_stiffness = law.normal_stiffness,
-                                  .shear_stiffness = law.shear_stiffness,
+                                  .normal_stiffness = springs.normal,
+                                  .shear_stiffness = springs.shear,
                                   .closure = &points.closure[from],
                                   .slide = &points.slide[from],
                                   .last_shear = &points.last_shear[from],
@@ -53,6 +51,6 @@ void ask_user_law(int number, int from, int count, UserLawPoints& points)
     law.function(&asked);
     for (int i = from; i < from + count; ++i)
         if (std::isnan(points.energy[i]))
-            points.energy[i] = 0.5 * points.normal[i] * points.normal[i] / law.normal_stiffness;
+            points.energy[i] = 0.5 * points.normal[i] * points.normal[i] / springs.normal;
 }
 }  // namespace hdem

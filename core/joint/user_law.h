@@ -15,8 +15,7 @@ struct UserLawInput
 {
     JointFunction function = nullptr;
     std::vector<double> parameters;
-    double normal_stiffness = 0.0;  ///< K_N [Pa/m]
-    double shear_stiffness = 0.0;   ///< K_S [Pa/m]
+    double shear_stiffness = 0.0;  ///< K_S [Pa/m]
 };
 
 /// What a call takes and gives, for one to four points.
@@ -32,8 +31,14 @@ struct UserLawPoints
 /// Keep a joint for the run. @return its number, from 1 on
 [[nodiscard]] int keep_user_law(const UserLawInput& input);
 
+/// K_N and K_S that the function sees [Pa/m].
+struct UserLawSprings
+{
+    double normal, shear;
+};
+
 /// Points `from` to `from + count - 1` of the joint with that number.
-void ask_user_law(int number, int from, int count, UserLawPoints& points);
+void ask_user_law(int number, const UserLawSprings& springs, int from, int count, UserLawPoints& points);
 
 /// Memory: state and turn are the law's own; opening is w; broken means nothing.
 /// @see verification/unit/core/joint/user_law_test.cpp
@@ -43,6 +48,7 @@ struct UserLaw
     {
         shear_stiffness = curve_numbers,
         shear_compliance,           ///< 1 / K_S
+        strength_share,             ///< 1; under strength reduction by F 1/F
         number = joint_numbers - 1  ///< of keep_user_law; no other law has anything but 0 here
     };
 
@@ -50,6 +56,7 @@ struct UserLaw
     {
         n[shear_stiffness] = in.shear_stiffness;
         n[shear_compliance] = compliance_of(in.shear_stiffness);
+        n[strength_share] = 1.0;
         n[number] = keep_user_law(in);
         return n;
     }
@@ -59,21 +66,28 @@ struct UserLaw
         JointMemory fresh;
         return react<Linear>(n, JointStep{stress / n[curve_stiffness], 0.0, 0.0, stress}, fresh).strength;
     }
+    static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
+    static void stiffen(JointNumbers& n, double times)
+    {
+        n[shear_stiffness] *= times;
+        n[shear_compliance] /= times;
+    }
     [[nodiscard]] static double damage_of(const JointNumbers&, const JointMemory& m) { return m.broken; }
 
     static void ask(const BasicJointNumbers<double>& n, UserLawPoints& points)
     {
-        ask_user_law(static_cast<int>(n[number]), 0, 1, points);
+        ask_user_law(static_cast<int>(n[number]), {n[curve_stiffness], n[shear_stiffness] / n[strength_share]}, 0, 1, points);
     }
     /// Lanes of one joint at once. Lanes of other laws have no number: nobody is asked.
     static void ask(const BasicJointNumbers<Pack>& n, UserLawPoints& points)
     {
         const Pack::V& joint = n[number].v;
-        if (joint[0] == joint[1] && joint[1] == joint[2] && joint[2] == joint[3])
-            ask_user_law(static_cast<int>(joint[0]), 0, lanes, points);
-        else
-            for (int i = 0; i < lanes; ++i)
-                ask_user_law(static_cast<int>(joint[i]), i, 1, points);
+        const bool is_one = joint[0] == joint[1] && joint[1] == joint[2] && joint[2] == joint[3];
+        for (int i = 0; i < (is_one ? 1 : lanes); ++i)
+            if (joint[i] != 0.0)
+                ask_user_law(static_cast<int>(joint[i]),
+                             {n[curve_stiffness].v[i], n[shear_stiffness].v[i] / n[strength_share].v[i]}, i, is_one ? lanes : 1,
+                             points);
     }
 
     template <typename R>
@@ -92,7 +106,9 @@ struct UserLaw
         const auto give = [](UserLawPoints::Values& to, const R& value) { std::memcpy(to.data(), &value, sizeof value); };
         give(points.closure, step.closure);
         give(points.slide, step.slide);
-        give(points.last_shear, step.last_shear);
+        // A strength tau_max / F is that of the law for F times the shear stress, by a shear spring F times as stiff.
+        const R share = n[strength_share];
+        give(points.last_shear, select(share > R(0.0), step.last_shear / max(share, R(1e-200)), R(0.0)));
         give(points.last_normal, step.last_normal);
         give(points.slip, m.slip);
         give(points.state, m.state);
@@ -102,8 +118,8 @@ struct UserLaw
         const R zero = 0.0, w = m.opening, k = n[shear_compliance];
         BasicJointStress<R> now;
         now.normal = loaded<R>(points.normal);
-        now.shear = loaded<R>(points.shear);
-        now.strength = loaded<R>(points.strength);
+        now.shear = loaded<R>(points.shear) * share;
+        now.strength = loaded<R>(points.strength) * share;
         now.opening = loaded<R>(points.opening);
         now.energy = loaded<R>(points.energy);
         now.normal_stiffness = loaded<R>(points.normal_tangent);

@@ -424,6 +424,26 @@ struct StageDef
     std::optional<DampingPreset> damping;  ///< from here on
 };
 
+/// What the trials of a strength reduction begin from, where blocks gave way in the last stage.
+enum class FactorStart
+{
+    last_stage,  ///< the stage is run anew under great strength
+    last_state   ///< where they lie
+};
+
+/// [factor_of_safety]: strength reduction by `hdem fos`, once all stages have run.
+struct FactorOfSafetyDef
+{
+    std::vector<std::string> reduce = {"joints"};  ///< "joints": all; or names of [joint.NAME]
+    Vec2 bracket = {0.5, 3.0};                     ///< factors that the search begins with where no bound is known [-]
+    double tolerance = 0.01;                       ///< width of the last bracket [-]
+    std::optional<double> displacement;            ///< a block that moved farther has failed; not given: core/stage/failure.h [m]
+    double least_size = 0.0;                       ///< smaller blocks may fall [m2]
+    FactorStart begin = FactorStart::last_stage;
+    bool peak = true;              ///< find the factor of the peak strength too, where slip or breaking takes some
+    double check_stiffness = 3.0;  ///< look whether the factor is the same with joints that many times as stiff; 1: do not
+};
+
 /// [[history]]: quantities sampled every n cycles into results.h5.
 struct HistoryDef
 {
@@ -463,13 +483,15 @@ struct CaseDef
     WaterDef water;
     std::vector<WaterCrackDef> water_cracks;
     std::vector<BoundaryDef> boundaries;
-    Vec2 gravity = {0.0, -9.81};  ///< [m/s2]
+    Vec2 gravity = {0.0, -9.81};    ///< [m/s2]
+    double gravity_tilt_deg = 0.0;  ///< by which the model is tilted, anticlockwise [deg]
     std::vector<LoadDef> loads;
     ContactDef contact;
     DampingDef damping;
     TimeDef time;
     ConvergenceDef convergence;
     std::vector<StageDef> stages;
+    FactorOfSafetyDef factor_of_safety;
     std::vector<HistoryDef> histories;
     OutputDef output;
 };

@@ -4,6 +4,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
+#include "core/geometry/unit_direction.h"
 #include "core/motion/time_step.h"
 #include "core/rock/joint_laws.h"
 #include "core/rock/resolve_names.h"
@@ -262,6 +263,14 @@ void add_initial_state(const RockMass& rock, const std::vector<Index>& order, co
 
 }  // namespace
 
+Vec2 tilted_gravity(const CaseDef& def)
+{
+    if (def.gravity_tilt_deg == 0.0)
+        return def.gravity;
+    const Vec2 d = unit_direction(def.gravity_tilt_deg);
+    return {d.x() * def.gravity.x() + d.y() * def.gravity.y(), d.x() * def.gravity.y() - d.y() * def.gravity.x()};
+}
+
 void set_mobility(const Model& model, Index block, bool is_free, Blocks& blocks)
 {
     blocks.inertia[block] = is_free ? model.full_inertia[block] : BlockInertia{};
@@ -330,7 +339,8 @@ Setup build_model(const CaseDef& def)
     if (def.insitu.given)
     {
         const std::string& material = def.domain.given ? def.domain.material : rock.blocks.front().material;
-        model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, def.gravity, model.origin);
+        model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, tilted_gravity(def),
+                                  model.origin);
     }
     model.mean_size = std::sqrt(total_area / static_cast<double>(rock_of(rock).size()));
     const JointSurroundings around{
@@ -352,7 +362,7 @@ Setup build_model(const CaseDef& def)
     setup.state.contacts.has_memory = model.joints.has_memory();
     setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory() || is_stiffness_changed(model);
 
-    model.gravity = def.gravity;
+    model.gravity = tilted_gravity(def);
     model.contact = def.contact;
     model.damping = def.damping;
     model.convergence = def.convergence;

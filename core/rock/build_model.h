@@ -8,6 +8,9 @@
 
 namespace hdem
 {
+/// The case's gravity as the tilted model has it [m/s2].
+[[nodiscard]] Vec2 tilted_gravity(const CaseDef& def);
+
 struct Setup
 {
     Model model;

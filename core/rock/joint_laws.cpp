@@ -108,10 +108,7 @@ Law law_of(const JointDef& joint, const JointSurroundings& around, const JointNu
                                                     .residual_share = joint.residual_share},
                                     curve);
     case JointLaw::library:
-        return law_with<UserLaw>(UserLawInput{.function = joint.function,
-                                              .parameters = joint.parameters,
-                                              .normal_stiffness = joint.normal_stiffness,
-                                              .shear_stiffness = k},
+        return law_with<UserLaw>(UserLawInput{.function = joint.function, .parameters = joint.parameters, .shear_stiffness = k},
                                  curve);
     case JointLaw::coulomb:
         break;

@@ -13,10 +13,16 @@
 #include "core/motion/step_control.h"
 #include "core/state/state.h"
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hdem
 {
+/// Bounds of a load that acts for ever, whatever the cycle.
+inline constexpr std::int64_t always_from = std::numeric_limits<std::int64_t>::min() / 2;
+inline constexpr std::int64_t always_until = std::numeric_limits<std::int64_t>::max() / 2;
+
 /// What the rules follow from.
 struct StageSetting
 {

@@ -5,12 +5,14 @@ _hdem_words()
 {
     case "$1" in
         run) echo "-o --output --restart --overwrite --max-wall --method --threads --set -q --quiet -h --help" ;;
+        critical) echo "--vary --fails --tolerance -o --output --overwrite --threads --set -q --quiet -h --help" ;;
+        fos) echo "-o --output --overwrite --threads --set -q --quiet -h --help" ;;
         check) echo "--set --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
-        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --crosses --history --title --width --dpi -h --help" ;;
+        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --crosses --history --factor --title --width --dpi -h --help" ;;
         report) echo "-o --output -h --help" ;;
-        *) echo "run check info schema plot report --version -h --help" ;;
+        *) echo "run fos critical check info schema plot report --version -h --help" ;;
     esac
 }
 
@@ -23,7 +25,7 @@ _hdem()
         --method) mapfile -t COMPREPLY < <(compgen -W "force impulse hybrid" -- "$word"); return ;;
         --colour) mapfile -t COMPREPLY < <(compgen -W "displacement displacement_x displacement_y rotation velocity stress stress_xx stress_yy stress_xy regime material none" -- "$word"); return ;;
         --frame) mapfile -t COMPREPLY < <(compgen -W "last" -- "$word"); return ;;
-        --max-wall | --threads | --set | --window | --range | --history | --title | --width | --dpi) return ;;
+        --max-wall | --threads | --set | --vary | --fails | --tolerance | --window | --range | --history | --title | --width | --dpi) return ;;
     esac
     if [[ $word == -* || -z $command ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_hdem_words "$command")" -- "$word")
@@ -31,7 +33,7 @@ _hdem()
     fi
     compopt -o filenames 2>/dev/null
     case "$command" in
-        run | check) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word") ;;
+        run | check | fos | critical) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
     esac
 }

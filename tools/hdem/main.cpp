@@ -44,6 +44,39 @@ void add_run(CLI::App& app, RunOptions& options)
         });
 }
 
+void add_fos(CLI::App& app, FosOptions& options)
+{
+    CLI::App* fos = app.add_subcommand("fos", "Find the factor of safety: run a case, then divide its strength until blocks fail");
+    RunOptions& run = options.run;
+    fos->add_option("case", run.case_file, "Case file (TOML); its table [factor_of_safety] says how")->required();
+    fos->add_option("-o,--output", run.folder, "Folder of the results; default: the case file's name without its ending");
+    fos->add_flag("--overwrite", run.overwrite, "Begin anew in a folder that has trials or a run that was cut short");
+    fos->add_option("--threads", run.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    fos->add_option("--set", run.overrides, "key.path=value instead of the case file's; repeatable");
+    fos->add_flag("-q,--quiet", run.quiet, "Nothing on the screen but errors; run.log has it all");
+}
+
+void add_critical(CLI::App& app, CriticalOptions& options)
+{
+    CLI::App* critical = app.add_subcommand("critical", "Find the value of a number of the case at which blocks begin to fail");
+    critical->add_option("case", options.case_file, "Case file (TOML)")->required();
+    critical
+        ->add_option("--vary", options.vary,
+                     "KEY=LOW:HIGH; the key as --set has it, e.g. gravity.tilt_deg=0:60 or load[0].force[1]=-1e6:0")
+        ->required();
+    critical
+        ->add_option("--fails", options.fails,
+                     "When a run has failed: displacement:BLOCK>METRES or rotation:BLOCK>DEGREES, * for any free block")
+        ->required();
+    critical->add_option("--tolerance", options.tolerance, "Width of the last bracket; default: a 200th of the range")
+        ->check(CLI::PositiveNumber);
+    critical->add_option("-o,--output", options.folder, "Folder of the results; default: the case's name with _critical");
+    critical->add_flag("--overwrite", options.overwrite, "Forget the trials that the folder holds");
+    critical->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    critical->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");
+    critical->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
+}
+
 void add_check(CLI::App& app, CheckOptions& options)
 {
     CLI::App* check = app.add_subcommand("check", "Read a case and generate its blocks, without running it");
@@ -86,6 +119,11 @@ int dispatch(int argc, char** argv)
     bool markdown = false;
     add_run(app, run);
     add_check(app, check);
+    FosOptions fos;
+    fos.run.command_line = run.command_line;
+    add_fos(app, fos);
+    CriticalOptions critical;
+    add_critical(app, critical);
     CLI::App* info = app.add_subcommand("info", "Say what a file holds: results, a frame, a checkpoint, a case");
     std::string file;
     info->add_option("file", file, "Folder of a run, results.h5, blocks_NNNNNN.hdf, contacts_NNNNNN.hdf, checkpoint.h5 or a case")
@@ -113,6 +151,10 @@ int dispatch(int argc, char** argv)
         say("{}", describe_file(file));
         return exit_done;
     }
+    if (app.got_subcommand("fos"))
+        return fos_command(fos);
+    if (app.got_subcommand("critical"))
+        return critical_command(critical);
     if (*plot)
         return run_script("plot", "plot.py", plot->remaining());
     if (*report)

@@ -33,6 +33,26 @@ struct RunOptions
 
 int run_command(const RunOptions& options);
 
+struct FosOptions
+{
+    RunOptions run;
+};
+int fos_command(const FosOptions& options);
+
+struct CriticalOptions
+{
+    std::string case_file;
+    std::string vary;    ///< KEY=LOW:HIGH
+    std::string fails;   ///< displacement:BLOCK>0.1
+    std::string folder;  ///< of the results; "" = the case's name with _critical
+    std::optional<double> tolerance;
+    std::optional<int> threads;
+    std::vector<std::string> overrides;
+    bool overwrite = false;
+    bool quiet = false;
+};
+int critical_command(const CriticalOptions& options);
+
 struct CheckOptions
 {
     std::string case_file;

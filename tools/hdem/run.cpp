@@ -2,9 +2,9 @@
 
 #include "io/atomic_file.h"
 #include "io/run_recorder.h"
+#include "tools/hdem/finished_run.h"
 #include "tools/hdem/patience.h"
 #include "tools/hdem/run_keeper.h"
-#include "tools/hdem/run_report.h"
 #include "tools/hdem/signals.h"
 #include "tools/hdem/timing.h"
 
@@ -51,7 +51,7 @@ void save_last_moment(Log& log, const RunError& error, const Simulation& simulat
 }
 }  // namespace
 
-int run_command(const RunOptions& options)
+FinishedRun run_case(const RunOptions& options, Observer* also)
 {
     const RunKeeper::Clock::time_point begin = RunKeeper::Clock::now();
     catch_checkpoint_requests();
@@ -59,17 +59,22 @@ int run_command(const RunOptions& options)
                                                                        .begin = begin,
                                                                        .max_wall = options.max_wall,
                                                                        .quiet = options.quiet});
-    RunStart start = start_run(options);
+    FinishedRun run{.start = start_run(options)};
+    RunStart& start = run.start;
     const fs::path& folder = start.folder;
     Setup& setup = start.loaded.setup;
-    Simulation simulation(std::move(setup.model), std::move(setup.state), options.threads.value_or(default_threads()));
+    run.simulation = std::make_unique<Simulation>(std::move(setup.model), std::move(setup.state),
+                                                  options.threads.value_or(default_threads()));
+    Simulation& simulation = *run.simulation;
     const std::vector<Problem> problems = start.restarted ? std::vector<Problem>{} : simulation.find_problems();
     if (!problems.empty())
         throw InputError(start.loaded.file.source.located(problems));
     patience.reset();
 
     clear_for_run(start, options.overwrite);
-    Log log(folder / "run.log", options.quiet, start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
+    run.log = std::make_unique<Log>(folder / "run.log", options.quiet,
+                                    start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
+    Log& log = *run.log;
     print_banner(log, start, options, simulation);
 
     const std::unique_ptr<RunRecorder> recorder = make_recorder(start, options, simulation);
@@ -77,22 +82,24 @@ int run_command(const RunOptions& options)
     Session session{.first_cycle = simulation.state().cycle};
     TimedObserver timed_rows(rows, session.output_seconds);
     TimedObserver timed_recorder(*recorder, session.output_seconds);
-    Observer* const observers[] = {&timed_rows, &timed_recorder};
+    std::vector<Observer*> observers{&timed_rows, &timed_recorder};
+    if (also != nullptr)
+        observers.push_back(also);
     RunKeeper keeper({folder, simulation.model().output, begin, options.max_wall}, start.record, *recorder, log);
     TimedKeeper timed_keeper(keeper, session.output_seconds);
     session.cpu_seconds = cpu_seconds();
     const auto first = RunKeeper::Clock::now();
     catch_interrupts();
-    std::vector<StageResult> stages;
     try
     {
-        stages = run_stages(simulation, observers, &timed_keeper);
+        run.stages = run_stages(simulation, observers, &timed_keeper);
         session.seconds = std::chrono::duration<double>(RunKeeper::Clock::now() - first).count();
         session.cpu_seconds = cpu_seconds() - session.cpu_seconds;
         if (keeper.exit_code())
         {
             recorder->show_interruption(simulation.model(), simulation.state());
-            return *keeper.exit_code();
+            run.exit_code = *keeper.exit_code();
+            return run;
         }
         recorder->finish(simulation.model(), simulation.state());
         keeper.finish(simulation);
@@ -102,14 +109,21 @@ int run_command(const RunOptions& options)
         save_last_moment(log, error, simulation, *recorder);
         throw;
     }
-    const RunSummary summary = summarise(start, simulation, stages, session, keeper.wall_seconds());
-    write_summary(folder / "summary.json", summary);
-    print_closing(log, summary, session, simulation, folder);
+    run.is_complete = true;
+    run.summary = summarise(start, simulation, run.stages, session, keeper.wall_seconds());
+    write_summary(folder / "summary.json", run.summary);
+    print_closing(log, run.summary, session, simulation, folder);
     if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > wrong_residual)
         throw RunError(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} (more than ten times what it should be: "
                         "the answer may be wrong by as much). Give a smaller time.step or time.stable_fraction. Results are in {}.",
                         watch.residual, watch.cycle, folder.string()));
-    return summary.converged ? exit_done : exit_no_convergence;
+    run.exit_code = run.summary.converged ? exit_done : exit_no_convergence;
+    return run;
+}
+
+int run_command(const RunOptions& options)
+{
+    return run_case(options).exit_code;
 }
 }  // namespace hdem

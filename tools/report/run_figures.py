@@ -37,6 +37,18 @@ def picture(run, colour, caption, arguments):
     return figure(" ".join(["picture", colour, *arguments]), image, f"<b>{escape(caption)}</b>")
 
 
+def factor_picture(run, caption):
+    """Trials of `hdem fos` as `hdem plot --factor` draws them."""
+    options = plot.parse(["--factor", "--title", "", "--", str(run.folder)])
+    with matplotlib.rc_context(plot.STYLE | {"svg.fonttype": "path"}):
+        drawn = plot.draw_factor(run, options)
+        file = io.BytesIO()
+        drawn.savefig(file, format="svg", bbox_inches="tight", pad_inches=0.05, metadata={"Date": None})
+        plt.close(drawn)
+    data = base64.b64encode(file.getvalue()).decode()
+    return figure("factor of safety", f'<img class="picture" alt="{escape(caption, quote=True)}" src="data:image/svg+xml;base64,{data}">', f"<b>{escape(caption)}</b>")
+
+
 def thinned(x, y):
     """A curve of many points as the least and greatest value of each of its stretches, where they are."""
     if len(x) <= MOST_POINTS:

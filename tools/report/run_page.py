@@ -5,7 +5,8 @@ from html import escape
 import numpy as np
 
 import run_figures
-from hdem_io import ResultError
+from hdem_io import ResultError, open_run
+from plot_factor import SEARCHES, factor_of
 from shell import anchor, card, document, number
 
 # of summary.json, what it is, unit
@@ -117,6 +118,33 @@ def summary_section(summary, last):
     return warnings + stages(summary) + facts(rows + detached)
 
 
+def bracket_text(bracket):
+    if not isinstance(bracket, dict):
+        return "not looked for"
+    low, high = bracket.get("stable_at"), bracket.get("failed_at")
+    if low is None or high is None:
+        return "nothing fails" if high is None else "fails at any strength"
+    return f"{0.5 * (low + high):.4f}: {low:.4f} stands, {high:.4f} fails"
+
+
+def factor_section(run, summary):
+    """Of `hdem fos`; empty for other runs."""
+    factor = factor_of(summary)
+    if factor is None:
+        return ""
+    rows = [("factor of safety", bracket_text(factor), ""), ("with peak strength throughout", bracket_text(factor.get("peak")), ""),
+            ("with stiffer joints", bracket_text(factor.get("stiffer")), ""), ("bound by limit analysis", str(factor.get("bound_text", "")), ""),
+            ("blocks that fail first", ", ".join(map(str, factor.get("failing_blocks", []))) or "none", "")]
+    warnings = "".join(f'<p class="missed">{escape(str(text))}</p>' for text in factor.get("warnings", []))
+    trials = "".join(f'<tr><td>{escape(SEARCHES[t["search"]][0])}</td><td class="n">{t["factor"]:.4f}</td><td>{escape(t["verdict"])}</td>'
+                     f'<td class="n">{number(t["cycles"])}</td><td class="n">{metres(t["displacement"])}</td><td>{escape(t["reason"])}</td></tr>' for t in factor["trials"])
+    table = ('<div class="wide"><table><thead><tr><th>trial</th><th class="n">F</th><th>verdict</th><th class="n">cycles</th><th class="n">moved</th><th>why</th></tr></thead>'
+             f"<tbody>{trials}</tbody></table></div>")
+    failure = run.folder / "failure"
+    picture = run_figures.picture(open_run(failure), "displacement", "Blocks that fail, hatched: displacement in the failing trial of the least factor", []) if (failure / "results.h5").exists() else ""
+    return warnings + facts(rows) + f'<div class="pictures">{run_figures.factor_picture(run, "Displacement against the factor")}{picture}</div>' + table
+
+
 def ledger(run):
     """Every term at the last sample, its share of all that was put in, and what is left over."""
     table = run.energy()
@@ -172,6 +200,7 @@ def build(run, summary, log):
     last, where = run.blocks("last"), run.provenance()
     first = str(run.frames[0].number)
     parts = {"Summary": summary_section(summary, last),
+             "Factor of safety": factor_section(run, summary),
              "Model": run_figures.picture(run, "material", "Model at the start", ["--frame", first]),
              "Displacement and stress": pictures(run),
              "Histories": run_figures.convergence(run) + "".join(run_figures.history(run, name) for name in run.histories),

@@ -59,15 +59,30 @@ TEST(CaseFormat, EveryKeyHasAnEffectAndAKnownDefault)
 /// A field of case_def.h that no key sets would be a setting that users cannot reach.
 TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
 {
-    const std::map<std::string, std::string> section_of = {
-        {"DomainDef", "domain"},      {"FaultDef", "fault"},         {"RegionDef", "region"},
-        {"JointSetDef", "joint_set"}, {"GeneratorDef", "generator"}, {"ExcavationDef", "excavation"},
-        {"BlockDef", "block"},        {"MaterialDef", "material"},   {"JointDef", "joint"},
-        {"InsituDef", "insitu"},      {"BoundaryDef", "boundary"},   {"LoadDef", "load"},
-        {"Interval", "load"},         {"FactorDef", "load"},         {"ContactDef", "contact"},
-        {"DampingDef", "damping"},    {"TimeDef", "time"},           {"ConvergenceDef", "convergence"},
-        {"StageDef", "stage"},        {"WaterDef", "water"},         {"WaterCrackDef", "water_crack"},
-        {"HistoryDef", "history"},    {"OutputDef", "output"}};
+    const std::map<std::string, std::string> section_of = {{"DomainDef", "domain"},
+                                                           {"FaultDef", "fault"},
+                                                           {"RegionDef", "region"},
+                                                           {"JointSetDef", "joint_set"},
+                                                           {"GeneratorDef", "generator"},
+                                                           {"ExcavationDef", "excavation"},
+                                                           {"BlockDef", "block"},
+                                                           {"MaterialDef", "material"},
+                                                           {"JointDef", "joint"},
+                                                           {"InsituDef", "insitu"},
+                                                           {"BoundaryDef", "boundary"},
+                                                           {"LoadDef", "load"},
+                                                           {"Interval", "load"},
+                                                           {"FactorDef", "load"},
+                                                           {"ContactDef", "contact"},
+                                                           {"DampingDef", "damping"},
+                                                           {"TimeDef", "time"},
+                                                           {"ConvergenceDef", "convergence"},
+                                                           {"StageDef", "stage"},
+                                                           {"WaterDef", "water"},
+                                                           {"WaterCrackDef", "water_crack"},
+                                                           {"FactorOfSafetyDef", "factor_of_safety"},
+                                                           {"HistoryDef", "history"},
+                                                           {"OutputDef", "output"}};
     const std::set<std::string> otherwise = {
         "domain.given", "insitu.given",    "block.fix_x",           "block.fix_y",     "block.fix_rotation", "material.name",
         "joint.name",   "load.interval",   "stage.until_converged", "stage.joints",    "boundary.is_insitu", "stage.materials",

@@ -8,9 +8,8 @@ namespace
 {
 JointNumbers numbers(double way = 1e-3, double stiffness = 1e10)
 {
-    return UserLaw::numbers(
-        {.function = test::weakening_law, .parameters = {way}, .normal_stiffness = stiffness, .shear_stiffness = 1e9},
-        Linear::numbers(stiffness));
+    return UserLaw::numbers({.function = test::weakening_law, .parameters = {way}, .shear_stiffness = 1e9},
+                            Linear::numbers(stiffness));
 }
 
 TEST(UserLaw, GivesTheStressesOfItsFunction)
@@ -23,6 +22,18 @@ TEST(UserLaw, GivesTheStressesOfItsFunction)
     EXPECT_NEAR(p.memory.slip + p.now.shear / 1e9, 5e-3, 1e-9);
     EXPECT_DOUBLE_EQ(p.now.energy, 1e12 / (2.0 * 1e10));
     EXPECT_DOUBLE_EQ(UserLaw::peak_strength(numbers(), 2e6), 1.6e6);
+}
+
+TEST(UserLaw, ReducedByFourHasAQuarterOfItsStrength)
+{
+    JointNumbers n = numbers();
+    UserLaw::weaken(n, 4.0);
+    EXPECT_DOUBLE_EQ(UserLaw::peak_strength(n, 2e6), 0.4e6);
+    LawPoint<UserLaw, Linear> p(n, 1e6);
+    p.go(0.1e-3, 10, 1e6);
+    EXPECT_NEAR(p.now.shear, 0.1e6, 1e-6);  // the spring is as it was
+    p.go(5e-3, 20000, 1e6);
+    EXPECT_NEAR(p.now.shear, 0.25e6 * (0.5 + 0.3 / (1.0 + p.memory.slip / 1e-3)), 10.0);
 }
 
 TEST(UserLaw, EnergyBalancesOverTenCycles)

@@ -1,0 +1,39 @@
+#pragma once
+/// Joint laws with their strength divided by a factor.
+
+#include "core/model/model.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// How the laws of a case are changed.
+struct StrengthReduction
+{
+    double factor = 1.0;               ///< F
+    std::vector<std::uint8_t> joints;  ///< per [joint.NAME]: is its strength divided? Empty: of all
+    bool keeps_peak = false;           ///< nothing is lost by breaking, slip or wear: residual values are the peak ones
+    double stiffness = 1.0;            ///< normal and shear stiffness are multiplied by this
+};
+
+/// The laws of `table`, those of blocks that have met since the start included:
+///
+///   coulomb                 tan phi / F, c / F, T / F; residual values likewise
+///   patton                  tan(phi + i) / F, tan phi_r / F, c_x / F
+///   barton_bandis, continuously_yielding, plesha, saeb_amadei
+///                           tau_max / F: all of the envelope
+///
+/// Dilation and, but for `stiffness`, springs stay as they are.
+/// `keeps_peak`: the residual values of coulomb are the peak ones; continuously_yielding and plesha do not wear; saeb_amadei stays at its peak;
+/// patton has nothing to lose; barton_bandis keeps its curve, whose peak is part of it.
+/// @see verification/unit/core/rock/strength_reduction_test.cpp
+[[nodiscard]] StageLaws reduced_laws(const JointTable& table, const StrengthReduction& how);
+
+/// Has any of these joints a strength that slip or breaking takes?
+[[nodiscard]] bool loses_strength(const JointTable& table, const std::vector<std::uint8_t>& joints);
+
+/// The greatest F up to which no joint dilates by more than the reduced friction pays for; slip beyond it would make energy. Infinite where nothing dilates.
+[[nodiscard]] double greatest_factor_for_dilation(const JointTable& table, const std::vector<std::uint8_t>& joints);
+}  // namespace hdem

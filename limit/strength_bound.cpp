@@ -1,0 +1,298 @@
+#include "limit/strength_bound.h"
+
+#include "core/boundary/side_forces.h"
+#include "core/detection/edge_touch.h"
+#include "core/joint/all_laws.h"
+#include "core/state/workspace.h"
+#include "limit/linear_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double accuracy = 1e-4;       // of F
+constexpr double balanced = 1.0 - 1e-7;  // of lambda
+constexpr int most_iterations = 400'000;
+constexpr Index most_blocks = 20'000;
+
+/// Strength of a point at F = 1.
+struct PointStrength
+{
+    double friction = 0.0;  ///< tan phi
+    double cohesion = 0.0;  ///< c l [N]
+    double tension = 0.0;   ///< T l [N]
+    bool is_weakened = true;
+
+    [[nodiscard]] PointStrength at(double factor) const
+    {
+        const double f = is_weakened ? factor : 1.0;
+        return {friction / f, cohesion / f, tension / f, is_weakened};
+    }
+};
+
+struct ForcePoint
+{
+    std::array<Index, 2> block{};                 ///< ref, inc
+    std::array<std::array<double, 3>, 2> normal;  ///< on each block: force and moment over radius of N = 1
+    std::array<std::array<double, 3>, 2> shear;
+    PointStrength strength;
+    std::array<int, 3> column{-1, -1, -1};
+};
+
+/// Tangent of a strength curve at a normal stress: c and tan phi.
+PointStrength tangent_of(const JointRow& row, double stress, double length)
+{
+    const double at = std::max(stress, 1e3), h = 1e-4 * at;
+    const double slope = (peak_strength(row, at + h) - peak_strength(row, at - h)) / (2.0 * h);
+    return {slope, std::max(peak_strength(row, at) - slope * at, 0.0) * length, 0.0};
+}
+
+PointStrength strength_of(const Model& model, const Contacts& contacts, Index contact, int k, double length)
+{
+    const Index law = contacts.law[contact];
+    const CoulombSlip& slip = model.joints.laws[law];
+    if (!model.joints.has_memory(law))
+        return {slip.friction_coefficient, slip.cohesion * length, 0.0};
+    const JointRow& row = model.joints.rows[law];
+    if (row.kind != kind_of<CoulombResidual>())
+        return tangent_of(row, contacts.normal_force(k, contact) / length, length);
+    if (contacts.memory(k, contact).broken > 0.5)
+        return {row.residual_friction, row.residual_cohesion * length, row.numbers[CoulombResidual::residual_tension] * length};
+    return {slip.friction_coefficient, slip.cohesion * length, row.tension * length};
+}
+
+class Program
+{
+  public:
+    Program(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened) : model_(model), state_(state)
+    {
+        number_rows();
+        for (std::size_t joint = 0; joint < model.joints.names.size(); ++joint)
+            if (!weakened.empty() && weakened[joint] == 0)
+                for (const Index law : {static_cast<Index>(joint), model.joints.unbonded_of(static_cast<Index>(joint))})
+                    kept_.push_back(law);
+        find_loads();
+        find_points();
+        add_columns();
+    }
+
+    [[nodiscard]] int rows() const { return rows_; }
+    [[nodiscard]] int columns() const { return columns_; }
+    [[nodiscard]] bool has_given_up() const { return gave_up_; }
+
+    /// Are all loads balanced at F?
+    [[nodiscard]] bool stands(double factor)
+    {
+        std::vector<double> shift(static_cast<std::size_t>(rows_), 0.0);
+        for (ForcePoint& point : points_)
+        {
+            const PointStrength s = point.strength.at(factor);
+            program_->change_column(point.column[0], cone_edge(point, -s.friction));
+            program_->change_column(point.column[1], cone_edge(point, s.friction));
+            const double free = std::max(s.cohesion - s.friction * s.tension, 0.0) / unit_;
+            if (point.column[2] >= 0)
+                program_->change_bounds(point.column[2], -free, free);
+            if (s.tension > 0.0)
+                for (const LinearProgram::Entry& e : effect(point, 1.0, 0.0))
+                    shift[static_cast<std::size_t>(e.row)] += e.value * s.tension / unit_;
+        }
+        for (int row = 0; row < rows_; ++row)
+            program_->set_row(row, shift[static_cast<std::size_t>(row)]);
+        gave_up_ = gave_up_ || program_->solve(most_iterations) != LinearProgram::Status::optimal;
+        return -program_->cost() >= balanced;
+    }
+
+  private:
+    void number_rows()
+    {
+        row_.assign(static_cast<std::size_t>(model_.blocks()), {-1, -1, -1});
+        for (const Index block : model_.slot_of_user)  // in the user's order: the answer does not depend on that in memory
+        {
+            const BlockInertia& inertia = state_.blocks.inertia[block];
+            if (state_.blocks.present[block] == 0)
+                continue;
+            const std::array<double, 3> moves{inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia};
+            for (int i = 0; i < 3; ++i)
+                if (moves[i] > 0.0)
+                    row_[block][i] = rows_++;
+        }
+    }
+
+    void find_loads()
+    {
+        std::vector<Triple> loads = constant_forces(model_, state_);
+        loads.resize(static_cast<std::size_t>(model_.blocks()));
+        for (const Load& load : model_.loads)
+            for (std::size_t k = 0; k < load.blocks.size() && load.from <= state_.cycle && state_.cycle < load.until; ++k)
+            {
+                const Index block = load.blocks[k];
+                const BlockMotion& m = state_.blocks.motion[block];
+                const Vec2 force = model_.mass[block] * load.acceleration + load.force;
+                const Vec2 arm = load.arm.empty() ? Vec2(0.0, 0.0) : load.arm[k];
+                const Vec2 turned(m.c * arm.x() - m.s * arm.y(), m.s * arm.x() + m.c * arm.y());
+                Triple& on = loads[block];
+                on = {on.x + force.x(), on.y + force.y(), on.w + load.moment + cross(turned, load.force)};
+            }
+        for (Index block = 0; block < model_.blocks(); ++block)
+        {
+            const Vec2 weight = model_.mass[block] * model_.gravity;
+            Triple& on = loads[block];
+            on = {on.x + weight.x(), on.y + weight.y(), on.w / model_.radius[block]};
+            if (state_.blocks.is_free(block))
+                unit_ = std::max({unit_, std::abs(on.x), std::abs(on.y), std::abs(on.w)});
+        }
+        loads_ = std::move(loads);
+    }
+
+    void find_points()
+    {
+        const Contacts& contacts = state_.contacts;
+        std::vector<std::pair<std::array<Index, 4>, Index>> order;  // by the user's numbers
+        for (Index i = 0; i < contacts.size(); ++i)
+        {
+            const Index ref = contacts.ref[i], inc = contacts.inc[i];
+            if (ref == inc || state_.blocks.present[ref] == 0 || state_.blocks.present[inc] == 0 ||
+                (!state_.blocks.is_free(ref) && !state_.blocks.is_free(inc)))
+                continue;
+            const Index a = model_.user_number[ref], b = model_.user_number[inc];
+            const Index part_a = contacts.part_a[i] - model_.shapes.part_begin[contacts.swapped[i] != 0 ? inc : ref];
+            const Index part_b = contacts.part_b[i] - model_.shapes.part_begin[contacts.swapped[i] != 0 ? ref : inc];
+            order.push_back({{std::min(a, b), std::max(a, b), part_a, part_b}, i});
+        }
+        std::ranges::sort(order);
+        for (const auto& [numbers, contact] : order)
+            add_points(contact);
+    }
+
+    void add_points(Index contact)
+    {
+        const Contacts& contacts = state_.contacts;
+        const Index ref = contacts.ref[contact], inc = contacts.inc[contact];
+        const EdgeTouch touch = touch_edges(contacts.edges(contact), state_.blocks.motion[ref], state_.blocks.motion[inc]);
+        const double floor = contacts.length_floor(contact), length = point_length(touch.length, floor);
+        for (int k = 0; k < 2; ++k)
+        {
+            const TouchPoint& p = touch.point[k];
+            const bool is_closed = contacts.regime[k][contact] != static_cast<std::uint8_t>(Regime::open);
+            if (!is_closed && (touch.length <= 0.0 || p.overlap < -floor))
+                continue;
+            ForcePoint point{.block = {ref, inc}};
+            for (int side = 0; side < 2; ++side)
+            {
+                const Index block = point.block[side];
+                const double sign = side == 1 ? 1.0 : -1.0;  // forces are given on inc: N along -m, S along t
+                const double t = side == 1 ? p.inc_t : p.ref_t, m = side == 1 ? p.inc_m : p.ref_m;
+                const Vec2 along(touch.ex, touch.ey), across = turned_left(along);
+                const Vec2 arm = (t * along + m * across) / model_.radius[block];
+                const Vec2 normal = -sign * across, shear = sign * along;
+                point.normal[side] = {normal.x(), normal.y(), cross(arm, normal)};
+                point.shear[side] = {shear.x(), shear.y(), cross(arm, shear)};
+            }
+            point.strength = strength_of(model_, contacts, contact, k, length);
+            point.strength.is_weakened = std::ranges::find(kept_, contacts.law[contact]) == kept_.end();
+            points_.push_back(point);
+        }
+    }
+
+    /// Of N and S on the rows of both blocks.
+    [[nodiscard]] std::vector<LinearProgram::Entry> effect(const ForcePoint& point, double normal, double shear) const
+    {
+        std::vector<LinearProgram::Entry> entries;
+        for (int side = 0; side < 2; ++side)
+            for (int i = 0; i < 3; ++i)
+                if (const int row = row_[point.block[side]][i]; row >= 0)
+                    entries.push_back({row, normal * point.normal[side][i] + shear * point.shear[side][i]});
+        return entries;
+    }
+
+    /// One edge of the cone of friction, N = 1.
+    [[nodiscard]] std::vector<LinearProgram::Entry> cone_edge(const ForcePoint& point, double friction) const
+    {
+        return effect(point, 1.0, friction);
+    }
+
+    void add_columns()
+    {
+        program_.emplace(rows_);
+        for (ForcePoint& point : points_)
+        {
+            point.column[0] = program_->add_column(0.0, infinity, 0.0, cone_edge(point, -1.0));
+            point.column[1] = program_->add_column(0.0, infinity, 0.0, cone_edge(point, 1.0));
+            if (point.strength.cohesion > 0.0)
+                point.column[2] = program_->add_column(0.0, 0.0, 0.0, effect(point, 0.0, 1.0));
+        }
+        std::vector<LinearProgram::Entry> entries;
+        for (Index block = 0; block < model_.blocks(); ++block)
+        {
+            const std::array<double, 3> load{loads_[block].x, loads_[block].y, loads_[block].w};
+            for (int i = 0; i < 3; ++i)
+                if (row_[block][i] >= 0 && load[i] != 0.0)
+                    entries.push_back({row_[block][i], load[i] / unit_});
+        }
+        columns_ = program_->add_column(0.0, 1.0, -1.0, entries) + 1;
+    }
+
+    const Model& model_;
+    const State& state_;
+    std::vector<std::array<int, 3>> row_;
+    int rows_ = 0, columns_ = 0;
+    std::vector<Index> kept_;  ///< laws that keep their strength
+    std::vector<Triple> loads_;
+    double unit_ = 0.0;  ///< that forces are counted in [N]
+    std::vector<ForcePoint> points_;
+    std::optional<LinearProgram> program_;
+    bool gave_up_ = false;
+};
+}  // namespace
+
+StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, double least,
+                             double most)
+{
+    StrengthBound bound;
+    if (model.blocks() > most_blocks)
+    {
+        bound.why = "more than " + std::to_string(most_blocks) + " blocks";
+        return bound;
+    }
+    Program program(model, state, weakened);
+    bound.rows = program.rows();
+    bound.columns = program.columns();
+    const auto stands = [&](double factor)
+    {
+        ++bound.solutions;
+        return program.stands(factor);
+    };
+    const auto give_up = [&]
+    {
+        bound.end = StrengthBound::End::not_found;
+        bound.why = "the linear program could not be solved";
+        return bound;
+    };
+    double low = 1.0, high = 1.0;
+    bool is_low = stands(low);
+    if (is_low)
+        while (!program.has_given_up() && high < most && stands(high = std::min(2.0 * high, most)))
+            low = high;
+    else
+        while (!program.has_given_up() && low > least && !(is_low = stands(low = std::max(0.5 * low, least))))
+            high = low;
+    if (program.has_given_up())
+        return give_up();
+    bound.end = low == most ? StrengthBound::End::none : (is_low ? StrengthBound::End::found : StrengthBound::End::no_balance);
+    while (bound.end == StrengthBound::End::found && high - low > accuracy * low)
+    {
+        const double middle = 0.5 * (low + high);
+        (stands(middle) ? low : high) = middle;
+        if (program.has_given_up())
+            return give_up();
+    }
+    bound.factor = 0.5 * (low + high);
+    return bound;
+}
+}  // namespace hdem

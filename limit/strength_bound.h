@@ -1,0 +1,51 @@
+#pragma once
+/// The factor of safety by limit analysis, from above.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// What the linear programs have found.
+struct StrengthBound
+{
+    enum class End
+    {
+        found,
+        none,    ///< strength does not limit what can be balanced: in-situ stress or geometry may hold the blocks at any F up to `most`
+        no_balance,  ///< not even great strength balances the blocks
+        not_found    ///< too many blocks, or Clp gave up
+    };
+    End end = End::not_found;
+    double factor = 0.0;  ///< F, where found
+    int rows = 0, columns = 0, solutions = 0;
+    std::string why;  ///< not found
+};
+
+/// Forces N (compression) and S at the two ends of each contact that
+///
+///   balance weight, loads and tractions on every free block (force and moment)
+///   are admissible:  N >= -T l / F,  |S| <= c l / F + N tan phi / F
+///
+/// where l is the point's share of the contact length. The greatest F for which there are such forces bounds the factor of safety from above,
+/// for any flow rule (Drucker 1954; Livesley 1978): where there are none the rock cannot be at rest. Geometry is that of `state`.
+///
+/// Each F is one linear program: the greatest share lambda <= 1 of all loads that can be balanced; F stands where lambda = 1. F is found by
+/// bisection, each program beginning from the last basis. With c' = c - T tan phi >= 0 the strength is a cone with its tip at -T l and a bounded
+/// shear force besides,
+///
+///   N + T l = a + b,  S = tan phi (b - a) + s,  a, b >= 0,  |s| <= c' l
+///
+/// so that the program has three rows a block and two or three columns a point. Strength curves of other laws are replaced by their
+/// tangent at the present normal stress, which lies above them. Contacts that are open by less than their least length count.
+///
+/// @param weakened  per [joint.NAME]: is its strength divided by F? Empty: all
+/// @see verification/unit/limit/strength_bound_test.cpp
+[[nodiscard]] StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened,
+                                           double least, double most);
+}  // namespace hdem

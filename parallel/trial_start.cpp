@@ -1,0 +1,177 @@
+#include "core/stage/rules.h"
+#include "parallel/strength_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+constexpr std::int64_t check_state_every = 1000;
+constexpr std::int64_t most_cycles_of_elastic_state = 1'000'000;
+
+/// Loads that act now go on, others are over.
+void hold_loads(std::vector<Load>& loads, std::int64_t cycle)
+{
+    std::erase_if(loads, [&](const Load& load) { return !(load.from <= cycle && cycle < load.until); });
+    for (Load& load : loads)
+    {
+        load.from = always_from;
+        load.until = always_until;
+    }
+}
+
+/// Laws in force in the state's stage.
+StageLaws present_laws(const Model& model, Index stage)
+{
+    StageLaws laws{model.joints.laws, model.joints.rows};
+    for (Index i = 0; i <= stage && i < static_cast<Index>(model.stage_laws.size()); ++i)
+        if (!model.stage_laws[i].laws.empty())
+            laws = model.stage_laws[i];
+    return laws;
+}
+
+void set_laws(Model& model, Index stage, const StageLaws& laws)
+{
+    model.joints.laws = laws.laws;
+    model.joints.rows = laws.rows;
+    model.stage_laws.assign(model.stages.size(), {});
+    model.stage_laws[stage] = laws;
+}
+
+/// Springs, damping and criteria of a trial.
+void set_rules(Model& model, Index stage)
+{
+    const std::string name = model.stages[stage].name;
+    model.stages[stage] = {.name = name,
+                           .cycles = {},
+                           .duration = {},
+                           .until_converged = true,
+                           .max_cycles = std::numeric_limits<std::int64_t>::max() / 2,
+                           .method = Method::force,
+                           .damping = DampingPreset::automatic};
+    const ConvergenceDef standard;
+    ConvergenceDef& criteria = model.convergence;
+    criteria.criteria = standard.criteria;
+    criteria.blocks = ConvergenceBlocks::all;
+    criteria.mean_speed = std::min(criteria.mean_speed, standard.mean_speed);
+    criteria.unbalanced_force_ratio = std::min(criteria.unbalanced_force_ratio, standard.unbalanced_force_ratio);
+    criteria.block_unbalanced_ratio = std::min(criteria.block_unbalanced_ratio, standard.block_unbalanced_ratio);
+    model.damping.local = model.damping.local > 0.0 ? model.damping.local : DampingDef{}.local;
+    model.has_step = false;  // steps are as long as what moves can bear
+}
+}  // namespace
+
+Model trial_model(const Moment& start, const StrengthReduction& reduction)
+{
+    Model model = start.model;
+    const Index stage = start.state.stage;
+    set_rules(model, stage);
+    hold_loads(model.loads, start.state.cycle);
+    JointTable table = model.joints;
+    const StageLaws laws = present_laws(model, stage);
+    table.laws = laws.laws;
+    table.rows = laws.rows;
+    set_laws(model, stage, reduced_laws(table, reduction));
+    if (reduction.stiffness != 1.0)
+    {
+        model.contact.correction_rate = 0.0;  // see stiffened_state
+        for (double* const step : {&model.time_step, &model.default_time_step})
+            *step /= std::sqrt(reduction.stiffness);
+    }
+    return model;
+}
+
+namespace
+{
+/// Until the criteria of rest hold.
+void bring_to_rest(Simulation& simulation)
+{
+    const ConvergenceDef& criteria = simulation.model().convergence;
+    for (std::int64_t cycles = 0; cycles < most_cycles_of_elastic_state; cycles += criteria.check_every)
+    {
+        simulation.advance(criteria.check_every);
+        if (simulation.check_rest() && cycles >= criteria.least_cycles && simulation.state().released.empty())
+            return;
+        if (cycles % check_state_every == 0)
+        {
+            simulation.check_state();
+            simulation.hold_lost_blocks();
+        }
+    }
+    throw RunError("factor of safety: the rock does not come to rest even with a thousand times its strength (" +
+                   std::to_string(most_cycles_of_elastic_state) +
+                   " cycles). There is no state to begin from: look for blocks that nothing holds with hdem plot.");
+}
+
+/// With the laws of the case again.
+Moment with_laws(const Simulation& simulation, Index stage, const StageLaws& laws)
+{
+    Moment rest{simulation.model(), simulation.state()};
+    set_laws(rest.model, stage, laws);
+    return rest;
+}
+}  // namespace
+
+Moment elastic_state(const Moment& start, int threads)
+{
+    const Index stage = start.state.stage;
+    Simulation simulation(trial_model(start, {.factor = 1.0 / great_strength}), start.state, threads);
+    simulation.begin_stage(stage);
+    bring_to_rest(simulation);
+    return with_laws(simulation, stage, present_laws(start.model, stage));
+}
+
+Moment elastic_stage(const Moment& before, const State& last, int threads)
+{
+    const Index stage = static_cast<Index>(before.model.stages.size()) - 1;
+    Model model = before.model;
+    const StageDef changes = model.stages[stage];
+    set_rules(model, stage);
+    model.stages[stage].excavate = changes.excavate;
+    model.stages[stage].fix = changes.fix;
+    model.stages[stage].free = changes.free;
+    model.stages[stage].relax_cycles = changes.relax_cycles;
+    hold_loads(model.loads, last.cycle);
+    JointTable table = model.joints;
+    const StageLaws laws = present_laws(model, stage);
+    table.laws = laws.laws;
+    table.rows = laws.rows;
+    model.stage_laws.resize(model.stages.size());
+    model.stage_laws[stage] = reduced_laws(table, {.factor = 1.0 / great_strength});
+    Simulation simulation(std::move(model), before.state, threads);
+    simulation.begin_stage(stage);
+    bring_to_rest(simulation);
+    return with_laws(simulation, stage, laws);
+}
+
+Moment stiffened_state(Moment moment, double times)
+{
+    const Model& model = moment.model;
+    Contacts& contacts = moment.state.contacts;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const CoulombSlip& joint = model.joints.laws[contacts.law[i]];
+        const double length = contacts.lane[i / lanes].last_length[i % lanes];
+        for (int k = 0; k < 2; ++k)
+        {
+            const double force = contacts.normal_force(k, i);
+            if (force == 0.0 || length <= 0.0)
+                continue;
+            const double stress = force / length;
+            const bool has_memory = model.joints.has_memory(contacts.law[i]);
+            const double closure = has_memory ? closure_under(model.joints.rows[contacts.law[i]], stress)
+                                              : stress / joint.normal_stiffness;
+            const double spared = closure * (1.0 - 1.0 / times);
+            if (contacts.has_preload)
+                contacts.preload_lane[i / lanes].preload[k][i % lanes] -= spared;
+            else
+                contacts.rest_overlap(k, i) += spared;
+        }
+    }
+    moment.state.default_step /= std::sqrt(times);
+    return moment;
+}
+}  // namespace hdem

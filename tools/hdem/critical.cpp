@@ -1,0 +1,291 @@
+/// hdem critical: the value of a number of the case at which blocks begin to fail.
+
+#include "io/atomic_file.h"
+#include "io/digest.h"
+#include "io/load_case.h"
+#include "io/run_lock.h"
+#include "parallel/critical_search.h"
+#include "tools/hdem/critical_options.h"
+#include "tools/hdem/screen.h"
+#include "tools/hdem/signal_watch.h"
+#include "tools/hdem/signals.h"
+#include "tools/hdem/trial_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <mutex>
+
+namespace hdem
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const std::string& text)
+{
+    throw InputError(Problem{.key = {}, .text = text});
+}
+
+struct Run
+{
+    double at = 0.0;
+    ConditionResult result;
+};
+
+class Critical
+{
+  public:
+    Critical(const CriticalOptions& options, Vary vary, FailureCondition condition, const fs::path& folder, Log& log,
+             const std::string& question)
+        : options_(options),
+          vary_(std::move(vary)),
+          condition_(std::move(condition)),
+          log_(log),
+          file_(folder / "trials.json", question),
+          threads_(options.threads.value_or(default_threads()))
+    {
+    }
+
+    /// Between the ends of the range, one of which stands.
+    Bracket find()
+    {
+        log_.line(fmt::format("{:>14}  {:<7} {:>9}  greatest {}", vary_.key, "", "cycles", quantity()));
+        const std::array<bool, 2> stands = look_at_ends();
+        show(false);
+        if (stands[0] == stands[1])
+            refuse(fmt::format("--vary {}={}:{}: (at both ends the case {}, {}). Give a range in which it begins to fail.",
+                               vary_.key, vary_.low, vary_.high, stands[0] ? "stands" : "fails", options_.fails));
+        const CriticalRange range = stands[0] ? CriticalRange{vary_.low, vary_.high} : CriticalRange{vary_.high, vary_.low};
+        return search_between(
+            range, options_.tolerance.value_or((vary_.high - vary_.low) / 200.0), threads_,
+            [this](double x, int threads, const std::stop_token& stop) { return stands_at(x, threads, stop); },
+            [this](const Bracket&) { show(true); });
+    }
+
+    [[nodiscard]] Json trials() const
+    {
+        Json all = Json::array();
+        for (const Run& run : counted_)
+            all.push_back({{"value", run.at},
+                           {"fails", run.result.fails},
+                           {"greatest", run.result.greatest},
+                           {"block", printable(run.result.block)},
+                           {"cycles", run.result.cycles}});
+        return all;
+    }
+
+    [[nodiscard]] std::stop_token stopped() const { return signals_.token(); }
+
+  private:
+    [[nodiscard]] std::string quantity() const
+    {
+        return condition_.quantity == FailureCondition::Quantity::rotation ? "rotation [deg]" : "displacement [m]";
+    }
+
+    std::array<bool, 2> look_at_ends()
+    {
+        std::array<bool, 2> stands{};
+        if (threads_ < 2)
+            for (const int i : {0, 1})
+                stands[i] = stands_at(i == 0 ? vary_.low : vary_.high, 1, {});
+        else
+        {
+            std::exception_ptr error;
+            std::jthread other(
+                [&]
+                {
+                    try
+                    {
+                        stands[1] = stands_at(vary_.high, threads_ / 2, {});
+                    }
+                    catch (...)
+                    {
+                        error = std::current_exception();
+                    }
+                });
+            stands[0] = stands_at(vary_.low, threads_ - threads_ / 2, {});
+            other.join();
+            if (error)
+                std::rethrow_exception(error);
+        }
+        return stands;
+    }
+
+    bool stands_at(double x, int threads, const std::stop_token& stop)
+    {
+        Run run{.at = x, .result = {}};
+        if (const std::optional<Json> known = file_.find("critical", x);
+            known && known->contains("fails") && (*known)["fails"].is_boolean())
+            run.result = {.fails = (*known)["fails"],
+                          .greatest = known->value("greatest", 0.0),
+                          .block = known->value("block", ""),
+                          .cycles = known->value("cycles", std::int64_t{0})};
+        else
+        {
+            std::vector<Override> overrides;
+            for (const std::string& text : options_.overrides)
+                overrides.push_back(parse_override(text));
+            overrides.push_back({vary_.key, fmt::format("{:.17g}", x)});
+            LoadedCase loaded = load_case(options_.case_file, overrides);
+            Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
+            if (const std::vector<Problem> problems = simulation.find_problems(); !problems.empty())
+                throw InputError(loaded.file.source.located(problems));
+            for (const std::string& name : condition_.blocks)
+                if (simulation.model().find_block(name) == no_index)
+                    refuse(fmt::format("--fails {}: (no block is called \"{}\"). hdem check --blocks lists them.", options_.fails,
+                                       printable(name)));
+            std::stop_source either;
+            const std::stop_callback first(stop, [&] { either.request_stop(); });
+            const std::stop_callback second(stopped(), [&] { either.request_stop(); });
+            run.result = run_to_condition(simulation, condition_, either.get_token());
+            if (run.result.was_stopped)
+            {
+                if (stopped().stop_requested())
+                    throw SearchStopped{};
+                return false;
+            }
+            file_.add("critical", x,
+                      {{"fails", run.result.fails},
+                       {"greatest", run.result.greatest},
+                       {"block", run.result.block},
+                       {"cycles", run.result.cycles}});
+        }
+        const std::lock_guard lock(mutex_);
+        ended_[x] = run;
+        return !run.result.fails;
+    }
+
+    /// Of a pair the one farther from what stands counts only where the nearer one stands.
+    void show(bool only_counting)
+    {
+        std::vector<Run> pair;
+        for (const auto& [x, run] : ended_)
+            pair.push_back(run);
+        const bool is_turned = !counted_.empty() && counted_.front().result.fails;
+        if (only_counting && is_turned)
+            std::ranges::reverse(pair);
+        for (const Run& run : pair)
+        {
+            counted_.push_back(run);
+            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g} ({})", run.at, run.result.fails ? "fails" : "stands",
+                                  run.result.cycles, run.result.greatest, printable(run.result.block)));
+            if (only_counting && run.result.fails)
+                break;
+        }
+        ended_.clear();
+    }
+
+    const CriticalOptions& options_;
+    Vary vary_;
+    FailureCondition condition_;
+    Log& log_;
+    TrialFile file_;
+    int threads_;
+    SignalWatch signals_;
+    std::mutex mutex_;
+    std::map<double, Run> ended_;
+    std::vector<Run> counted_;
+};
+
+std::string question_of(const CriticalOptions& options)
+{
+    std::vector<Override> overrides;
+    for (const std::string& text : options.overrides)
+        overrides.push_back(parse_override(text));
+    const CaseFile file = read_case_file(options.case_file, overrides);
+    std::string sum = file.source.text() + fmt::format("\n{}\n{}\n{}", fmt::join(options.overrides, "\n"),
+                                                       options.vary.substr(0, options.vary.find('=')), options.fails);
+    for (const auto& [name, content] : file.files)
+        sum += name + sha256_hex(content);
+    return sum;
+}
+
+/// Not finite where the text is no number.
+double number_of(const std::string& text)
+{
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    char* end = nullptr;
+    const double x = std::strtod(text.c_str(), &end);
+    return text.empty() || *end != '\0' ? none : x;
+}
+}  // namespace
+
+Vary parse_vary(const std::string& text)
+{
+    const auto equals = text.find('='), colon = text.rfind(':');
+    const bool is_whole = equals != std::string::npos && colon != std::string::npos && colon > equals && equals > 0;
+    const double low = is_whole ? number_of(text.substr(equals + 1, colon - equals - 1)) : number_of("");
+    const double high = is_whole ? number_of(text.substr(colon + 1)) : number_of("");
+    if (!std::isfinite(low) || !std::isfinite(high))
+        refuse(fmt::format("--vary {}: (not of the form KEY=LOW:HIGH). Write e.g. --vary gravity.tilt_deg=0:60.", printable(text)));
+    if (low >= high)
+        refuse(fmt::format("--vary {}: (its end is not above its beginning). Give the lower number first.", printable(text)));
+    return {text.substr(0, equals), low, high};
+}
+
+FailureCondition parse_condition(const std::string& text)
+{
+    const auto colon = text.find(':'), greater = text.rfind('>');
+    FailureCondition condition;
+    const std::string quantity = text.substr(0, colon);
+    const double limit = number_of(greater == std::string::npos ? "" : text.substr(greater + 1));
+    const bool is_known = quantity == "displacement" || quantity == "rotation";
+    if (colon == std::string::npos || greater == std::string::npos || greater < colon + 2 || !is_known || !std::isfinite(limit) ||
+        limit < 0.0)
+        refuse(fmt::format("--fails {}: (not of the form displacement:BLOCK>METRES or rotation:BLOCK>DEGREES). Write e.g. --fails "
+                           "'displacement:wedge>0.1', or * for any block.",
+                           printable(text)));
+    if (quantity == "rotation")
+        condition.quantity = FailureCondition::Quantity::rotation;
+    const std::string name = text.substr(colon + 1, greater - colon - 1);
+    if (name != "*")
+        condition.blocks = {name};
+    condition.limit = limit;
+    return condition;
+}
+
+int critical_command(const CriticalOptions& options)
+{
+    const Vary vary = parse_vary(options.vary);
+    const FailureCondition condition = parse_condition(options.fails);
+    const std::string question = question_of(options);
+    const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
+                                                   : fs::path(options.folder);
+    const RunLock lock(folder);
+    if (options.overwrite)
+        remove_file(folder / "trials.json");
+    Log log(folder / "run.log", options.quiet, Log::Begin::anew);
+    catch_interrupts();
+    Critical search(options, vary, condition, folder, log, question);
+    try
+    {
+        const Bracket found = search.find();
+        const Json summary = {{"case", fs::path(options.case_file).filename().string()},
+                              {"vary", vary.key},
+                              {"fails", options.fails},
+                              {"critical", found.middle()},
+                              {"stands_at", *found.stands},
+                              {"fails_at", *found.fails},
+                              {"trials", search.trials()}};
+        write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+        log.line(fmt::format("critical {} = {:.6g} ({:.6g} stands, {:.6g} fails)", vary.key, found.middle(), *found.stands,
+                             *found.fails));
+        return exit_done;
+    }
+    catch (const SearchStopped&)
+    {
+        log.line(
+            fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
+        return 128 + interrupt();
+    }
+}
+}  // namespace hdem

@@ -1,0 +1,46 @@
+#pragma once
+/// What `hdem fos` says of the factor of safety.
+
+#include "parallel/reference_state.h"
+#include "parallel/safety_factor.h"
+
+#include "limit/strength_bound.h"
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// All that was found.
+struct FosOutcome
+{
+    FactorOfSafetyDef def;
+    StrengthBound bound;
+    SafetyFactor factor;
+    std::vector<std::string> gave_way{};  ///< names of blocks that did not stand in the last stage
+    std::vector<std::string> warnings{};
+};
+
+/// Heading of the rows, and one row.
+[[nodiscard]] std::string trial_heading();
+[[nodiscard]] std::string trial_row(const FactorTrial& trial);
+/// "1.572 by limit analysis (12 blocks ...)", or why there is none.
+[[nodiscard]] std::string bound_text(const StrengthBound& bound);
+/// "1.135 (1.133 stands, 1.138 fails)", or beyond what it lies.
+[[nodiscard]] std::string factor_text(const Bracket& bracket);
+/// The answer, line by line.
+[[nodiscard]] std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& model);
+
+/// What users must know of the answer.
+[[nodiscard]] std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method);
+
+/// Key factor_of_safety of summary.json.
+[[nodiscard]] nlohmann::ordered_json fos_json(const FosOutcome& outcome, const Model& model);
+/// Put it into FOLDER/summary.json, which the run has written.
+void add_to_summary(const std::filesystem::path& file, const nlohmann::ordered_json& factor);
+
+/// Names of blocks, from the user's numbers.
+[[nodiscard]] std::vector<std::string> names_of_blocks(const Model& model, const std::vector<Index>& users);
+}  // namespace hdem

@@ -1,0 +1,88 @@
+#include "tools/hdem/trial_file.h"
+
+#include "io/atomic_file.h"
+#include "io/digest.h"
+#include "io/text_file.h"
+
+namespace hdem
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+constexpr std::size_t most = 100'000'000;  // bytes
+
+std::optional<TrialEnd> end_of(const std::string& name)
+{
+    for (const TrialEnd end : {TrialEnd::stable, TrialEnd::failed, TrialEnd::undecided})
+        if (name == name_of(end))
+            return end;
+    return std::nullopt;
+}
+}  // namespace
+
+TrialFile::TrialFile(std::filesystem::path file, const std::string& question)
+    : file_(std::move(file)),
+      question_(sha256_hex(question))
+{
+    if (!std::filesystem::exists(file_))
+        return;
+    // A file that somebody damaged holds no trial: they are run again.
+    const Json read = Json::parse(read_text_file(file_, most).text, nullptr, false);
+    if (read.is_object() && read.value("question", "") == question_ && read.contains("trials") && read["trials"].is_array())
+        trials_ = read["trials"];
+}
+
+std::optional<Json> TrialFile::find(const std::string& search, double at)
+{
+    const std::lock_guard lock(mutex_);
+    for (const Json& trial : trials_)
+        if (trial.is_object() && trial.value("search", "") == search && trial.contains("at") && trial["at"].is_number() &&
+            trial["at"].get<double>() == at)
+            return trial;
+    return std::nullopt;
+}
+
+void TrialFile::add(const std::string& search, double at, Json trial)
+{
+    const std::lock_guard lock(mutex_);
+    Json entry = {{"search", search}, {"at", at}};
+    entry.update(trial);
+    trials_.push_back(std::move(entry));
+    const Json all = {{"question", question_}, {"trials", trials_}};
+    write_atomically(file_, all.dump(1) + "\n",
+                     Flush::later);  // whole for whoever reads it after a kill; a power failure may cost trials
+}
+
+std::optional<Trial> FactorTrialFile::find(FactorSearch search, double factor)
+try
+{
+    const std::optional<Json> read = file_.find(name_of(search), factor);
+    const std::optional<TrialEnd> end = read ? end_of(read->value("verdict", "")) : std::nullopt;
+    if (!end)
+        return std::nullopt;
+    return Trial{.factor = factor,
+                 .end = *end,
+                 .reason = read->at("reason"),
+                 .displacement = read->at("displacement"),
+                 .failing = read->at("failing"),
+                 .let_fall = read->at("let_fall"),
+                 .cycles = read->at("cycles"),
+                 .time = read->at("time")};
+}
+catch (const Json::exception&)
+{
+    return std::nullopt;
+}
+
+void FactorTrialFile::add(FactorSearch search, const Trial& trial)
+{
+    file_.add(name_of(search), trial.factor,
+              {{"verdict", name_of(trial.end)},
+               {"reason", trial.reason},
+               {"displacement", trial.displacement},
+               {"failing", trial.failing},
+               {"let_fall", trial.let_fall},
+               {"cycles", trial.cycles},
+               {"time", trial.time}});
+}
+}  // namespace hdem

@@ -1,0 +1,46 @@
+#pragma once
+/// FOLDER/trials.json: trials of a search that have ended, so that one that was cut short goes on.
+
+#include "parallel/safety_factor.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// Each trial is on the disk before the next one is asked for. Threads may call at once.
+class TrialFile
+{
+  public:
+    /// @param question  what the trials answer: trials of another one are forgotten
+    TrialFile(std::filesystem::path file, const std::string& question);
+
+    /// Of a search, at a number.
+    [[nodiscard]] std::optional<nlohmann::ordered_json> find(const std::string& search, double at);
+    void add(const std::string& search, double at, nlohmann::ordered_json trial);
+    [[nodiscard]] std::size_t size() const { return trials_.size(); }
+
+  private:
+    std::filesystem::path file_;
+    std::string question_;
+    std::mutex mutex_;
+    nlohmann::ordered_json trials_ = nlohmann::ordered_json::array();
+};
+
+/// Trials of `hdem fos`. Blocks stand there by their numbers.
+class FactorTrialFile : public TrialStore
+{
+  public:
+    FactorTrialFile(std::filesystem::path file, const std::string& question) : file_(std::move(file), question) {}
+    [[nodiscard]] std::optional<Trial> find(FactorSearch search, double factor) override;
+    void add(FactorSearch search, const Trial& trial) override;
+    [[nodiscard]] std::size_t size() const { return file_.size(); }
+
+  private:
+    TrialFile file_;
+};
+}  // namespace hdem

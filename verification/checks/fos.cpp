@@ -1,0 +1,267 @@
+/// Factors of safety: slopes and a roof wedge with closed forms, by strength reduction and by limit analysis.
+
+#include "parallel/critical_search.h"
+#include "parallel/reference_state.h"
+#include "parallel/safety_factor.h"
+#include "verification/checks/case_run.h"
+#include "verification/checks/checks.h"
+#include "verification/checks/turned_case.h"
+
+#include "limit/strength_bound.h"
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace hdem::verification
+{
+namespace
+{
+constexpr double turn = 23.0 * std::numbers::pi / 180.0;  ///< by which models are turned
+
+double tan_deg(double degrees)
+{
+    return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+struct FosAnswer
+{
+    SafetyFactor factor;
+    StrengthBound bound;
+    [[nodiscard]] double value() const { return factor.as_given.is_closed() ? factor.as_given.middle() : std::nan(""); }
+    [[nodiscard]] double stiffer() const
+    {
+        return factor.stiffer && factor.stiffer->is_closed() ? factor.stiffer->middle() : std::nan("");
+    }
+    [[nodiscard]] double peak() const { return factor.peak && factor.peak->is_closed() ? factor.peak->middle() : std::nan(""); }
+};
+
+/// As `hdem fos` does it.
+FosAnswer find_factor(const std::string& case_file, const Overrides& overrides, int threads = 1)
+{
+    LoadedCase loaded = load_case(case_folder() / ("fos/" + case_file), overrides);
+    const FactorOfSafetyDef def = loaded.file.def.factor_of_safety;
+    Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
+    BeforeLastStage before;
+    Observer* const observers[] = {&before};
+    const std::vector<StageResult> stages = run_stages(simulation, observers);
+    const Moment last{simulation.model(), simulation.state()};
+    const bool found_rest = !stages.back().sought_rest || stages.back().at_rest;
+    const Reference reference = find_reference(last, blocks_that_gave_way(last, found_rest, def.least_size), before.moment(),
+                                               threads);
+    const Model& model = reference.moment.model;
+    FosAnswer answer;
+    answer.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, def), least_factor, greatest_factor);
+    FactorSetting setting{.def = def, .bound = {}, .threads = threads};
+    if (answer.bound.end == StrengthBound::End::found)
+        setting.bound = answer.bound.factor;
+    answer.factor = find_safety_factor(reference.moment, setting);
+    return answer;
+}
+
+bool same_trials(const SafetyFactor& a, const SafetyFactor& b)
+{
+    const auto same = [](const FactorTrial& x, const FactorTrial& y)
+    {
+        return x.search == y.search && x.trial.factor == y.trial.factor && x.trial.end == y.trial.end &&
+               x.trial.displacement == y.trial.displacement && x.trial.cycles == y.trial.cycles &&
+               x.trial.failing == y.trial.failing;
+    };
+    return a.trials.size() == b.trials.size() && std::equal(a.trials.begin(), a.trials.end(), b.trials.begin(), same);
+}
+
+struct SlopeProblem
+{
+    std::string file;
+    std::string source;
+    double factor = 0.0;
+    Overrides overrides{};
+    Overrides turned{};     ///< besides polygons, loads and gravity
+    bool has_bound = true;  ///< limit analysis gives the same
+};
+
+void check_problem(Report& report, const SlopeProblem& p, const std::string& name)
+{
+    for (const char* method : {"force", "hybrid"})
+    {
+        const Overrides base = p.overrides + Overrides{set("contact.method", std::string(method))};
+        const FosAnswer drawn = find_factor(p.file, base);
+        report.require({fmt::format("{}, {}: F", name, method), p.source, p.factor, drawn.value()}, relative(0.01));
+        report.require(
+            {fmt::format("{}, {}: F with joints three times as stiff", name, method), p.source, p.factor, drawn.stiffer()},
+            relative(0.01));
+        if (p.has_bound)
+            report.require({fmt::format("{}, {}: bound by limit analysis", name, method), p.source, p.factor, drawn.bound.factor},
+                           relative(0.002));
+        const FosAnswer turned = find_factor(p.file, turned_case("fos/" + p.file, base, turn) + p.turned);
+        report.require({fmt::format("{}, {}, turned by 23°: F", name, method), p.source, p.factor, turned.value()}, relative(0.01));
+    }
+    const FosAnswer one = find_factor(p.file, p.overrides);
+    double same = 0.0;
+    for (const int threads : {2, 3})
+        same += same_trials(one.factor, find_factor(p.file, p.overrides, threads).factor) ? 1.0 : 0.0;
+    report.require({name + ": runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same},
+                   absolute(0.0));
+}
+
+void check_plane(Report& report)
+{
+    check_problem(report, {.file = "plane.toml", .source = "(c A + N tan φ)/S", .factor = 1.13749}, "F1 plane");
+}
+
+void check_crack(Report& report)
+{
+    check_problem(report, {.file = "crack.toml", .source = "Wyllie & Mah, dry", .factor = 1.5445}, "F2 dry crack");
+}
+
+void check_hoek(Report& report)
+{
+    check_problem(report, {.file = "hoek.toml", .source = "Hoek, dry", .factor = 1.5843}, "F3 dry");
+    check_problem(report,
+                  {.file = "hoek.toml",
+                   .source = "Hoek, dry, 0.08 g",
+                   .factor = 1.3716,
+                   .overrides = {set("gravity.vector", Vec2(-0.08 * 9.81, -9.81))}},
+                  "F3 dry, 0.08 g");
+}
+
+void check_toppling(Report& report)
+{
+    const FosAnswer drawn = find_factor("toppling.toml", {});
+    const FosAnswer turned = find_factor("toppling.toml", turned_case("fos/toppling.toml", {}, turn));
+    const FosAnswer hybrid = find_factor("toppling.toml", {set("contact.method", std::string("hybrid"))});
+    const FosAnswer other = find_factor("toppling.toml",
+                                        {{"factor_of_safety.bracket", "[0.7, 2.2]"}, {"factor_of_safety.tolerance", "0.005"}});
+    for (const auto& [name, f] : {std::pair{"F4", drawn.value()}, std::pair{"F4 turned by 23°", turned.value()},
+                                  std::pair{"F4, stiffer joints", drawn.stiffer()}, std::pair{"F4, hybrid", hybrid.value()}})
+    {
+        report.require({fmt::format("{}: F", name), "Goodman and Bray, side forces at the tops", 1.05, f}, at_least());
+        report.require({fmt::format("{}: F", name), "limit analysis", 1.272, f}, at_most());
+    }
+    report.require({"F4: bound by limit analysis", "φ 33.41°", 1.2721, drawn.bound.factor}, relative(0.002));
+    report.require({"F4: F by other trials, of half the width", "the same", drawn.value(), other.value()}, relative(0.005));
+    report.require({"F4: F with joints three times as stiff", "the same", drawn.value(), drawn.stiffer()}, relative(0.01));
+    double same = 0.0;
+    for (const int threads : {2, 3})
+        same += same_trials(drawn.factor, find_factor("toppling.toml", {}, threads).factor) ? 1.0 : 0.0;
+    report.require({"F4: runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
+}
+
+void check_biplanar(Report& report)
+{
+    check_problem(report, {.file = "biplanar.toml", .source = "two blocks", .factor = 1.25673}, "F5");
+}
+
+void check_wedge(Report& report)
+{
+    const double s = load_case(case_folder() / "fos/wedge.toml").file.def.insitu.stress->xx;
+    const double c = std::cos(turn), n = std::sin(turn);
+    check_problem(report,
+                  {.file = "wedge.toml",
+                   .source = "P_lim(φ) = weight",
+                   .factor = 1.08535,
+                   .turned = {{"insitu.stress", fmt::format("[{:.17g}, {:.17g}, {:.17g}]", c * c * s, n * n * s, c * n * s)}},
+                   .has_bound = false},
+                  "F6 roof wedge");
+}
+
+Overrides law(const std::string& keys)
+{
+    return {{"joint.default", "{normal_stiffness = 1e10, shear_stiffness = 1e9, " + keys + "}"}};
+}
+
+/// With the numbers of check_laws [Pa].
+double saeb_amadei_peak(double sigma)
+{
+    const double x = sigma / 5e7, whole = std::pow(1.0 - x, 1.5);
+    const double roughness = std::atan(std::pow(1.0 - x, 4.0) * tan_deg(10.0));
+    return sigma * std::tan(30.0 * std::numbers::pi / 180.0 + roughness) * whole + (1.0 - whole) * (5e6 + sigma * tan_deg(40.0));
+}
+
+void check_laws(Report& report)
+{
+    const double sigma = 2700.0 * 9.81 * std::cos(std::numbers::pi / 6.0), slope = tan_deg(30.0);
+    const double i = 8.0 * std::log10(50e6 / sigma);
+    const struct
+    {
+        const char* name;
+        Overrides overrides;
+        double factor, bar;
+    } laws[] = {{"coulomb", {}, tan_deg(40.0) / slope, 0.01},
+                {"patton",
+                 law("law = \"patton\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, residual_friction_angle_deg = 33.0, "
+                     "cohesion = 1e6"),
+                 tan_deg(40.0) / slope, 0.01},
+                {"plesha", law("law = \"plesha\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, wear = 1e-7"),
+                 tan_deg(40.0) / slope, 0.01},
+                {"saeb_amadei",
+                 law("law = \"saeb_amadei\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, transition_stress = 5e7, "
+                     "rock_cohesion = 5e6, rock_friction_angle_deg = 40.0, greatest_closure = 3e-4"),
+                 saeb_amadei_peak(sigma) / sigma / slope, 0.01}};
+    for (const auto& l : laws)
+    {
+        const FosAnswer a = find_factor("slab.toml", l.overrides);
+        report.require({fmt::format("{}: F", l.name), "peak strength / tan 30°", l.factor, a.value()}, relative(l.bar));
+    }
+    // A trial begins before any roughness is mobilised, so the slab comes with some speed to where it is.
+    const FosAnswer barton = find_factor("slab.toml", law("law = \"barton_bandis\", jrc = 8.0, jcs = 5e7, "
+                                                          "residual_friction_angle_deg = 28.0, length = 0.1"));
+    report.require({"barton_bandis: F", "peak strength / tan 30°", tan_deg(28.0 + i) / slope, barton.value()}, at_most());
+    report.require({"barton_bandis: F", "at twice the peak's displacement", tan_deg(28.0 + 0.85 * i) / slope, barton.value()},
+                   at_least());
+    const FosAnswer yielding = find_factor("slab.toml", law("law = \"continuously_yielding\", friction_angle_deg = 32.0, "
+                                                            "mobilised_angle_deg = 42.0, wear_length = 1e-2"));
+    report.require({"continuously_yielding: F", "tan φ / tan 30°", tan_deg(32.0) / slope, yielding.value()}, at_least());
+    report.require({"continuously_yielding: F", "tan φ_m0 / tan 30°", tan_deg(42.0) / slope, yielding.value()}, at_most());
+    const FosAnswer brittle = find_factor("slab.toml", law("friction_angle_deg = 35.0, cohesion = 5e3, residual_cohesion = 0.0"));
+    const double weak = tan_deg(35.0) / slope, strong = weak + 5e3 / (2700.0 * 9.81 * 0.5);
+    report.require({"coulomb that loses its cohesion: F", "with residual strength alone", weak - 0.01, brittle.value()},
+                   at_least());
+    report.require({"coulomb that loses its cohesion: F, peak strength throughout", "(c + σ tan φ)/τ", strong, brittle.peak()},
+                   relative(0.01));
+    report.require({"coulomb that loses its cohesion: F", "below that of its peak", strong, brittle.value()}, at_most());
+}
+
+/// 417 blocks behind the plane of F3. They settle unevenly, and a contact that is open at one end has half of its cohesion.
+void check_rock(Report& report)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const FosAnswer a = find_factor("rock.toml", {}, 2);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.require({"F3 with 417 blocks behind the plane: bound by limit analysis", "Hoek, dry", 1.5843, a.bound.factor},
+                   relative(0.002));
+    report.require({"F", "the bound", a.bound.factor, a.value()}, at_most());
+    report.require({"F with joints three times as stiff", "the same", a.value(), a.stiffer()}, relative(0.02));
+    report.require({"time on two threads [s]", "two minutes", 120.0, seconds}, at_most());
+}
+
+/// Angle of a slope at which a block slides.
+void check_critical(Report& report)
+{
+    const FailureCondition slides{.quantity = FailureCondition::Quantity::displacement, .blocks = {"slab"}, .limit = 0.1};
+    const StandsAt stands = [&](double tilt, int threads, const std::stop_token& stop)
+    {
+        LoadedCase loaded = load_case(case_folder() / "fos/slab.toml", Overrides{set("gravity.tilt_deg", tilt)});
+        Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
+        return !run_to_condition(simulation, slides, stop).fails;
+    };
+    const Bracket up = search_between({20.0, 60.0}, 0.1, 1, stands), down = search_between({-20.0, -60.0}, 0.1, 2, stands);
+    report.require({"slope at which the slab slides [°]", "φ", 40.0, up.middle()}, absolute(0.1));
+    report.require({"the same, tilted the other way [°]", "-φ", -40.0, down.middle()}, absolute(0.1));
+}
+}  // namespace
+
+std::vector<Check> fos_checks()
+{
+    return {{"fos.F1", "plane failure", check_plane},
+            {"fos.F2", "plane failure with a dry tension crack", check_crack},
+            {"fos.F3", "Hoek's slope of 60 m, dry; with 0.08 g", check_hoek},
+            {"fos.F4", "toppling by Goodman and Bray", check_toppling},
+            {"fos.F5", "two blocks on two planes", check_biplanar},
+            {"fos.F6", "roof wedge in a horizontal stress", check_wedge},
+            {"fos.laws", "strength reduction of all joint laws", check_laws},
+            {"fos.critical", "slope at which a slab slides", check_critical},
+            {"fos.rock", "F3 with 417 blocks behind the plane", check_rock, Check::Length::is_long}};
+}
+}  // namespace hdem::verification

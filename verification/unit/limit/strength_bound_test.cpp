@@ -1,0 +1,108 @@
+#include "io/case_reader.h"
+#include "verification/unit/case_run.h"
+
+#include "limit/linear_program.h"
+#include "limit/strength_bound.h"
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace hdem
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(LinearProgram, MaximisesInTwoUnknowns)
+{
+    // max 3 x + 2 y, x + y = 4 - s, x + 3 y = 6 - r, x <= 3
+    LinearProgram program(2);
+    const int x = program.add_column(0.0, 3.0, -3.0, {{0, 1.0}, {1, 1.0}});
+    program.add_column(0.0, infinity, -2.0, {{0, 1.0}, {1, 3.0}});
+    program.add_column(0.0, infinity, 0.0, {{0, 1.0}});
+    program.add_column(0.0, infinity, 0.0, {{1, 1.0}});
+    program.set_row(0, 4.0);
+    program.set_row(1, 6.0);
+    EXPECT_EQ(program.solve(1000), LinearProgram::Status::optimal);
+    EXPECT_NEAR(program.cost(), -11.0, 1e-9);
+    program.change_bounds(x, 0.0, 1.0);
+    EXPECT_EQ(program.solve(1000), LinearProgram::Status::optimal);
+    EXPECT_NEAR(program.cost(), -3.0 - 10.0 / 3.0, 1e-9);
+    program.change_column(x, {{0, 1.0}, {1, 13.0}});
+    EXPECT_EQ(program.solve(1000), LinearProgram::Status::optimal);
+    EXPECT_NEAR(program.cost(), -4.0, 1e-9);
+}
+
+std::string slab(const std::string& joint, const std::string& more = "")
+{
+    return R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+)" + joint +
+           R"(
+[gravity]
+tilt_deg = 20.0
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[-6, -1], [10, -1], [10, 0], [-6, 0]]
+fixed = true
+[[block]]
+name = "slab"
+polygon = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[stage]]
+cycles = 3000
+)" + more;
+}
+
+StrengthBound bound_of(const std::string& text, const std::vector<std::uint8_t>& weakened = {})
+{
+    test::CaseRun run(read_case_text(text, "case.toml").def);
+    run.advance(3000);
+    return strength_bound(run.model(), run.state(), weakened, 1.0 / 128.0, 64.0);
+}
+
+double tan_deg(double degrees)
+{
+    return std::tan(degrees * std::acos(-1.0) / 180.0);
+}
+
+TEST(StrengthBound, IsThatOfASlabOnASlope)
+{
+    const double weight = 2700.0 * 9.81;
+    const double friction = tan_deg(30.0) / tan_deg(20.0), cohesion = 4e3 / (weight * std::sin(std::acos(-1.0) / 9.0));
+    const StrengthBound plain = bound_of(slab("friction_angle_deg = 30.0\n"));
+    EXPECT_EQ(plain.end, StrengthBound::End::found);
+    EXPECT_NEAR(plain.factor, friction, 2e-4 * friction);
+    const StrengthBound with_c = bound_of(slab("friction_angle_deg = 30.0\ncohesion = 4e3\n"));
+    EXPECT_NEAR(with_c.factor, friction + cohesion, 2e-4 * (friction + cohesion));
+    // tau <= c + sigma tan phi holds with and without tension
+    const StrengthBound with_t = bound_of(slab("friction_angle_deg = 30.0\ncohesion = 4e3\ntension = 5e3\n"));
+    EXPECT_NEAR(with_t.factor, friction + cohesion, 2e-4 * (friction + cohesion));
+}
+
+TEST(StrengthBound, LoadsCount)
+{
+    const double weight = 4.0 * 2700.0 * 9.81, a = std::acos(-1.0) / 9.0;
+    const StrengthBound pressed = bound_of(slab("friction_angle_deg = 30.0\n", R"(
+[[load]]
+blocks = ["slab"]
+force = [0.0, -5e4]
+)"));
+    const double expected = tan_deg(30.0) * (weight * std::cos(a) + 5e4) / (weight * std::sin(a));
+    EXPECT_NEAR(pressed.factor, expected, 2e-4 * expected);
+}
+
+TEST(StrengthBound, JointsThatKeepTheirStrengthHold)
+{
+    EXPECT_EQ(bound_of(slab("friction_angle_deg = 30.0\n"), {0}).end, StrengthBound::End::none);
+    EXPECT_EQ(bound_of(slab("friction_angle_deg = 10.0\n"), {0}).end, StrengthBound::End::no_balance);
+    const StrengthBound low = bound_of(slab("friction_angle_deg = 10.0\n"));
+    EXPECT_NEAR(low.factor, tan_deg(10.0) / tan_deg(20.0), 1e-3);
+}
+}  // namespace
+}  // namespace hdem

@@ -1,0 +1,204 @@
+#include "core/contact/contact_report.h"
+#include "core/rock/build_model.h"
+#include "io/case_reader.h"
+#include "parallel/reference_state.h"
+#include "parallel/safety_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <mutex>
+
+namespace hdem
+{
+namespace
+{
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+/// A slab on a slope of 20 degrees, and a small block beside it on a joint of its own.
+std::string slope(const std::string& more = "", double friction = 30.0)
+{
+    return R"(
+[material.rock]
+density = 2700.0
+[material.pebble]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+friction_angle_deg = )" +
+           std::to_string(friction) + R"(
+[joint.smooth]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+friction_angle_deg = 22.0
+materials = ["rock", "pebble"]
+[gravity]
+tilt_deg = 20.0
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[-6, -1], [20, -1], [20, 0], [-6, 0]]
+fixed = true
+[[block]]
+name = "slab"
+polygon = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[block]]
+name = "small"
+material = "pebble"
+polygon = [[8, 0], [8.5, 0], [8.5, 0.2], [8, 0.2]]
+[[stage]]
+until = "converged"
+max_cycles = 50000
+)" + more;
+}
+
+struct Case
+{
+    CaseDef def;
+    Reference reference;
+};
+
+Case started(const std::string& text)
+{
+    Case c{.def = read_case_text(text, "case.toml").def, .reference = {}};
+    Setup setup = build_model(c.def);
+    Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+    BeforeLastStage before;
+    Observer* const observers[] = {&before};
+    const std::vector<StageResult> stages = run_stages(simulation, observers);
+    const Moment last{simulation.model(), simulation.state()};
+    c.reference = find_reference(last, blocks_that_gave_way(last, stages.back().at_rest, c.def.factor_of_safety.least_size),
+                                 before.moment(), 1);
+    return c;
+}
+
+SafetyFactor factor_of(const Case& c, int threads = 1, TrialStore* store = nullptr)
+{
+    return find_safety_factor(c.reference.moment, {.def = c.def.factor_of_safety, .bound = {}, .threads = threads, .store = store});
+}
+
+double slides_at(double friction)
+{
+    return std::tan(friction * degree) / std::tan(20.0 * degree);
+}
+
+const std::string once = "[factor_of_safety]\ncheck_stiffness = 1\n";
+
+TEST(SafetyFactor, IsThatOfTheFirstBlockToFail)
+{
+    const Case c = started(slope(once));
+    const SafetyFactor found = factor_of(c);
+    EXPECT_NEAR(found.as_given.middle(), slides_at(22.0), 0.005);
+    ASSERT_NE(found.first_failure(), nullptr);
+    EXPECT_EQ(found.first_failure()->failing, std::vector<Index>{2});
+    EXPECT_LE(found.last_stable()->factor, *found.as_given.stands);
+    ASSERT_TRUE(found.failure);
+    EXPECT_GT(rim_displacement(found.failure->model.slot_of_user[2], found.failure->model, found.failure->state.blocks), 1e-3);
+}
+
+TEST(SafetyFactor, BlocksBelowTheLeastSizeMayFall)
+{
+    const SafetyFactor found = factor_of(started(slope(once + "least_size = 0.5\n")));
+    EXPECT_NEAR(found.as_given.middle(), slides_at(30.0), 0.01);
+    EXPECT_EQ(found.last_stable()->let_fall, std::vector<Index>{2});
+}
+
+TEST(SafetyFactor, JointsMayBeNamed)
+{
+    const SafetyFactor found = factor_of(started(slope(once + "reduce = [\"default\"]\n")));
+    EXPECT_NEAR(found.as_given.middle(), slides_at(30.0), 0.01);
+}
+
+TEST(SafetyFactor, BelowOneWhereTheRockDoesNotStand)
+{
+    const Case c = started(slope(once + "least_size = 0.5\n", 15.0));
+    EXPECT_EQ(c.reference.gave_way, std::vector<Index>{1});
+    EXPECT_NEAR(factor_of(c).as_given.middle(), slides_at(15.0), 0.005);
+}
+
+TEST(SafetyFactor, IsTheSameWithStifferJoints)
+{
+    const SafetyFactor found = factor_of(started(slope()));
+    ASSERT_TRUE(found.stiffer && found.stiffer->is_closed());
+    EXPECT_NEAR(found.stiffer->middle(), found.as_given.middle(), 0.01);
+}
+
+/// Blocks do not move when their joints are made stiffer: forces and places are those of before.
+TEST(SafetyFactor, StiffeningKeepsForces)
+{
+    const Case c = started(slope());
+    const Moment& soft = c.reference.moment;
+    const Moment stiff = stiffened_state(soft, 3.0);
+    Simulation simulation(trial_model(stiff, {.stiffness = 3.0}), stiff.state, 1);
+    simulation.begin_stage(0);
+    simulation.advance(100);
+    for (Index b = 0; b < soft.model.blocks(); ++b)
+        EXPECT_LT(simulation.state().blocks.displacement(b).norm(), 1e-9);
+    const ContactReport before = report_contact(soft.state, 0), after = report_contact(simulation.state(), 0);
+    EXPECT_NEAR(after.normal_force, before.normal_force, 1e-4 * before.normal_force);
+}
+
+class Remembered : public TrialStore
+{
+  public:
+    [[nodiscard]] std::optional<Trial> find(FactorSearch search, double factor) override
+    {
+        const std::lock_guard lock(mutex_);
+        const auto at = trials_.find({search, factor});
+        return at == trials_.end() ? std::nullopt : std::optional(at->second);
+    }
+    void add(FactorSearch search, const Trial& trial) override
+    {
+        const std::lock_guard lock(mutex_);
+        trials_[{search, trial.factor}] = trial;
+        ++runs;
+    }
+    void forget_one() { trials_.erase(trials_.begin()); }
+    int runs = 0;
+
+  private:
+    std::mutex mutex_;
+    std::map<std::pair<FactorSearch, double>, Trial> trials_;
+};
+
+TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)
+{
+    const Case c = started(slope(once));
+    Remembered store;
+    const SafetyFactor first = factor_of(c, 1, &store);
+    const int runs = store.runs;
+    EXPECT_GT(runs, 3);
+    store.forget_one();
+    const SafetyFactor again = factor_of(c, 2, &store);
+    EXPECT_EQ(store.runs, runs + 1);
+    EXPECT_EQ(again.as_given.middle(), first.as_given.middle());
+    EXPECT_EQ(again.trials.size(), first.trials.size());
+}
+
+TEST(SafetyFactor, ASearchThatIsAskedToStopStops)
+{
+    const Case c = started(slope(once));
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW(static_cast<void>(find_safety_factor(
+                     c.reference.moment, {.def = c.def.factor_of_safety, .bound = {}, .threads = 2, .stop = source.get_token()})),
+                 SearchStopped);
+}
+
+/// Strength is lost by breaking: without its cohesion the slab stands at the factor of its friction, with it at more.
+TEST(SafetyFactor, PeakStrengthBesideTheResidualOne)
+{
+    std::string text = slope(once + "least_size = 0.5\n");
+    text.replace(text.find("[joint.smooth]"), 0, "cohesion = 4e3\nresidual_cohesion = 0.0\n");
+    const SafetyFactor found = factor_of(started(text));
+    ASSERT_TRUE(found.peak && found.peak->is_closed());
+    const double with_cohesion = slides_at(30.0) + 4e3 / (2700.0 * 9.81 * std::sin(20.0 * degree));
+    EXPECT_NEAR(found.peak->middle(), with_cohesion, 0.01 * with_cohesion);
+    EXPECT_LT(found.as_given.middle(), found.peak->middle());
+    EXPECT_GT(found.as_given.middle(), slides_at(30.0) - 0.01);
+}
+}  // namespace
+}  // namespace hdem

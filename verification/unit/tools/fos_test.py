@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""`hdem fos` and `hdem critical` as a user runs them: the answer, its files, an interruption, what they refuse.
+
+    fos_test.py HDEM CASES    the program, and the folder of the cases
+"""
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+HDEM, CASES = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve() / "fos"
+
+
+def hdem(*arguments, code=0):
+    done = subprocess.run([HDEM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == code, (done.returncode, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+def answer(folder):
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))["factor_of_safety"]
+
+
+class Fos(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="hdem_fos_")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name) / "out"
+
+    def test_says_factor_bound_and_blocks(self):
+        text = hdem("fos", CASES / "plane.toml", "-o", self.folder)
+        self.assertIn("factor of safety  1.13", text)
+        self.assertIn("limit analysis", text)
+        found = answer(self.folder)
+        self.assertAlmostEqual(found["factor"], 1.1375, delta=0.01)
+        self.assertAlmostEqual(found["bound"], 1.1375, delta=0.001)
+        self.assertEqual(found["failing_blocks"], ["wedge"])
+        self.assertEqual(found["verdict"], "failed")
+        self.assertLessEqual(found["failed_at"] - found["stable_at"], 0.0101)
+        for arguments in (["plot", self.folder, "--factor"], ["plot", self.folder / "failure"], ["report", self.folder]):
+            hdem(*arguments)
+        page = (self.folder / "report.html").read_text(encoding="utf-8")
+        self.assertIn("Factor of safety", page)
+        self.assertIn("Blocks that fail", page)
+
+    def test_goes_on_after_it_was_killed(self):
+        whole, broken = self.folder / "whole", self.folder / "broken"
+        hdem("fos", CASES / "toppling.toml", "-o", whole, "-q")
+        for how in (signal.SIGKILL, signal.SIGTERM):
+            run = subprocess.Popen([HDEM, "fos", CASES / "toppling.toml", "-o", broken, "-q"], stderr=subprocess.DEVNULL)
+            known = (broken / "trials.json").read_text(encoding="utf-8").count('"at"') if (broken / "trials.json").exists() else 0
+            end = time.monotonic() + 60.0
+            while time.monotonic() < end and run.poll() is None:
+                if (broken / "trials.json").exists() and (broken / "trials.json").read_text(encoding="utf-8").count('"at"') > known:
+                    break
+                time.sleep(0.005)
+            run.send_signal(how)
+            run.wait()
+        hdem("fos", CASES / "toppling.toml", "-o", broken, "-q")
+        self.assertEqual(answer(broken), answer(whole))
+
+    def test_another_case_begins_anew(self):
+        hdem("fos", CASES / "plane.toml", "-o", self.folder, "-q", "--set", "factor_of_safety.check_stiffness=1")
+        hdem("fos", CASES / "plane.toml", "-o", self.folder, "-q", "--set", "factor_of_safety.check_stiffness=1", "--set", "joint.default.cohesion=0")
+        self.assertAlmostEqual(answer(self.folder)["factor"], 0.8345, delta=0.01)
+        self.assertEqual(answer(self.folder)["did_not_stand"], ["wedge"])
+
+    def test_refuses_what_it_cannot_read(self):
+        for key, why in ((("reduce", '["beding"]'), "no joint has this name"), (("bracket", "[2.0, 1.0]"), "not above its beginning"),
+                         (("tolerance", "0"), "tolerance"), (("displacement", '"some"'), "displacement")):
+            text = hdem("fos", CASES / "plane.toml", "-o", self.folder, "--set", f"factor_of_safety.{key[0]}={key[1]}", code=2)
+            self.assertIn(why, text)
+
+    def test_critical_slope(self):
+        text = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
+        self.assertIn("critical gravity.tilt_deg", text)
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(found["critical"], 40.0, delta=0.1)
+        again = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
+        self.assertEqual(text, again)
+
+    def test_critical_friction_fails_at_the_low_end(self):
+        hdem("critical", CASES / "slab.toml", "--vary", "joint.default.friction_angle_deg=10:50", "--fails", "displacement:*>0.1", "-o", self.folder, "-q")
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(found["critical"], 30.0, delta=0.1)
+        self.assertGreater(found["stands_at"], found["fails_at"])
+
+    def test_critical_refuses(self):
+        for vary, fails, why in (("gravity.tilt_deg", "displacement:slab>0.1", "KEY=LOW:HIGH"), ("gravity.tilt_deg=9:3", "displacement:slab>0.1", "lower number first"),
+                                 ("gravity.tilt_deg=3:9", "speed:slab>0.1", "displacement:BLOCK>METRES"), ("gravity.tilt_deg=3:9", "displacement:slob>0.1", "no block is called"),
+                                 ("gravity.tilt_deg=1:5", "displacement:slab>0.1", "begins to fail"), ("gravity.tlt_deg=20:60", "displacement:slab>0.1", "did you mean")):
+            self.assertIn(why, hdem("critical", CASES / "slab.toml", "--vary", vary, "--fails", fails, "-o", self.folder, code=2))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
