@@ -3,7 +3,7 @@
 
     include_layers.py [ROOT]
 
-Between folders: parallel, io and limit stand on core, and not on each other; verification, perf and tools stand on all four, perf
+Between folders: parallel and io stand on core, and not on each other; verification, perf and tools stand on all three, perf
 also on verification/scenes. Inside core there are four floors (FLOOR); a file may include from its own floor and from those
 below. OpenMP appears in parallel only, HDF5 nowhere below io.
 """
@@ -15,13 +15,12 @@ MAY_USE = {
     "core": {"core"},
     "parallel": {"core", "parallel"},
     "io": {"core", "io"},
-    "limit": {"core", "limit"},
     "verification/scenes": {"core", "parallel", "io", "verification/scenes"},
-    "verification": {"core", "parallel", "io", "limit", "verification", "verification/scenes"},
+    "verification": {"core", "parallel", "io", "verification", "verification/scenes"},
     "perf": {"core", "parallel", "io", "perf", "verification/scenes"},
-    "tools": {"core", "parallel", "io", "limit", "tools"},
+    "tools": {"core", "parallel", "io", "tools"},
 }
-FOLDERS = ("core", "parallel", "io", "limit", "verification", "perf", "tools")
+FOLDERS = ("core", "parallel", "io", "verification", "perf", "tools")
 
 # Floors of core, by folder or by file name without suffix; whatever is not named here is on the top floor.
 FLOOR = {"types": 1, "simd": 1, "check": 1, "version": 1, "geometry": 2, "joint": 2, "model": 3, "state": 3}
@@ -35,8 +34,6 @@ BANNED = {    # layer -> what its files may not include, and the reason
              (OUTSIDE_WORLD, "core knows no files, formats or console")],
     "parallel": [(HDF5, "files belong to io")],
     "io": [(OPENMP, "OpenMP belongs to parallel")],
-    "limit": [(OPENMP, "OpenMP belongs to parallel"), (HDF5, "files belong to io"),
-              (OUTSIDE_WORLD, "limit knows no files, formats or console")],
     "verification/scenes": [(OPENMP, "OpenMP belongs to parallel")],
     "verification": [(OPENMP, "OpenMP belongs to parallel")],
     "perf": [(OPENMP, "OpenMP belongs to parallel")],

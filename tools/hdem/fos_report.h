@@ -1,10 +1,10 @@
 #pragma once
 /// What `hdem fos` says of the factor of safety.
 
+#include "core/limit/strength_bound.h"
 #include "parallel/reference_state.h"
 #include "parallel/safety_factor.h"
 
-#include "limit/strength_bound.h"
 #include <nlohmann/json.hpp>
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 /// Factors of safety: slopes and a roof wedge with closed forms, by strength reduction and by limit analysis.
 
+#include "core/limit/strength_bound.h"
 #include "parallel/critical_search.h"
 #include "parallel/reference_state.h"
 #include "parallel/safety_factor.h"
@@ -7,7 +8,6 @@
 #include "verification/checks/checks.h"
 #include "verification/checks/turned_case.h"
 
-#include "limit/strength_bound.h"
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "limit/linear_program.h"
+#include "core/limit/linear_program.h"
 
 #include <Clp_C_Interface.h>
 
@@ -15,7 +15,9 @@ struct LinearProgram::Clp
     ~Clp() { Clp_deleteModel(model); }
 };
 
-LinearProgram::LinearProgram(int rows) : row_value_(static_cast<std::size_t>(rows), 0.0) {}
+LinearProgram::LinearProgram(int rows) : row_value_(static_cast<std::size_t>(rows), 0.0)
+{
+}
 LinearProgram::~LinearProgram() = default;
 
 int LinearProgram::add_column(double low, double high, double cost, const std::vector<Entry>& entries)

@@ -1,10 +1,10 @@
-#include "limit/strength_bound.h"
+#include "core/limit/strength_bound.h"
 
 #include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
 #include "core/joint/all_laws.h"
+#include "core/limit/linear_program.h"
 #include "core/state/workspace.h"
-#include "limit/linear_program.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace hdem
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double accuracy = 1e-4;       // of F
+constexpr double accuracy = 1e-4;        // of F
 constexpr double balanced = 1.0 - 1e-7;  // of lambda
 constexpr int most_iterations = 400'000;
 constexpr Index most_blocks = 20'000;

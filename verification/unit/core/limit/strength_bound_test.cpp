@@ -1,8 +1,8 @@
+#include "core/limit/linear_program.h"
+#include "core/limit/strength_bound.h"
 #include "io/case_reader.h"
 #include "verification/unit/case_run.h"
 
-#include "limit/linear_program.h"
-#include "limit/strength_bound.h"
 #include <gtest/gtest.h>
 
 #include <limits>

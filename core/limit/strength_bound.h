@@ -17,7 +17,7 @@ struct StrengthBound
     enum class End
     {
         found,
-        none,    ///< strength does not limit what can be balanced: in-situ stress or geometry may hold the blocks at any F up to `most`
+        none,  ///< strength does not limit what can be balanced: in-situ stress or geometry may hold the blocks at any F up to `most`
         no_balance,  ///< not even great strength balances the blocks
         not_found    ///< too many blocks, or Clp gave up
     };
