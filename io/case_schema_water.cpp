@@ -79,8 +79,9 @@ SectionSpec water_crack_section()
         "water_crack",
         SectionKind::array,
         "water crack",
-        "A crack in which water stands, and the joints through which it seeps to the outside. On its line this pressure counts, "
-        "whatever [water] says elsewhere. Needs [water].",
+        "A crack in which water stands, and the joints through which it seeps to the outside. On its line, where the blocks are "
+        "drawn, this pressure counts, whatever [water] says elsewhere; it stays with these faces until their block has moved a "
+        "quarter of its size. Needs [water].",
         {with_assign(spec({.name = "crack",
                            .unit = "m",
                            .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y).",

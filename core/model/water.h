@@ -46,6 +46,7 @@ struct Water
     std::vector<std::uint8_t> wet_opening;  ///< per excavation: is it flooded, where water stands higher?
     std::vector<WaterCrack> cracks;
     PressureField field;
-    double tolerance = 0.0;  ///< distance from a crack's line at which a joint lies on it [m]
+    double tolerance = 0.0;   ///< distance from a crack's line at which a joint lies on it [m]
+    std::vector<Vec2> drawn;  ///< centroids of the blocks as drawn, in the user's order, local coordinates [m]
 };
 }  // namespace hdem

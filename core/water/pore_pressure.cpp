@@ -124,8 +124,14 @@ void add_piece(double s0, double p0, double s1, double p1, PressureSum& sum)
     sum.moment += length * (mean * s0 + length * (p0 + 2.0 * p1) / 6.0);
 }
 
-/// Ways along a stretch at which its pressure may bend, ascending, with both ends.
-std::vector<double> bends(const Water& water, const Pressure& pressure, const Vec2& from, const Vec2& along, double length)
+/// Unit vector along a stretch.
+Vec2 direction(const Vec2& from, const Vec2& to)
+{
+    return (to - from).normalized();
+}
+
+/// Ways along a face at which its pressure may bend, ascending, with both ends.
+std::vector<double> bends(const Water& water, const Pressure& pressure, const FaceStretch& face, double length)
 {
     std::vector<double> ways{0.0, length};
     const auto add = [&](double way)
@@ -133,18 +139,19 @@ std::vector<double> bends(const Water& water, const Pressure& pressure, const Ve
         if (way > 0.0 && way < length)
             ways.push_back(way);
     };
-    if (pressure.has_table())
+    if (pressure.has_table() && face.table_acts)
     {
-        const double start = pressure.across(from), slope = pressure.across(along);
+        const double start = pressure.across(face.from), slope = pressure.across(direction(face.from, face.to));
         for (const Vec2& p : pressure.table().points)
             if (slope != 0.0)
                 add((p.x() - start) / slope);
     }
+    const Vec2 along = direction(face.drawn_from, face.drawn_to);
     for (const WaterCrack& crack : water.cracks)
         for (const std::vector<Vec2>* line : {&crack.crack, &crack.outlet})
             for (const Vec2& p : *line)
-                if (std::abs(cross(along, p - from)) <= water.tolerance)
-                    add((p - from).dot(along));
+                if (face.cracks_act && std::abs(cross(along, p - face.drawn_from)) <= water.tolerance)
+                    add((p - face.drawn_from).dot(along));
     if (!water.field.triangle.empty())
     {
         const double count = std::clamp(std::ceil(pieces_a_triangle * length / water.field.spacing), 1.0, double{most_pieces});
@@ -156,20 +163,24 @@ std::vector<double> bends(const Water& water, const Pressure& pressure, const Ve
 }
 }  // namespace
 
-PressureSum pressure_along(const Water& water, Index stage, const Vec2& from, const Vec2& to)
+PressureSum pressure_along(const Water& water, Index stage, const FaceStretch& face)
 {
     PressureSum sum;
-    const double length = (to - from).norm();
+    const double length = (face.to - face.from).norm();
     if (length == 0.0)
         return sum;
-    const Vec2 along = (to - from) / length;
+    const Vec2 along = direction(face.from, face.to), drawn_along = direction(face.drawn_from, face.drawn_to);
     const Pressure pressure(water, stage);
-    const std::vector<double> ways = bends(water, pressure, from, along, length);
+    const std::vector<double> ways = bends(water, pressure, face, length);
     for (std::size_t i = 0; i + 1 < ways.size(); ++i)
     {
-        const Vec2 a = from + ways[i] * along, b = from + ways[i + 1] * along;
-        const auto crack = pressure.on_crack(a, b);
-        add_piece(ways[i], crack ? (*crack)[0] : pressure.at(a), ways[i + 1], crack ? (*crack)[1] : pressure.at(b), sum);
+        std::optional<std::array<double, 2>> ends;
+        if (face.cracks_act && !water.cracks.empty())
+            ends = pressure.on_crack(face.drawn_from + ways[i] * drawn_along, face.drawn_from + ways[i + 1] * drawn_along);
+        if (!ends && face.table_acts)
+            ends = {pressure.at(face.from + ways[i] * along), pressure.at(face.from + ways[i + 1] * along)};
+        if (ends)
+            add_piece(ways[i], (*ends)[0], ways[i + 1], (*ends)[1], sum);
     }
     return sum;
 }

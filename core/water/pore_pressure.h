@@ -5,7 +5,7 @@
 ///   p = linear in length           from the foot of a water-filled crack to its outlet, where it is 0
 ///   p = linear in triangles        of a field from elsewhere
 ///
-/// On the line of a crack its own pressure counts, elsewhere that of the field if there is one, else that of the table.
+/// On the line of a crack, where the blocks are drawn, its own pressure counts, elsewhere that of the field if there is one, else that of the table.
 
 #include "core/model/water.h"
 
@@ -18,9 +18,23 @@ struct PressureSum
     double moment = 0.0;  ///< integral of p s ds, s from the first end [N m]
 };
 
-/// @param stage     whose table acts
-/// @param from, to  local coordinates [m]
-[[nodiscard]] PressureSum pressure_along(const Water& water, Index stage, const Vec2& from, const Vec2& to);
+/// A straight stretch of a face, in local coordinates.
+struct FaceStretch
+{
+    Vec2 from, to;              ///< now [m]
+    Vec2 drawn_from, drawn_to;  ///< where its block is drawn [m]
+    bool table_acts = true;     ///< else cracks alone
+    bool cracks_act = true;
+};
+
+/// @param stage  whose table acts
+[[nodiscard]] PressureSum pressure_along(const Water& water, Index stage, const FaceStretch& face);
+
+/// The same of a face of a block that is where it was drawn.
+[[nodiscard]] inline PressureSum pressure_along(const Water& water, Index stage, const Vec2& from, const Vec2& to)
+{
+    return pressure_along(water, stage, FaceStretch{.from = from, .to = to, .drawn_from = from, .drawn_to = to});
+}
 
 /// Triangles of the field, by Delaunay. @return false where all points lie on a line
 [[nodiscard]] bool make_triangles(PressureField& field);

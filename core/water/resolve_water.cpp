@@ -43,6 +43,9 @@ class WaterResolver
         water_.up = -def_.gravity.normalized();
         water_.ponded = def_.water.ponded;
         water_.tolerance = near_line * model_.mean_size;
+        water_.drawn.resize(model_.user_number.size());
+        for (std::size_t b = 0; b < model_.user_number.size(); ++b)
+            water_.drawn[model_.user_number[b]] = {blocks_.motion[b].x, blocks_.motion[b].y};
         add_tables();
         add_joints();
         for (const std::string& name : model_.excavation_names)

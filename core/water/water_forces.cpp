@@ -13,7 +13,8 @@ namespace hdem
 {
 namespace
 {
-constexpr double steepest = 0.5;  ///< of an edge against the one it faces [-]
+constexpr double steepest = 0.5;        ///< of an edge against the one it faces [-]
+constexpr double cracks_follow = 0.25;  ///< way of a block over its size up to which cracks press on it [-]
 
 /// Part of an edge, from its first vertex.
 struct Stretch
@@ -131,6 +132,10 @@ class WaterForces
     {
         sum_ = {};
         block_ = block;
+        drawn_ = model_.water.drawn[model_.user_number[block]];
+        const BlockMotion& motion = state_.blocks.motion[block];
+        cracks_act_ = !model_.water.cracks.empty() &&
+                      (Vec2(motion.x, motion.y) - drawn_).norm() <= cracks_follow * model_.size(block);
         const Shapes& shapes = model_.shapes;
         for (Index part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part)
             for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
@@ -143,38 +148,47 @@ class WaterForces
     void add_edge(Index edge)
     {
         double covered = 0.0;
-        const bool may_be_free = model_.water.ponded && !has_given_stress(edge);
+        const bool is_ponded = model_.water.ponded && !has_given_stress(edge);
         for (auto face = std::ranges::lower_bound(faces_, edge, {}, &Stretch::edge); face != faces_.end() && face->edge == edge;
              ++face)
         {
-            if (face->from > covered && may_be_free)
-                add_free(edge, covered, face->from);
+            if (face->from > covered)
+                add_free(edge, covered, face->from, is_ponded);
             if (face->to > covered && face->is_wet)
-                add_pressure(edge, std::max(face->from, covered), face->to);
+                add_pressure(edge, std::max(face->from, covered), face->to, true);
             covered = std::max(covered, face->to);
         }
-        if (may_be_free && covered < model_.shapes.edge_length[edge])
-            add_free(edge, covered, model_.shapes.edge_length[edge]);
+        if (covered < model_.shapes.edge_length[edge])
+            add_free(edge, covered, model_.shapes.edge_length[edge], is_ponded);
     }
 
-    void add_free(Index edge, double from, double to)
+    void add_free(Index edge, double from, double to, bool is_ponded)
     {
         const Vec2 out = model_.water.tolerance * -turned_left(direction(edge));
         double wet_from = from;
         for (const auto& [low, high] : openings_.inside(place(edge, from) + out, place(edge, to) + out))
         {
             if (const double dry = from + low * (to - from); dry > wet_from)
-                add_pressure(edge, wet_from, dry);
+                add_pressure(edge, wet_from, dry, is_ponded);
             wet_from = std::max(wet_from, from + high * (to - from));
         }
         if (wet_from < to)
-            add_pressure(edge, wet_from, to);
+            add_pressure(edge, wet_from, to, is_ponded);
     }
 
-    void add_pressure(Index edge, double from, double to)
+    void add_pressure(Index edge, double from, double to, bool table_acts)
     {
+        if (!table_acts && !cracks_act_)
+            return;
         const Vec2 a = place(edge, from), inward = turned_left(direction(edge));
-        const PressureSum p = pressure_along(model_.water, state_.stage, a, place(edge, to));
+        const Vec2 drawn = drawn_ + model_.shapes.vertex[edge], tangent = model_.shapes.edge_tangent[edge];
+        const PressureSum p = pressure_along(model_.water, state_.stage,
+                                             {.from = a,
+                                              .to = place(edge, to),
+                                              .drawn_from = drawn + from * tangent,
+                                              .drawn_to = drawn + to * tangent,
+                                              .table_acts = table_acts,
+                                              .cracks_act = cracks_act_});
         const Vec2 force = p.force * inward;
         const BlockMotion& motion = state_.blocks.motion[block_];
         sum_.x += force.x();
@@ -219,6 +233,8 @@ class WaterForces
     DryOpenings openings_;
     std::vector<Stretch> faces_;  ///< ascending by edge and place
     Index block_ = no_index;
+    Vec2 drawn_ = {0.0, 0.0};  ///< its centroid as drawn
+    bool cracks_act_ = false;  ///< on it
     Triple sum_;
 };
 }  // namespace

@@ -3,7 +3,8 @@
 ///
 /// On a joint the pressure acts on both faces, over the whole stretch on which the edges face each other, open or closed: springs carry
 /// what remains, so that the normal force of a joint law is the effective one. On a free face it acts where water is ponded, but not
-/// on faces of drained excavations, nor where a boundary gives the stress. Pressures are those of the present pose.
+/// on faces of drained excavations, nor where a boundary gives the stress. Pressures are those of the present pose; those of a crack belong to
+/// the faces that lie on its line as drawn, and stay with them until their block has moved a quarter of its size.
 ///
 ///   F = -integral of p n ds,  M = integral of (x - centroid) x dF      n: out of the block
 ///

@@ -126,6 +126,31 @@ void check_hoek(Report& report)
                   "F3 dry, 0.08 g");
 }
 
+/// Water in the crack up to `level`, which seeps along the plane to its toe.
+Overrides water_in_crack(const Vec2& mouth, const Vec2& foot, double level)
+{
+    return {{"water", "{}"},
+            {"water_crack", fmt::format("[{{crack = [[{0}, {1}], [{2}, {3}]], outlet = [[{2}, {3}], [0.0, 0.0]], level = {4}}}]",
+                                        mouth.x(), mouth.y(), foot.x(), foot.y(), level)}};
+}
+
+void check_wet_cracks(Report& report)
+{
+    const Vec2 foot(10.9282032303, 7.65201028093), mouth(10.9282032303, 12.0);
+    const Vec2 hoek_foot(65.6817362484, 45.9908468438), hoek_mouth(65.6817362484, 60.0);
+    const auto check = [&](const char* file, double factor, const Overrides& overrides, const std::string& name)
+    { check_problem(report, {.file = file, .source = "with U and V", .factor = factor, .overrides = overrides}, name); };
+    check("crack.toml", 1.2467, water_in_crack(mouth, foot, foot.y() + 3.0), "F2, 3 m of water");
+    check("crack.toml", 1.0725, water_in_crack(mouth, foot, foot.y() + 4.35), "F2, full");
+    const double depth = hoek_mouth.y() - hoek_foot.y();
+    const Overrides full = water_in_crack(hoek_mouth, hoek_foot, hoek_mouth.y());
+    check("hoek.toml", 1.4164, water_in_crack(hoek_mouth, hoek_foot, hoek_foot.y() + 0.5 * depth), "F3, half full");
+    check("hoek.toml", 1.2057, full, "F3, full");
+    check("hoek.toml", 1.0403,
+          full + Overrides{{"load", fmt::format("[{{blocks = [\"wedge\"], acceleration = [{}, 0.0]}}]", -0.08 * 9.81)}},
+          "F3, full, 0.08 g");
+}
+
 void check_toppling(Report& report)
 {
     const FosAnswer drawn = find_factor("toppling.toml", {});
@@ -257,6 +282,7 @@ std::vector<Check> fos_checks()
     return {{"fos.F1", "plane failure", check_plane},
             {"fos.F2", "plane failure with a dry tension crack", check_crack},
             {"fos.F3", "Hoek's slope of 60 m, dry; with 0.08 g", check_hoek},
+            {"water.W2", "factor of safety of F2 and F3 with water in the crack", check_wet_cracks},
             {"fos.F4", "toppling by Goodman and Bray", check_toppling},
             {"fos.F5", "two blocks on two planes", check_biplanar},
             {"fos.F6", "roof wedge in a horizontal stress", check_wedge},

@@ -138,7 +138,9 @@ TEST(LoadChanges, TractionsGrowToTheSameStressWithoutSwinging)
         most = std::max(most, stored_energy(slowly.model(), slowly.state()).kinetic);
         most_at_once = std::max(most_at_once, stored_energy(at_once.model(), at_once.state()).kinetic);
         if (i == 750)
+        {
             EXPECT_NEAR(pressure_below(slowly), 1e6, 2e4);
+        }
     }
     EXPECT_LT(most, 0.01 * most_at_once);
     EXPECT_NEAR(pressure_below(slowly), 2e6, 2e3);

@@ -137,6 +137,31 @@ TEST(WaterForces, OfAFieldFollowItsGradientAndMustReachTheRock)
     EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
 }
 
+/// The water of a crack goes with the faces on its line, until their block has moved a quarter of its size.
+TEST(WaterForces, OfACrackStayWithItsFaces)
+{
+    CaseDef scene = rock_below_water();
+    scene.water = {.given = true, .ponded = false};
+    scene.water_cracks = {{.crack = {{3, 4}, {3, 3}}, .outlet = {{3, 3}, {6, 3}}, .level = 4.0}};
+    const auto push = [&](double moved)
+    {
+        Index block = no_index;
+        const CaseRun run(scene,
+                          [&](const Model& model, State& state)
+                          {
+                              for (Index b = 0; b < model.blocks(); ++b)
+                                  if ((state.blocks.reference_position[b] + model.origin - Vec2(3.5, 3.5)).norm() < 1e-6)
+                                      block = b;
+                              state.blocks.motion[block].x += moved;
+                          });
+        return run.state().water[block];
+    };
+    for (const double moved : {0.0, 0.03, 0.2})
+        EXPECT_NEAR(push(moved).x, 0.5 * weight_of_water, 1e-6) << moved;
+    EXPECT_GT(push(0.0).y, 0.9 * weight_of_water * 5.0 / 6.0);
+    EXPECT_EQ(push(0.3).x, 0.0);
+}
+
 /// Water stands in rock under stress: springs bear the effective part, and nothing moves.
 TEST(WaterForces, LeaveStressedRockWhereItIsDrawn)
 {
