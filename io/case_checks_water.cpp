@@ -48,6 +48,14 @@ class WaterCheck : public CaseCheck
             exclude("water", "[water]", key, "pressure");
         if (def_.gravity.isZero() && !problems_.has("gravity"))
             problems_.add("water", "[water]", "gravity", "is 0: water has no weight", "Give gravity, or remove [water].");
+        const bool has_water = def_.water.level || !def_.water.table.empty() || !def_.water.pressure.empty() ||
+                               !def_.water_cracks.empty() ||
+                               std::ranges::any_of(def_.stages, [](const StageDef& stage)
+                                                   { return stage.water_level || !stage.water_table.empty(); });
+        if (!has_water && !problems_.has("water.level") && !problems_.has("water.table"))
+            problems_.add("water", "[water]", "level",
+                          "is missing, and so are table, pressure, [[water_crack]] and levels of stages",
+                          "Give one of them, or remove [water].");
         if (given("water.joints") && !problems_.has("water.joints") && def_.water.joints.empty())
             problems_.add("water.joints", "[water]", "joints = []", "no joint would have water",
                           "Name a joint, or remove this key.");

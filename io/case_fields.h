@@ -130,6 +130,17 @@ void store(T& field, const TomlNode& node, const KeySpec& key)
     }
 }
 
+/// Points of a line; unlike those of a polygon, a last point that is the first stays.
+template <auto Member>
+void assign_line(void* object, const TomlNode& value, const KeySpec&)
+{
+    using Owner = typename MemberTraits<decltype(Member)>::Owner;
+    Polygon& points = static_cast<Owner*>(object)->*Member;
+    points.clear();
+    for (const TomlNode& item : *value.items())
+        points.push_back(vector(item));
+}
+
 inline std::string json_number(double x)
 {
     return fmt::format("{}", x);

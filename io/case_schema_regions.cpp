@@ -5,18 +5,6 @@ namespace hdem
 {
 using namespace fields;
 
-namespace
-{
-/// Not as a polygon is read: a last point that is the first stays.
-void assign_points(void* object, const TomlNode& value, const KeySpec&)
-{
-    Polygon& points = static_cast<FaultDef*>(object)->points;
-    points.clear();
-    for (const TomlNode& item : *value.items())
-        points.push_back(vector(item));
-}
-}  // namespace
-
 SectionSpec fault_section()
 {
     KeySpec points = spec({.name = "points",
@@ -34,7 +22,7 @@ SectionSpec fault_section()
         "domain, or beyond another fault: what ends inside a block parts nothing and is dropped, with a warning.",
         {field<&FaultDef::name>(
              {.name = "name", .effect = "What regions and messages call it.", .example = "\"fault1\"", .required = true}),
-         with_assign(std::move(points), assign_points),
+         with_assign(std::move(points), assign_line<&FaultDef::points>),
          field<&FaultDef::joint>({.name = "joint",
                                   .effect = "Name of the [joint.NAME] for contacts along it; it goes before that of a joint set.",
                                   .default_note = "by the materials of the two blocks"})},

@@ -171,13 +171,7 @@ SectionSpec stage_section()
                            .range = coordinate,
                            .default_note = "unchanged"},
                           ValueType::line),
-                     [](void* object, const TomlNode& value, const KeySpec&)
-                     {
-                         Polygon& points = static_cast<StageDef*>(object)->water_table;
-                         points.clear();
-                         for (const TomlNode& item : *value.items())
-                             points.push_back(vector(item));
-                     }),
+                     assign_line<&StageDef::water_table>),
          field<&StageDef::method>({.name = "method",
                                    .effect = "contact.method from here on.",
                                    .choices = {"force", "impulse", "hybrid"},

@@ -5,20 +5,6 @@ namespace hdem
 {
 using namespace fields;
 
-namespace
-{
-/// Not as a polygon is read: a last point that is the first stays.
-template <auto Member>
-void assign_line(void* object, const TomlNode& value, const KeySpec&)
-{
-    using Owner = typename MemberTraits<decltype(Member)>::Owner;
-    Polygon& points = static_cast<Owner*>(object)->*Member;
-    points.clear();
-    for (const TomlNode& item : *value.items())
-        points.push_back(vector(item));
-}
-}  // namespace
-
 SectionSpec water_section()
 {
     return {

@@ -38,7 +38,4 @@ struct FaceStretch
 
 /// Triangles of the field, by Delaunay. @return false where all points lie on a line
 [[nodiscard]] bool make_triangles(PressureField& field);
-
-/// Does the field reach this place?
-[[nodiscard]] bool covers(const PressureField& field, const Vec2& at);
 }  // namespace hdem

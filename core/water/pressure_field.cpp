@@ -76,18 +76,4 @@ bool make_triangles(PressureField& field)
     field.spacing = field.triangle.empty() ? 0.0 : sides / static_cast<double>(field.triangle.size());
     return !field.triangle.empty();
 }
-
-bool covers(const PressureField& field, const Vec2& at)
-{
-    return std::ranges::any_of(field.triangle,
-                               [&](const std::array<Index, 3>& t)
-                               {
-                                   const auto inside = [&](Index i, Index j)
-                                   {
-                                       const Vec2 side = field.points[j] - field.points[i];
-                                       return cross(side, at - field.points[i]) >= -1e-6 * side.squaredNorm();
-                                   };
-                                   return inside(t[0], t[1]) && inside(t[1], t[2]) && inside(t[2], t[0]);
-                               });
-}
 }  // namespace hdem
