@@ -53,9 +53,9 @@ class WaterCheck : public CaseCheck
                                std::ranges::any_of(def_.stages, [](const StageDef& stage)
                                                    { return stage.water_level || !stage.water_table.empty(); });
         if (!has_water && !problems_.has("water.level") && !problems_.has("water.table"))
-            problems_.add("water", "[water]", "level",
-                          "is missing, and so are table, pressure, [[water_crack]] and levels of stages",
-                          "Give one of them, or remove [water].");
+            problems_.warn("water", "[water]", "level",
+                           "is missing, and so are table, pressure, [[water_crack]] and levels of stages: there is no water",
+                           "Give one of them, or remove [water].");
         if (given("water.joints") && !problems_.has("water.joints") && def_.water.joints.empty())
             problems_.add("water.joints", "[water]", "joints = []", "no joint would have water",
                           "Name a joint, or remove this key.");

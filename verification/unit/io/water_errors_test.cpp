@@ -46,7 +46,9 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     expect_one_problem("[water]\nlevel = 3.0\n[gravity]\nvector = [0.0, 0.0]\n", "13:1: [water]: gravity", "no weight");
     expect_one_problem("[[water_crack]]\ncrack = [[2, 4], [2, 1]]\noutlet = [[2, 1], [0, 0]]\nlevel = 3.0\n", "13:1: water crack 1",
                        "there is no [water]");
-    expect_one_problem("[water]\nponded = false\n", "13:1: [water]: level", "is missing");
+    const auto warnings = read_case_text(head + "[water]\nponded = false\n", "case.toml").warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0].text, HasSubstr("[water]: level (is missing"));
     const std::string crack = "[water]\n[[water_crack]]\nlevel = 3.0\ncrack = [[2, 4], [2, 1]]\n";
     expect_one_problem(crack + "outlet = [[2, 2], [0, 0]]\n", "17:10: water crack 1: outlet", "ends at [2, 1]");
     expect_one_problem(crack + "outlet = [[2, 1], [2, 1], [0, 0]]\n", "17:10: water crack 1: outlet", "twice");
