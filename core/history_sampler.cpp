@@ -84,6 +84,28 @@ const std::vector<KnownOfPair>& known_of_pair()
     return all;
 }
 
+struct KnownOfBolt
+{
+    const char* quantity;
+    Column column;
+    double (*value)(const Bolt&, const BoltRecord&);
+};
+
+/// Forces are those of one bolt.
+const std::vector<KnownOfBolt>& known_of_bolt()
+{
+    static const std::vector<KnownOfBolt> all = {
+        {"axial_force", {"axial_force", "N"}, [](const Bolt& b, const BoltRecord& r) { return b.spacing * r.force; }},
+        {"across_force", {"across_force", "N"}, [](const Bolt& b, const BoltRecord& r) { return b.spacing * r.shear_force; }},
+        {"greatest_force",
+         {"greatest_force", "N"},
+         [](const Bolt& b, const BoltRecord& r) { return b.spacing * r.greatest_force; }},
+        {"elongation", {"elongation", "m"}, [](const Bolt&, const BoltRecord& r) { return r.elongation; }},
+        {"status", {"status", "1"}, [](const Bolt&, const BoltRecord& r) { return static_cast<double>(r.status); }},
+    };
+    return all;
+}
+
 /// All names that select something, each once.
 template <class Known>
 std::vector<std::string> names_of(const std::vector<Known>& all)
@@ -128,10 +150,37 @@ const std::vector<std::string>& contact_history_quantities()
     return all;
 }
 
+const std::vector<std::string>& bolt_history_quantities()
+{
+    static const std::vector<std::string> all = names_of(known_of_bolt());
+    return all;
+}
+
+void HistorySampler::select_of_bolt(const Model& model, const HistoryDef& def)
+{
+    const auto at = std::ranges::find(model.support.bolts, def.bolt, &Bolt::name);
+    if (at == model.support.bolts.end())
+        throw InputError(
+            Problem{.key = "history",
+                    .text = "history \"" + def.name + "\": bolt \"" + def.bolt +
+                            "\" (no such bolt). Give the name of a bolt; those of a pattern are called NAME.1, NAME.2, ..."});
+    bolt_ = static_cast<Index>(at - model.support.bolts.begin());
+    for (const std::string& quantity : def.quantities)
+        if (!select(known_of_bolt(), quantity, columns_, of_bolt_))
+            throw InputError(Problem{.key = "history",
+                                     .text = "history \"" + def.name + "\": quantity \"" + quantity +
+                                             "\" (not known for a bolt). See [[history]] in io/case_format.md."});
+}
+
 HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
     : name_(def.name),
       every_(std::max<std::int64_t>(def.every, 1))
 {
+    if (!def.bolt.empty())
+    {
+        select_of_bolt(model, def);
+        return;
+    }
     const std::string object = "history \"" + def.name + "\": ";
     const auto find = [&](const std::string& block)
     {
@@ -229,6 +278,8 @@ void HistorySampler::sample(const Model& model, const State& state, std::span<do
     HDEM_EXPECT(values.size() == columns_.size());
     for (std::size_t i = 0; i < of_block_.size(); ++i)
         values[i] = of_block_[i](model, state, model.slot_of_user[first_user_]);
+    for (std::size_t i = 0; i < of_bolt_.size(); ++i)
+        values[i] = of_bolt_[i](model.support.bolts[bolt_], state.support.bolts[bolt_]);
     if (of_pair_.empty())
         return;
     find_contacts(model, state);

@@ -1,5 +1,5 @@
 #pragma once
-/// [[history]]: quantities of one block, or of the contacts between two, as numbers.
+/// [[history]]: quantities of one block, of the contacts between two, or of a bolt, as numbers.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -13,6 +13,7 @@ namespace hdem
 /// What [[history]] quantities may name. Vectors become two columns, NAME_x and NAME_y, which may also be asked for alone.
 const std::vector<std::string>& block_history_quantities();
 const std::vector<std::string>& contact_history_quantities();
+const std::vector<std::string>& bolt_history_quantities();
 
 /// One sampled number.
 struct Column
@@ -70,6 +71,9 @@ class HistorySampler
     using BlockQuantity = double (*)(const Model&, const State&, Index);
     using PairQuantity = double (*)(const Model&, const PairSample&);
 
+    using BoltQuantity = double (*)(const Bolt&, const BoltRecord&);
+
+    void select_of_bolt(const Model& model, const HistoryDef& def);
     void find_contacts(const Model& model, const State& state);
     PairSample sample_pair(const Model& model, const State& state);
     void add_memories(const Model& model, const State& state, PairSample& sums) const;
@@ -83,6 +87,8 @@ class HistorySampler
     Index second_ = no_index;
     std::vector<BlockQuantity> of_block_;
     std::vector<PairQuantity> of_pair_;
+    std::vector<BoltQuantity> of_bolt_;
+    Index bolt_ = no_index;
     std::vector<Index> contacts_;         ///< of the pair
     std::int64_t broad_phase_runs_ = -1;  ///< when contacts_ was found
     Vec2 normal_ = {0.0, 0.0};            ///< last known, zero before

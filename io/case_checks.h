@@ -14,6 +14,8 @@ namespace hdem
 void check_rock_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Of boundaries:
 void check_boundary_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Of bolts:
+void check_support_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Of water:
 void check_water_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Which numbers the law of each joint takes, and what they may be:

@@ -218,15 +218,25 @@ class RunCheck : public CaseCheck
                                "no stage removes it", fmt::format("Add excavate = [\"{}\"] to a stage.", printable(name)));
     }
 
+    static const char* owner_of(const std::string& quantity)
+    {
+        const auto has = [&](const std::vector<std::string>& all)
+        { return std::find(all.begin(), all.end(), quantity) != all.end(); };
+        return has(block_quantities()) ? "block" : (has(bolt_quantities()) ? "bolt" : "between, the contacts of two blocks");
+    }
+
     void check_history(const HistoryDef& history, const std::string& path)
     {
         const std::string object = fmt::format("history \"{}\"", printable(history.name));
         const bool block = given(path + ".block");
         const bool between = given(path + ".between");
+        const bool bolt = given(path + ".bolt");
         exclude(path, object, "block", "between");
-        if (!block && !between && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
+        exclude(path, object, "block", "bolt");
+        exclude(path, object, "between", "bolt");
+        if (!block && !between && !bolt && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
             problems_.add(path, object, "block, between", "none is given",
-                          "Give block = \"NAME\", or between = [\"NAME\", \"NAME\"].");
+                          "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], or bolt = \"NAME\".");
         if (block && !problems_.has(path + ".block"))
             check_block_reference(path + ".block", object, history.block);
         if (between && !problems_.has(path + ".between") &&
@@ -237,13 +247,12 @@ class RunCheck : public CaseCheck
 
         if (given(path + ".quantities") && history.quantities.empty())
             problems_.add(path + ".quantities", object, "quantities = []", "names nothing to sample", "Name at least one.");
-        const auto& fitting = block ? block_quantities() : contact_quantities();
+        const auto& fitting = block ? block_quantities() : (bolt ? bolt_quantities() : contact_quantities());
         Names seen;
         for (const std::string& quantity : history.quantities)
-            if (block != between && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
+            if (block + between + bolt == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity),
-                              fmt::format("belongs to {}", block ? "between, the contacts of two blocks" : "block"),
-                              "Choose from " + quoted_list(fitting) + ".");
+                              fmt::format("belongs to {}", owner_of(quantity)), "Choose from " + quoted_list(fitting) + ".");
             else if (!seen.insert(quantity).second)
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity), "is listed twice",
                               "List it once.");

@@ -344,6 +344,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     load_laws(result, result.def, file, files, problems);
     check_rock_keys(result.def, source, problems);
     check_boundary_keys(result.def, source, problems);
+    check_support_keys(result.def, source, problems);
     check_water_keys(result.def, source, problems);
     check_joint_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);

@@ -19,6 +19,11 @@ const std::vector<std::string>& contact_quantities()
     return contact_history_quantities();
 }
 
+const std::vector<std::string>& bolt_quantities()
+{
+    return bolt_history_quantities();
+}
+
 const std::vector<SectionSpec>& case_schema()
 {
     static const std::vector<SectionSpec> all = {top_section(),         domain_section(),
@@ -28,11 +33,12 @@ const std::vector<SectionSpec>& case_schema()
                                                  material_section(),    joint_section(),
                                                  insitu_section(),      water_section(),
                                                  water_crack_section(), boundary_section(),
-                                                 gravity_section(),     load_section(),
-                                                 contact_section(),     damping_section(),
-                                                 time_section(),        convergence_section(),
-                                                 stage_section(),       factor_of_safety_section(),
-                                                 history_section(),     output_section()};
+                                                 bolt_section(),        gravity_section(),
+                                                 load_section(),        contact_section(),
+                                                 damping_section(),     time_section(),
+                                                 convergence_section(), stage_section(),
+                                                 factor_of_safety_section(), history_section(),
+                                                 output_section()};
     return all;
 }
 

@@ -99,4 +99,5 @@ std::string default_name(const SectionSpec& section, std::size_t number);
 /// Quantities a [[history]] can sample, of one block or between two.
 const std::vector<std::string>& block_quantities();
 const std::vector<std::string>& contact_quantities();
+const std::vector<std::string>& bolt_quantities();
 }  // namespace hdem

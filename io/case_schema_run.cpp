@@ -187,10 +187,12 @@ SectionSpec history_section()
 {
     std::vector<std::string> quantities = block_quantities();
     quantities.insert(quantities.end(), contact_quantities().begin(), contact_quantities().end());
+    quantities.insert(quantities.end(), bolt_quantities().begin(), bolt_quantities().end());
     return {"history",
             SectionKind::array,
             "history",
-            "Quantities of one block (`block`) or of the contacts between two (`between`), sampled into results.h5.",
+            "Quantities of one block (`block`), of the contacts between two (`between`) or of a bolt (`bolt`), sampled into "
+            "results.h5.",
             {field<&HistoryDef::name>(
                  {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
              field<&HistoryDef::block>({.name = "block",
@@ -201,12 +203,17 @@ SectionSpec history_section()
                                           .effect = "Names of the two blocks; forces act on the second.",
                                           .example = "[\"ground\", \"block1\"]",
                                           .default_note = "block is given instead"}),
+             field<&HistoryDef::bolt>({.name = "bolt",
+                                       .effect = "Name of the bolt; those of a pattern are called NAME.1, NAME.2, ...",
+                                       .example = "\"roof.3\"",
+                                       .default_note = "block or between is given instead"}),
              field<&HistoryDef::quantities>(
                  {.name = "quantities",
-                  .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`. "
-                            "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
-                            "contacts, "
-                            "by their length; 0 where a joint has no memory.",
+                 .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
+                           "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
+                           "4 ruptured, 5 lost). "
+                           "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
+                           "contacts, by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",
                   .choices = std::move(quantities),
                   .required = true}),

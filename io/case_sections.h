@@ -35,6 +35,9 @@ SectionSpec insitu_section();
 SectionSpec water_section();
 SectionSpec water_crack_section();
 
+// case_schema_support.cpp
+SectionSpec bolt_section();
+
 // case_schema_boundary.cpp
 SectionSpec boundary_section();
 

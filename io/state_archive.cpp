@@ -162,6 +162,16 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                   [](ReleasedForce& f) { return std::tie(f.x, f.y, f.moment); });
     if (!state.water.empty())
         archive.template rows<double>("/blocks/water", n, state.water, [](Triple& f) { return std::tie(f.x, f.y, f.w); });
+    if (state.support.bolts.empty())
+        return;
+    archive.group("/bolts");
+    const std::uint64_t bolts = state.support.bolts.size();
+    archive.template rows<std::uint8_t>("/bolts/status", bolts, state.support.bolts,
+                                        [](BoltRecord& b) { return std::tie(b.status); });
+    archive.template rows<double>("/bolts/record", bolts, state.support.bolts,
+                                  [](BoltRecord& b)
+                                  { return std::tie(b.force, b.shear_force, b.greatest_force, b.elongation, b.stored, b.spent); });
+    archive.template rows<double>("/bolts/history", state.support.history.size(), state.support.history, itself);
 }
 
 template <typename Archive>
@@ -244,6 +254,8 @@ State load_state(const Hdf5Reader& file, Model& model)
     state.contacts.has_memory = model.joints.has_memory();
     state.contacts.has_preload = model.insitu.given || state.contacts.has_memory;
     state.water.resize(model.water.given ? static_cast<std::size_t>(model.blocks()) : 0);
+    state.support.bolts.resize(model.support.bolts.size());
+    state.support.history.resize(static_cast<std::size_t>(model.support.history_size));
     Unpacked unpacked;
     Loader loader(file);
     exchange(loader, model.blocks(), state, unpacked);

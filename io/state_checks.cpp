@@ -145,6 +145,12 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
     for (const Triple& f : state.water)
         if (!are_finite({f.x, f.y, f.w}))
             return Damage{"/blocks/water", "not a force"};
+    for (const BoltRecord& b : state.support.bolts)
+        if (static_cast<std::uint8_t>(b.status) >= bolt_states ||
+            !are_finite({b.force, b.shear_force, b.greatest_force, b.elongation, b.stored, b.spent}))
+            return Damage{"/bolts/record", "not the record of a bolt"};
+    if (!std::ranges::all_of(state.support.history, [](double value) { return std::isfinite(value); }))
+        return Damage{"/bolts/history", "not a finite number"};
     const bool may_stay = state.stage_begun && model.stages[static_cast<std::size_t>(state.stage)].relax_to > 0.0;
     if (!state.released.empty() && !may_stay && (!state.stage_begun || state.cycle >= released_until(model, state)))
         return Damage{"/blocks/released", "not of the running stage"};

@@ -1,5 +1,6 @@
 #include "io/summary.h"
 
+#include "core/support/bolt_link.h"
 #include "io/atomic_file.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,38 @@ Json statics_json(const std::optional<StaticResult>& statics)
 }
 }  // namespace
 
+std::vector<BoltSummary> summarise_bolts(const Model& model, const State& state)
+{
+    static constexpr const char* kinds[] = {"anchored", "grouted", "local"};
+    static constexpr const char* names[bolt_states] = {"planned", "elastic", "slips", "yielded", "ruptured", "lost"};
+    std::vector<BoltSummary> bolts;
+    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
+    {
+        const Bolt& bolt = model.support.bolts[i];
+        const BoltRecord& record = state.support.bolts[i];
+        const LinkPlace first = place_of(bolt, bolt.links.front(), state.blocks),
+                        last = place_of(bolt, bolt.links.back(), state.blocks);
+        double before = 0.0, behind = 0.0;
+        for (const BoltSegment& segment : bolt.segments)
+        {
+            before += segment.part == 0 ? segment.length : 0.0;
+            behind += segment.part == bolt.segments.back().part ? segment.length : 0.0;
+        }
+        bolts.push_back({.name = bolt.name,
+                         .kind = kinds[static_cast<int>(bolt.kind)],
+                         .status = names[static_cast<int>(record.status)],
+                         .from = model.origin + first.first - std::max(before - 0.5 * bolt.length, 0.0) * first.axis,
+                         .to = model.origin + last.second + std::max(behind - 0.5 * bolt.length, 0.0) * last.axis,
+                         .axial_force = bolt.spacing * record.force,
+                         .across_force = bolt.spacing * record.shear_force,
+                         .greatest_force = bolt.spacing * record.greatest_force,
+                         .elongation = record.elongation,
+                         .stored = record.stored,
+                         .spent = record.spent});
+    }
+    return bolts;
+}
+
 std::string summary_text(const RunSummary& s)
 {
     Json stages = Json::array();
@@ -55,6 +88,19 @@ std::string summary_text(const RunSummary& s)
                           {"converged", stage.at_rest},
                           {"not_at_rest", stage.not_at_rest},
                           {"static_solution", statics_json(stage.statics)}});
+    Json bolts = Json::array();
+    for (const BoltSummary& bolt : s.bolts)
+        bolts.push_back({{"name", bolt.name},
+                         {"kind", bolt.kind},
+                         {"status", bolt.status},
+                         {"from", {bolt.from.x(), bolt.from.y()}},
+                         {"to", {bolt.to.x(), bolt.to.y()}},
+                         {"axial_force", bolt.axial_force},
+                         {"across_force", bolt.across_force},
+                         {"greatest_force", bolt.greatest_force},
+                         {"elongation", bolt.elongation},
+                         {"stored", bolt.stored},
+                         {"spent", bolt.spent}});
     Json stage_seconds = Json::array();
     for (const StageSummary& stage : s.stages)
         stage_seconds.push_back(stage.wall_seconds);
@@ -85,6 +131,7 @@ std::string summary_text(const RunSummary& s)
         {"max_displacement_all", s.max_displacement_all},
         {"detached_blocks", s.detached_blocks},
         {"lost_blocks", s.lost_blocks},
+        {"bolts", bolts},
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
         {"stage_wall_seconds", stage_seconds},

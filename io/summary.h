@@ -34,6 +34,23 @@ struct StageTiming
 };
 
 /// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
+/// A bolt at the end. Forces are those of one bolt, energies those of a metre of thickness.
+struct BoltSummary
+{
+    std::string name;
+    std::string kind;
+    std::string status;           ///< planned, elastic, slips, yielded, ruptured, lost
+    Vec2 from = {0.0, 0.0};       ///< where its head is now; local: of the first piece that works [m]
+    Vec2 to = {0.0, 0.0};         ///< [m]
+    double axial_force = 0.0;     ///< greatest along it [N]
+    double across_force = 0.0;    ///< [N]
+    double greatest_force = 0.0;  ///< axial, so far [N]
+    double elongation = 0.0;      ///< since it was installed [m]
+    double stored = 0.0;          ///< [J]
+    double spent = 0.0;           ///< [J]
+};
+[[nodiscard]] std::vector<BoltSummary> summarise_bolts(const Model& model, const State& state);
+
 struct RunSummary
 {
     std::string case_name;  ///< key "case": name of the case file
@@ -63,8 +80,9 @@ struct RunSummary
     double max_displacement_all = 0.0;         ///< [m]
     std::vector<std::string> detached_blocks;  ///< names
     std::vector<std::string> lost_blocks;      ///< names of blocks that have left the model and are held
-    EnergyLedger energy;                       ///< sums since the start [J]
-    StoredEnergy stored;                       ///< at the end [J]
+    std::vector<BoltSummary> bolts;
+    EnergyLedger energy;  ///< sums since the start [J]
+    StoredEnergy stored;  ///< at the end [J]
     double wall_seconds = 0.0;
     double contact_point_updates_per_second = 0.0;
     std::vector<StageTiming> timing;    ///< since the start or the last restart; key per stage with min, mean, max, share

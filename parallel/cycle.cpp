@@ -12,6 +12,7 @@
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
+#include "core/support/bolt_forces.h"
 #include "parallel/openmp.h"
 #include "parallel/step_update.h"
 
@@ -88,7 +89,11 @@ void CycleRunner::prepare(const Model& model, const State& state)
     {
         find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
         std::erase_if(part.flying,
-                      [&](Index b) { return std::ranges::binary_search(part.pushed, b) || std::ranges::binary_search(loaded, b); });
+                      [&](Index b)
+                      {
+                          const auto is_among = [b](const std::vector<Index>& list) { return std::ranges::binary_search(list, b); };
+                          return is_among(part.pushed) || is_among(part.bolted) || is_among(loaded);
+                      });
     }
     work_.loads.resize(state.contacts.stale.size());
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
@@ -103,7 +108,9 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
     work_.constant = constant_forces(model, state);
     work_.held = blocks_held_on_average(model, state);
     work_.external = work_.constant;
-    work_.external.resize(rules_.has_loads ? blocks : work_.constant.size());
+    work_.bolted.clear();
+    work_.external.resize(rules_.has_loads || rules_.has_bolts ? blocks : work_.constant.size());
+    const std::vector<Index> bolted = rules_.has_bolts ? bolted_blocks(model, state) : std::vector<Index>{};
     const std::vector<Index> pushed = pushed_blocks(model, state);
     for (BlockPart& part : partition_.blocks)
     {
@@ -112,6 +119,7 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
             if (model.is_wall(b) && state.blocks.present[b] != 0)
                 part.walls.push_back(b);
         part.pushed = {std::ranges::lower_bound(pushed, part.range.begin), std::ranges::lower_bound(pushed, part.range.end)};
+        part.bolted = {std::ranges::lower_bound(bolted, part.range.begin), std::ranges::lower_bound(bolted, part.range.end)};
     }
 }
 
@@ -133,8 +141,8 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, in
     const StageRules rules = find_rules_(model, state);
     const bool same = prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) &&
                       rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
-                      rules.has_loads == rules_.has_loads && rules.tractions_change == rules_.tractions_change &&
-                      rules.moves_walls == rules_.moves_walls;
+                      rules.has_loads == rules_.has_loads && rules.has_bolts == rules_.has_bolts &&
+                      rules.tractions_change == rules_.tractions_change && rules.moves_walls == rules_.moves_walls;
     rules_ = rules;
     if (!same)
         prepare(model, state);
@@ -185,7 +193,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.
     const bool step_changes = state.blocks.step.last != state.blocks.step.next;
-    if (rules_.has_loads || rules_.moves_walls || rules_.tractions_change)
+    if (rules_.has_loads || rules_.has_bolts || rules_.moves_walls || rules_.tractions_change)
         team.alone(
             [&]
             {
@@ -193,8 +201,15 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
                     drive_walls(model, work_.block_contacts, state);
                 if (rules_.tractions_change)
                     take_tractions(model, state);
+                if (rules_.has_bolts)
+                    clear_bolt_forces(work_.bolted, work_.constant, work_.external);
                 if (rules_.has_loads)
                     take_loads(model, state);
+                if (rules_.has_bolts)
+                {
+                    pull_bolts(model, state, work_.bolted);
+                    add_bolt_forces(work_.bolted, work_.external);
+                }
             });
     clock.lap(CycleStage::update);
 
@@ -256,6 +271,8 @@ void CycleRunner::close_cycle(const Model& model, State& state)
         add_load_work(model, work_.loaded, state);
         add_released_work(model, work_.released, state);
     }
+    if (rules_.has_bolts)
+        add_bolt_work(work_.bolted, state.blocks, state.ledger);
     ++state.cycle;
     Steps& step = state.blocks.step;
     state.time += step.next;

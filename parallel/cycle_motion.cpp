@@ -22,6 +22,8 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
     for (const IndexRange& range : part.active)
         sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
                    state.blocks);  // Eqs. (7), (8)
+    for (const Index b : part.bolted)
+        state.blocks.rest[b] = 0;
 }
 
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)

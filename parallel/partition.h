@@ -35,6 +35,7 @@ struct BlockPart
     std::vector<Index> flying;       ///< blocks with nothing near them
     std::vector<Index> pushed;       ///< blocks on which constant forces of sides act
     std::vector<Index> walls;        ///< that move
+    std::vector<Index> bolted;       ///< blocks that bolts hold: these never rest
     bool rest_changed = false;       ///< blocks have been stopped or woken
     EnergyLedger ledger;             ///< of this cycle
     double way = 0.0;                ///< no point of these blocks went farther in this cycle, as a share of the block's margin

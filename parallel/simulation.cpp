@@ -15,6 +15,8 @@
 #include "core/stage/properties.h"
 #include "core/state/block_sorting.h"
 #include "core/stress/drawn_joints.h"
+#include "core/support/bolt_forces.h"
+#include "core/support/bolt_springs.h"
 #include "core/water/water_forces.h"
 #include "parallel/state_check.h"
 
@@ -80,8 +82,8 @@ Simulation::Simulation(Model model, State state, int threads)
 void Simulation::find_default_step()
 {
     constexpr double share = 0.5;  // of the limit of the present contacts: others will come
-    const double limit = critical_step();
-    if (model_.default_time_step <= limit || !needs_stable_step())
+    const double limit = step_limit();
+    if (model_.default_time_step <= limit)
         return;
     model_.default_time_step = share * limit;
     if (model_.has_step)
@@ -89,12 +91,6 @@ void Simulation::find_default_step()
     state_.default_step = model_.time_step = model_.default_time_step;
     time_loads(model_);
     state_.blocks.step = {model_.time_step, model_.time_step};
-}
-
-bool Simulation::needs_stable_step() const
-{
-    const StageRules rules = resolve_rules(model_, state_);
-    return rules.contact.law != ContactLaw::impulses && rules.step.needs_stable_step();
 }
 
 std::vector<Problem> Simulation::find_problems()
@@ -110,14 +106,23 @@ std::vector<Problem> Simulation::find_problems()
                             .text = "contact: skin = " + with_digits("%.4g", model_.contact.skin) +
                                     " (in-situ stress presses a joint by " + with_digits("%.4g", preload) +
                                     " m: it would be lost while it still bears). Give a greater skin, or stiffer joints."});
-    const double limit = critical_step();
-    if (model_.time_step > limit && needs_stable_step())
+    const double limit = step_limit();
+    if (model_.time_step > limit)
         problems.push_back({.key = "time.step",
                             .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                                     " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
-                                    " s of the contacts). Give a smaller step, or none to use " +
-                                    with_digits("%.4g", model_.default_time_step) + " s."});
+                                    (model_.support.empty() ? " s of the contacts)." : " s of the contacts and bolts).") +
+                                    " Give a smaller step, or none to use " + with_digits("%.4g", model_.default_time_step) +
+                                    " s."});
     return problems;
+}
+
+double Simulation::step_limit()
+{
+    const StageRules rules = resolve_rules(model_, state_);
+    if (!rules.step.needs_stable_step())
+        return std::numeric_limits<double>::infinity();
+    return rules.contact.law == ContactLaw::impulses ? stable_step_of_bolts(model_, state_.blocks) : critical_step();
 }
 
 double Simulation::critical_step()
@@ -286,6 +291,8 @@ void Simulation::begin_stage(Index stage)
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
         change_blocks(def, sides);
     change_water();
+    if (install_bolts(model_, state_))
+        runner_.take_contacts();
     start_walls(model_, state_);
     state_.method = def.method.value_or(state_.method);
     state_.damping = def.damping.value_or(state_.damping);

@@ -73,7 +73,8 @@ class Simulation
   private:
     /// The step of a case that gives none: Eq. (32) of the lightest block, or less where a block has so many neighbours that this is not stable.
     void find_default_step();
-    [[nodiscard]] bool needs_stable_step() const;
+    /// What a step that is never shortened may be; infinite where it is shortened as needed [s].
+    [[nodiscard]] double step_limit();
     /// What the stage excavates, fixes and frees.
     void change_blocks(const StageDef& stage, const BoundaryChange& sides);
     void change_sides(const BoundaryChange& sides);

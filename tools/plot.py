@@ -5,6 +5,7 @@ The blocks that stay in place decide the range of the colours: one fallen block 
 drawn hatched where they are.
 """
 import argparse
+import json
 import math
 import sys
 from pathlib import Path
@@ -61,6 +62,7 @@ def parse(arguments):
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, in SI units")
     parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
+    parser.add_argument("--bolts", action="store_true", help="draw the bolts of the last frame, coloured by their axial force")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
     parser.add_argument("--factor", action="store_true", help="draw displacement against the factor of the trials of hdem fos instead")
@@ -159,6 +161,25 @@ def draw_contacts(axes, blocks, contacts, width_mm):
     return handles
 
 
+def draw_bolts(axes, options):
+    """As summary.json has them: where they are at the end of the run."""
+    folder = options.result if options.result.is_dir() else options.result.parent
+    try:
+        bolts = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["bolts"]
+        lines = np.array([[bolt["from"], bolt["to"]] for bolt in bolts], dtype=float).reshape(-1, 2, 2)
+        force = np.array([bolt["axial_force"] for bolt in bolts], dtype=float)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ResultError(f"--bolts: {folder / 'summary.json'} has no bolts ({error}). It is written at the end of a run.") from error
+    if not len(lines):
+        raise ResultError("--bolts: this case has no bolts")
+    greatest = float(np.max(force, initial=0.0)) or 1.0
+    colours = plt.get_cmap("plasma")
+    axes.add_collection(LineCollection(lines, colors="black", linewidths=2.6, capstyle="round", zorder=4))
+    axes.add_collection(LineCollection(lines, colors=colours(np.clip(force / greatest, 0.0, 1.0)), linewidths=1.8, capstyle="round", zorder=4.1))
+    factor, unit = scaled_unit("N", greatest)
+    return [Line2D([], [], color=colours(share), linewidth=1.8, label=f"bolt, {share * greatest / factor:.3g} {unit}") for share in (0.0, 0.5, 1.0)]
+
+
 def view_of(blocks, options):
     """x0, y0, x1, y1 [m]"""
     if options.window:
@@ -201,7 +222,7 @@ def draw_frame(run, options):
     contacts = run.contacts(options.frame) if over else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
-    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses))
+    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts)
     figure, axes = figure_for(view, options, field, rows)
     handles = draw_field(axes, blocks, options) if field else draw_classes(axes, blocks, options)
     line = float(np.clip(14.0 / math.sqrt(max(visible(blocks, view), 1)), 0.04, 0.6))
@@ -212,6 +233,8 @@ def draw_frame(run, options):
         handles += draw_contacts(axes, blocks, contacts, options.width)
     if options.joints:
         handles += draw_joints(axes, contacts, options.joints, options.width)
+    if options.bolts:
+        handles += draw_bolts(axes, options)
     if options.crosses:
         handles += draw_crosses(axes, blocks, view)
     axes.set_xlim(view[0], view[2])

@@ -68,6 +68,17 @@ void reorder_blocks(const std::vector<Index>& user_number, Model& model)
         for (Index& block : load.blocks)
             block = to[block];
     reorder_sides(to, model.boundaries);
+    for (Bolt& bolt : model.support.bolts)
+    {
+        for (BoltLink& link : bolt.links)
+        {
+            link.first = to[link.first];
+            link.second = to[link.second];
+        }
+        for (Index& block : bolt.blocks)
+            block = to[block];
+    }
+    list_ends(model.support);
     model.user_number = user_number;
     for (std::size_t i = 0; i < user_number.size(); ++i)
         model.slot_of_user[user_number[i]] = static_cast<Index>(i);

@@ -298,6 +298,44 @@ struct BoundaryDef
     FactorDef factor;                    ///< of stress, velocity, target
 };
 
+// ---- support --------------------------------------------------------------------------------------------------------
+
+enum class BoltKind
+{
+    anchored,  ///< a bar between two points
+    grouted,   ///< a bar that is bonded to the rock along its length
+    local      ///< an axial and a shear spring at each joint that it crosses
+};
+
+/// [[bolt]]: one bolt (from, to), or a pattern around an excavation (around). Forces are those of one bolt; `spacing` divides them per metre.
+struct BoltDef
+{
+    std::string name;  ///< "bolt1", ... when not given
+    BoltKind kind = BoltKind::anchored;
+    std::optional<Vec2> from;              ///< its head, as drawn [m]
+    std::optional<Vec2> to;                ///< [m]
+    std::string around;                    ///< or the name of an excavation, around which bolts stand
+    double length = 0.0;                   ///< of each bolt around it [m]
+    double along = 0.0;                    ///< distance of their heads along the outline [m]
+    std::optional<Vec2> arc;               ///< only between these directions, seen from the middle of the outline [deg]
+    std::string stage;                     ///< at whose start it is installed; "" = the first
+    double spacing = 1.0;                  ///< of bolts out of plane [m]
+    double area = 0.0;                     ///< of the bar [m2]
+    double modulus = 2e11;                 ///< of the bar [Pa]
+    std::optional<double> stiffness;       ///< anchored: instead of E A / L; local: axial [N/m]
+    std::optional<double> free_length;     ///< anchored: that stretches; grouted: without bond, from the head on [m]
+    double pretension = 0.0;               ///< anchored [N]
+    std::optional<double> yield;           ///< axial force at which it yields [N]
+    std::optional<double> rupture_strain;  ///< [-]
+    double bond_stiffness = 0.0;           ///< grouted [N/m/m]
+    double bond_strength = 0.0;            ///< grouted [N/m]
+    std::optional<double> segment;         ///< grouted: longest distance of nodes [m]
+    bool plate = false;                    ///< grouted: a plate at the head
+    double shear_stiffness = 0.0;          ///< local [N/m]
+    std::optional<double> shear_strength;  ///< local [N]
+    double active_length = 0.0;            ///< local: across a joint [m]
+};
+
 // ---- loads, method, time --------------------------------------------------------------------------------------------
 
 /// From when until when, in cycles or in seconds (both may be open).
@@ -451,6 +489,7 @@ struct HistoryDef
     std::string block;  ///< block quantities: displacement, position, velocity, rotation, angular_velocity, force, kinetic_energy
     std::vector<std::string>
         between;  ///< or contact quantities between two named blocks: normal_force, shear_force, overlap, shear_displacement, contact_length, impulse_points
+    std::string bolt;  ///< or quantities of a bolt: axial_force, across_force, greatest_force, elongation
     std::vector<std::string> quantities;
     std::int64_t every = 1;  ///< cycles
 };
@@ -483,6 +522,7 @@ struct CaseDef
     WaterDef water;
     std::vector<WaterCrackDef> water_cracks;
     std::vector<BoundaryDef> boundaries;
+    std::vector<BoltDef> bolts;
     Vec2 gravity = {0.0, -9.81};    ///< [m/s2]
     double gravity_tilt_deg = 0.0;  ///< by which the model is tilted, anticlockwise [deg]
     std::vector<LoadDef> loads;

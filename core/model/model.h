@@ -9,6 +9,7 @@
 #include "core/joint/joint_row.h"
 #include "core/model/boundary.h"
 #include "core/model/case_def.h"
+#include "core/model/support.h"
 #include "core/model/water.h"
 #include "core/state/blocks.h"
 
@@ -121,6 +122,7 @@ struct Model
     std::vector<std::string> joint_set_names;  ///< by number of EdgeSources, without the traces
     InsituField insitu;
     Water water;
+    Support support;
     std::vector<Boundary> boundaries;
     JointTable joints;
     std::vector<StageLaws> stage_laws;                 ///< per stage; empty ones change nothing

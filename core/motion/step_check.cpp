@@ -2,6 +2,7 @@
 
 #include "core/contact/block_forces.h"
 #include "core/motion/contact_springs.h"
+#include "core/support/bolt_springs.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -58,6 +59,14 @@ bool is_clearly_stable(double step, const Model& model, const Blocks& blocks, co
         sum[contacts.ref[i]] += bound;
         sum[contacts.inc[i]] += bound;
     }
+    for (const Bolt& bolt : model.support.bolts)
+        for (const BoltLink& link : bolt.links)
+        {
+            const double mobile = mobility_bound(model, link.first, inverse_masses(blocks, link.first)) +
+                                  mobility_bound(model, link.second, inverse_masses(blocks, link.second));
+            sum[link.first] += (link.axial_stiffness + link.transverse_stiffness) * mobile;
+            sum[link.second] += (link.axial_stiffness + link.transverse_stiffness) * mobile;
+        }
     double greatest = 0.0;
     for (Index b = 0; b < blocks.size(); ++b)
         greatest = std::max(greatest, blocks.is_free(b) ? sum[b] : 0.0);

@@ -5,6 +5,7 @@
 #include "core/motion/contact_springs.h"
 #include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
+#include "core/support/bolt_springs.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -60,6 +61,12 @@ class SpringSum
           contacts_(contacts),
           blocks_(blocks)
     {
+    }
+
+    void add_bolts()
+    {
+        const auto mobile = [&](Index b) { return mobility(b, blocks_); };
+        add_bolt_rows(model_, blocks_, block_, mobile(block_), mobile, sum_);
     }
 
     void add(Index contact)
@@ -148,6 +155,7 @@ double stable_step_of(Index block, const Model& model, const BlockContacts& list
     SpringSum sum(block, model, contacts, blocks);
     for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
         sum.add(list.entry[e] / 2);
+    sum.add_bolts();
     const double greatest = sum.greatest_eigenvalue();
     return greatest > 0.0 ? 2.0 / std::sqrt(greatest) : infinity;
 }

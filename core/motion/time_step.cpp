@@ -3,6 +3,7 @@
 #include "core/detection/contact_tracking.h"
 #include "core/geometry/convex_part.h"
 #include "core/motion/contact_springs.h"
+#include "core/support/bolt_springs.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -42,15 +43,16 @@ double default_time_step(const Model& model, const Blocks& blocks, double greate
 
 namespace
 {
-Vec3 square_root(const BlockInertia& inertia)
+Vec3 inverse_masses(const BlockInertia& inertia)
 {
-    return Vec3(inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia).cwiseSqrt();
+    return {inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_inertia};
 }
 
 /// Springs of one contact, as one of its blocks feels them, in coordinates in which its mass matrix is the unit matrix.
 void add_contact(const Model& model, const Contacts& contacts, Index i, Index block, const Blocks& blocks, Eigen::Matrix3d& sum)
 {
-    const auto mobile = [&](Index b) { return blocks.is_free(b) ? square_root(model.full_inertia[b]) : Vec3(Vec3::Zero()); };
+    const auto mobile = [&](Index b)
+    { return blocks.is_free(b) ? Vec3(inverse_masses(model.full_inertia[b]).cwiseSqrt()) : Vec3(Vec3::Zero()); };
     const Vec3 by_ref = mobile(contacts.ref[i]), by_inc = mobile(contacts.inc[i]);
     const bool is_ref = block == contacts.ref[i];
     const auto add_spring = [&](const ContactSpring& spring)
@@ -76,11 +78,18 @@ double stable_step(IndexRange range, const Model& model, const BlockContacts& li
     double greatest = 0.0;
     for (Index b = range.begin; b < range.end; ++b)
     {
-        if (!blocks.is_free(b) || list.begin[b] == list.begin[b + 1])
+        const IndexRange bolts = ends_of(model.support, b);
+        if (!blocks.is_free(b) || (list.begin[b] == list.begin[b + 1] && bolts.size() == 0))
             continue;
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
             add_contact(model, contacts, list.entry[e] / 2, b, blocks, sum);
+        if (bolts.size() > 0)
+        {
+            const auto mobile = [&](Index i)
+            { return blocks.is_free(i) ? inverse_masses(model.full_inertia[i]) : Vec3(Vec3::Zero()); };
+            add_bolt_rows(model, blocks, b, mobile(b), mobile, sum);
+        }
         if (sum.norm() <= greatest)  // no eigenvalue is above it
             continue;
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -121,6 +130,21 @@ void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& con
     }
 }
 
+/// The same of the bolts.
+void add_bolt_stiffness(const Model& model, const Blocks& blocks, const std::vector<Vec3>& u, std::vector<Vec3>& force)
+{
+    for (const Bolt& bolt : model.support.bolts)
+        for (const BoltLink& link : bolt.links)
+            for_link_springs(bolt, link, blocks,
+                             [&](const LinkSpring& spring)
+                             {
+                                 const double f = spring.stiffness *
+                                                  (spring.first.dot(u[link.first]) + spring.second.dot(u[link.second]));
+                                 force[link.first] += f * spring.first;
+                                 force[link.second] += f * spring.second;
+                             });
+}
+
 /// Energy of a motion of one block, twice; what is prescribed has none.
 double energy_of(const Vec3& u, const Vec3& inverse_mass)
 {
@@ -146,6 +170,7 @@ StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contact
     {
         std::fill(force.begin(), force.end(), Vec3::Zero());
         add_stiffness(model, blocks, contacts, which, u, force);
+        add_bolt_stiffness(model, blocks, u, force);
         double uu = 0.0, vv = 0.0, most = 0.0;  // in the norm of the masses, which the iteration makes symmetric
         for (Index i = 0; i < blocks.size(); ++i)
         {

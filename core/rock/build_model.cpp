@@ -10,6 +10,7 @@
 #include "core/rock/resolve_names.h"
 #include "core/stage/rules.h"
 #include "core/stress/insitu_stress.h"
+#include "core/support/resolve_support.h"
 #include "core/water/resolve_water.h"
 
 #include <algorithm>
@@ -374,6 +375,7 @@ Setup build_model(const CaseDef& def)
     add_initial_state(rock, order, moments, origin, model, setup.state);
     std::vector<Problem> problems = resolve_boundaries(def, rock, origin, model, setup.state.blocks);
     std::ranges::move(resolve_water(def, model.origin, setup.state.blocks, model), std::back_inserter(problems));
+    std::ranges::move(resolve_support(def, setup.state.blocks, model, setup.state.support), std::back_inserter(problems));
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
     const Blocks free_at_times = with_freed_sides(model, setup.state.blocks);

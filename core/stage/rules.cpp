@@ -3,6 +3,7 @@
 #include "core/boundary/resolve_boundaries.h"
 #include "core/motion/released_forces.h"
 #include "core/stage/load_changes.h"
+#include "core/support/bolt_forces.h"
 
 #include <algorithm>
 
@@ -56,6 +57,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .loads_change = state.cycle < steady_from(model, state),
             .tractions_change = do_tractions_change(model, state),
             .times_to_come = are_times_to_come(model, state),
+            .has_bolts = has_bolts(state.support),
             .releases = are_forces_released(model, state),
             .holds_released = !state.released.empty(),
             .is_calm = state.is_calm,
@@ -95,9 +97,10 @@ StageRules resolve_rules(const StageSetting& s)
             .rest = looks_for_rest && is_steady && !s.releases && !s.holds_mean ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
             .has_loads = s.has_loads || s.releases || s.holds_released,
+            .has_bolts = s.has_bolts,
             .tractions_change = s.tractions_change,
             .moves_walls = s.moves_walls,
-            .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.holds_mean && !s.keeps_released &&
+            .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.has_bolts && !s.holds_mean && !s.keeps_released &&
                              s.method != Method::impulse && s.gravity > 0.0 && s.solver == RestSolver::statics};
 }
 
@@ -123,6 +126,7 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
                          .convergence = def.convergence,
                          .gravity = def.gravity.norm(),
                          .has_loads = !def.loads.empty(),
+                         .has_bolts = !def.bolts.empty(),
                          .is_driven = is_driven(def),
                          .holds_mean = def.domain.hold == DomainHold::mean,
                          .has_step = def.time.step.has_value()};

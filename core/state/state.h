@@ -6,6 +6,7 @@
 #include "core/state/contacts.h"
 #include "core/state/energy_terms.h"
 #include "core/state/stage_outcome.h"
+#include "core/state/support_state.h"
 #include "core/state/triple.h"
 
 #include <cstdint>
@@ -30,6 +31,7 @@ struct State
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
     std::vector<Triple> water;  ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
+    SupportState support;
     EnergyLedger ledger;
     WorstResidual worst_residual;
     std::int64_t cycle = 0;

@@ -75,6 +75,17 @@ std::uint64_t state_hash(const Model& model, const State& state)
         const std::array<double, 3> values{state.water[i].x + 0.0, state.water[i].y + 0.0, state.water[i].w + 0.0};
         XXH3_64bits_update(hash, values.data(), sizeof values);
     }
+    for (const BoltRecord& b : state.support.bolts)
+    {
+        const std::array<double, 4> values{static_cast<double>(b.status), b.force + 0.0, b.shear_force + 0.0,
+                                           b.greatest_force + 0.0};
+        XXH3_64bits_update(hash, values.data(), sizeof values);
+    }
+    for (const double value : state.support.history)
+    {
+        const double positive_zero = value + 0.0;
+        XXH3_64bits_update(hash, &positive_zero, sizeof positive_zero);
+    }
     const std::vector<Index> number = user_part_numbers(model);
     const Contacts& contacts = state.contacts;
     std::vector<HashedContact> hashed;
@@ -154,6 +165,17 @@ std::uint64_t model_hash(const Model& model)
     }
     if (model.holds_mean)
         add({1.0});
+    for (const Bolt& bolt : model.support.bolts)
+    {
+        add({static_cast<double>(bolt.kind), static_cast<double>(bolt.stage), bolt.spacing, bolt.stiffness, bolt.shear_stiffness,
+             bolt.pretension, bolt.yield, bolt.shear_strength, bolt.rupture, bolt.length, bolt.section_stiffness,
+             bolt.bond_stiffness, bolt.bond_strength, bolt.plate ? 1.0 : 0.0});
+        for (const BoltLink& link : bolt.links)
+            add({static_cast<double>(model.user_number[link.first]), static_cast<double>(model.user_number[link.second]),
+                 link.first_arm.x(), link.first_arm.y(), link.second_arm.x(), link.second_arm.y()});
+        for (const BoltSegment& segment : bolt.segments)
+            add({static_cast<double>(segment.part), segment.length, segment.is_bonded ? 1.0 : 0.0});
+    }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);
     return digest;

@@ -98,6 +98,14 @@ struct LoadedBlock
     double moment = 0.0;                 ///< [N m]
 };
 
+/// Force of a bolt on a block in one cycle, and the block's velocities before the step.
+struct BlockPush
+{
+    Index block = no_index;
+    Triple force;     ///< [N], moment about the centroid [N m]
+    Triple velocity;  ///< [m/s], [rad/s]
+};
+
 struct Workspace
 {
     ContactLoads loads;
@@ -107,6 +115,7 @@ struct Workspace
     std::vector<Index> held;       ///< blocks at pressed sides that are held together in the running stage
     std::vector<Triple> external;  ///< the same with those of the case's loads; empty without either
     std::vector<LoadedBlock> loaded;
-    std::vector<Triple> released;  ///< velocities of blocks on which excavated blocks still act, before the step
+    std::vector<BlockPush> bolted;  ///< forces of bolts in this cycle, with the velocities before the step
+    std::vector<Triple> released;   ///< velocities of blocks on which excavated blocks still act, before the step
 };
 }  // namespace hdem

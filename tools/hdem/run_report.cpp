@@ -202,6 +202,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.max_displacement_all = moved.greatest_all;
     for (const Index block : moved.detached)
         s.detached_blocks.push_back(model.name[block]);
+    s.bolts = summarise_bolts(model, state);
     s.energy = state.ledger;
     s.stored = stored_energy(model, state);
     s.wall_seconds = wall_seconds;
@@ -262,6 +263,35 @@ std::string energy_line(const RunSummary& s)
                        residual(s.energy, s.stored), relative_residual(s.energy, s.stored));
 }
 
+namespace
+{
+/// A line for each bolt; of many those that bear most.
+void print_bolts(Log& log, std::vector<BoltSummary> bolts)
+{
+    constexpr std::size_t most = 20;
+    if (bolts.empty())
+        return;
+    double stored = 0.0, spent = 0.0;
+    for (const BoltSummary& bolt : bolts)
+    {
+        stored += bolt.stored;
+        spent += bolt.spent;
+    }
+    log.line(fmt::format("bolts: {}; they hold {:.4g} J and have spent {:.4g} J a metre of thickness. Forces of one bolt:",
+                         bolts.size(), stored, spent));
+    if (bolts.size() > most)
+        std::ranges::stable_sort(bolts, std::greater<>(), &BoltSummary::axial_force);
+    log.line(fmt::format("  {:<16} {:<9} {:<9} {:>12} {:>12} {:>12} {:>14}", "bolt", "kind", "status", "axial [N]", "across [N]",
+                         "greatest [N]", "elongation [m]"));
+    for (std::size_t i = 0; i < std::min(most, bolts.size()); ++i)
+        log.line(fmt::format("  {:<16} {:<9} {:<9} {:>12.5g} {:>12.5g} {:>12.5g} {:>14.4g}", bolts[i].name, bolts[i].kind,
+                             bolts[i].status, bolts[i].axial_force, bolts[i].across_force, bolts[i].greatest_force,
+                             bolts[i].elongation));
+    if (bolts.size() > most)
+        log.line(fmt::format("  and {} that bear less: summary.json has all", bolts.size() - most));
+}
+}  // namespace
+
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
@@ -281,6 +311,7 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                          1e3 * s.max_displacement, 1e3 * s.mean_displacement_all, 1e3 * s.max_displacement_all));
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
                          fmt::join(s.detached_blocks, ", ")));
+    print_bolts(log, s.bolts);
     log.line(energy_line(s));
     const ContactCounts contacts = simulation.count_contacts();
     log.line(

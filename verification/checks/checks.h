@@ -41,6 +41,7 @@ std::vector<Check> insitu_checks();
 std::vector<Check> joint_checks();
 std::vector<Check> water_checks();
 std::vector<Check> fos_checks();
+std::vector<Check> support_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();

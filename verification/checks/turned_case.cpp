@@ -67,6 +67,18 @@ void turn_water(const CaseDef& def, double angle, Overrides& turns)
     }
 }
 
+void turn_support(const CaseDef& def, double angle, Overrides& turns)
+{
+    for (std::size_t i = 0; i < def.bolts.size(); ++i)
+    {
+        if (!def.bolts[i].from)
+            continue;
+        const std::string key = fmt::format("bolt[{}].", i);
+        turns.push_back(set(key + "from", turned(*def.bolts[i].from, angle)));
+        turns.push_back(set(key + "to", turned(*def.bolts[i].to, angle)));
+    }
+}
+
 Override turned_stress(const StressDef& s, double angle)
 {
     const double c = std::cos(angle), n = std::sin(angle);
@@ -89,6 +101,7 @@ Overrides turned_case(const std::string& case_file, const Overrides& overrides, 
     turn_rock(def, angle, turns);
     turn_loads(def, angle, turns);
     turn_water(def, angle, turns);
+    turn_support(def, angle, turns);
     if (def.insitu.stress)
         turns.push_back(turned_stress(*def.insitu.stress, angle));
     return turns;

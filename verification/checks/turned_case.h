@@ -11,7 +11,7 @@ namespace hdem::verification
 [[nodiscard]] Vec2 turned(const Vec2& p, double angle);
 
 /// `case_file` under `overrides`, turned by `angle` about the origin [rad], as overrides: domain, joint sets, excavations, blocks, in-situ stress,
-/// water, velocities, loads and gravity. Sides need nothing: their stresses are normal and along them.
+/// water, bolts from point to point, velocities, loads and gravity. Sides need nothing: their stresses are normal and along them.
 ///
 /// Blocks of a file, rectangular domains, moving walls and a stress with a gradient stay as they are.
 /// @pre loads prescribe both components of a velocity or none

@@ -81,6 +81,7 @@ TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
                                                            {"WaterDef", "water"},
                                                            {"WaterCrackDef", "water_crack"},
                                                            {"FactorOfSafetyDef", "factor_of_safety"},
+                                                           {"BoltDef", "bolt"},
                                                            {"HistoryDef", "history"},
                                                            {"OutputDef", "output"}};
     const std::set<std::string> otherwise = {

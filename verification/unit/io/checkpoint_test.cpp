@@ -161,6 +161,36 @@ TEST(Checkpoint, GivesTheUnbrokenRunBelowWater)
     }
 }
 
+/// Bolts of all kinds around the tunnel; some yield, slip and rupture.
+TEST(Checkpoint, GivesTheUnbrokenRunWithBolts)
+{
+    const ScratchFolder folder("checkpoint_bolts");
+    CaseDef scene = tunnel(Method::force);
+    const BoltDef around{.around = "tunnel", .length = 3.0, .along = 1.5, .stage = "dig", .spacing = 1.5};
+    for (const BoltKind kind : {BoltKind::anchored, BoltKind::grouted, BoltKind::local})
+    {
+        BoltDef& bolt = scene.bolts.emplace_back(around);
+        bolt.name = "bolt" + std::to_string(scene.bolts.size());
+        bolt.kind = kind;
+    }
+    scene.bolts[0].area = scene.bolts[1].area = 2e-4;
+    scene.bolts[0].pretension = 2e4;
+    scene.bolts[0].yield = 2.1e4;
+    scene.bolts[1].bond_stiffness = 1e7;
+    scene.bolts[1].bond_strength = 2e3;
+    scene.bolts[2].stiffness = scene.bolts[2].shear_stiffness = 1e7;
+    scene.bolts[2].shear_strength = 1e3;
+    scene.bolts[2].rupture_strain = 0.1;
+    scene.bolts[2].active_length = 0.05;
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {310, 700, 1150})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 2, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
 /// Walls that begin, end and move, tractions and freed blocks: what acts follows from the number of the stage.
 TEST(Checkpoint, GivesTheUnbrokenRunOfSides)
 {

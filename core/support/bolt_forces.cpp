@@ -1,0 +1,271 @@
+#include "core/support/bolt_forces.h"
+
+#include "core/support/bolt_link.h"
+#include "core/support/grouted_bolt.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+/// Numbers of an anchored bolt in SupportState::history.
+struct AnchoredMemory
+{
+    double free = 0.0;     ///< distance of its ends without force [m]
+    double plastic = 0.0;  ///< [m]
+};
+
+/// The same of one crossing of a local one.
+struct LocalMemory
+{
+    double free = 0.0;      ///< distance of its ends without force [m]
+    double straight = 0.0;  ///< offset across the bolt without force [m]
+    double plastic = 0.0;   ///< [m]
+    double sheared = 0.0;   ///< plastic, across [m]
+    double cut = 0.0;       ///< 1: it has ruptured
+};
+
+template <typename Memory>
+Memory* memory_of(const Bolt& bolt, std::vector<double>& history)
+{
+    return reinterpret_cast<Memory*>(history.data() + bolt.history);
+}
+
+bool is_there(const BoltLink& link, const Blocks& blocks)
+{
+    return blocks.present[link.first] != 0 && blocks.present[link.second] != 0;
+}
+
+/// Force of a spring that flows at `limit`; what flows is added to `plastic`.
+double flow(double stiffness, double stretch, double limit, double& plastic, BoltRecord& record)
+{
+    const double trial = stiffness * (stretch - plastic);
+    if (!(std::abs(trial) > limit))
+        return trial;
+    const double force = std::copysign(limit, trial), by = (trial - force) / stiffness;
+    plastic += by;
+    record.spent += force * by;
+    record.status = BoltStatus::yielded;
+    return force;
+}
+
+double held(double force, double stiffness)
+{
+    return stiffness > 0.0 ? 0.5 * force * force / stiffness : 0.0;
+}
+
+/// Forces on the blocks of a link, at points seen from their centroids: `force` on the first one.
+class Pull
+{
+  public:
+    Pull(const Blocks& blocks, std::vector<BlockPush>& pushes) : blocks_(blocks), pushes_(pushes) {}
+
+    void add(const BoltLink& link, const Vec2& force, const Vec2& first_place, const Vec2& second_place)
+    {
+        push(link.first, force, first_place);
+        push(link.second, -force, second_place);
+    }
+
+  private:
+    void push(Index block, const Vec2& force, const Vec2& place)
+    {
+        const BlockMotion& m = blocks_.motion[block];
+        pushes_.push_back({block, {force.x(), force.y(), cross(place - Vec2(m.x, m.y), force)}, {m.vx, m.vy, m.w}});
+    }
+
+    const Blocks& blocks_;
+    std::vector<BlockPush>& pushes_;
+};
+
+void pull_anchored(const Bolt& bolt, const Blocks& blocks, AnchoredMemory& memory, BoltRecord& record, Pull& pull)
+{
+    const LinkPlace at = place_of(bolt, bolt.links.front(), blocks);
+    const double stretch = at.distance - memory.free;
+    if (stretch > bolt.rupture * bolt.length)
+    {
+        record.status = BoltStatus::ruptured;
+        record.spent += record.stored;
+        record.force = record.stored = 0.0;
+        return;
+    }
+    const double long_by = stretch - memory.plastic;
+    record.force = long_by > 0.0 ? flow(bolt.stiffness, stretch, bolt.yield, memory.plastic, record) : 0.0;
+    record.stored = held(record.force, bolt.stiffness);
+    record.elongation = stretch - bolt.pretension / bolt.stiffness;
+    if (record.force > 0.0)
+        pull.add(bolt.links.front(), record.force * at.line, at.first, at.second);
+}
+
+void pull_local(const Bolt& bolt, const Blocks& blocks, LocalMemory* memory, BoltRecord& record, Pull& pull)
+{
+    record.force = record.shear_force = record.stored = record.elongation = 0.0;
+    for (std::size_t l = 0; l < bolt.links.size(); ++l)
+    {
+        const BoltLink& link = bolt.links[l];
+        LocalMemory& own = memory[l];
+        if (own.cut != 0.0 || !is_there(link, blocks))
+            continue;
+        const LinkPlace at = place_of(bolt, link, blocks);
+        const double stretch = at.distance - own.free, across = at.across - own.straight;
+        BoltRecord limits = record;
+        const double axial = flow(bolt.stiffness, stretch, bolt.yield, own.plastic, limits);
+        const double shear = flow(bolt.shear_stiffness, across, bolt.shear_strength, own.sheared, limits);
+        const double energy = held(axial, bolt.stiffness) + held(shear, bolt.shear_stiffness);
+        if (record.status != BoltStatus::ruptured)
+            record.status = limits.status;
+        record.spent = limits.spent;
+        record.elongation += stretch;
+        if (stretch > bolt.rupture * bolt.length)
+        {
+            own.cut = 1.0;
+            record.status = BoltStatus::ruptured;
+            record.spent += energy;
+            continue;
+        }
+        record.stored += energy;
+        record.force = std::max(record.force, axial);
+        record.shear_force = std::max(record.shear_force, std::abs(shear));
+        const Vec2 middle = 0.5 * (at.first + at.second);
+        pull.add(link, axial * at.line, at.first, at.second);
+        pull.add(link, shear * turned_left(at.axis), middle, middle);
+    }
+}
+
+/// Opening of each link along the bolt, on top of one another: how far each part of the rock has moved.
+void pull_bar(const Bolt& bolt, const Blocks& blocks, const GroutedMemory& memory, BoltRecord& record, Pull& pull)
+{
+    thread_local std::vector<double> moved, tension;
+    thread_local std::vector<std::uint8_t> gone;
+    moved.assign(bolt.blocks.size(), 0.0);
+    tension.assign(bolt.links.size(), 0.0);
+    gone.clear();
+    for (const Index block : bolt.blocks)
+        gone.push_back(blocks.present[block] != 0 ? 0 : 1);
+    for (std::size_t l = 0; l < bolt.links.size(); ++l)
+        moved[l + 1] = moved[l] + place_of(bolt, bolt.links[l], blocks).distance - memory.opening[l];
+    pull_grouted(bolt, moved, gone, memory, tension, record);
+    record.elongation = moved.back();
+    for (std::size_t l = 0; l < bolt.links.size(); ++l)
+    {
+        if (!is_there(bolt.links[l], blocks))
+            continue;
+        const LinkPlace at = place_of(bolt, bolt.links[l], blocks);
+        pull.add(bolt.links[l], tension[l] * at.line, at.first, at.second);
+    }
+}
+
+bool acts(const Bolt& bolt, const BoltRecord& record)
+{
+    return record.status != BoltStatus::planned && record.status != BoltStatus::lost &&
+           (record.status != BoltStatus::ruptured || bolt.kind != BoltKind::anchored);
+}
+
+void install(const Bolt& bolt, State& state)
+{
+    std::vector<double>& history = state.support.history;
+    std::fill_n(history.begin() + bolt.history, bolt.history_size, 0.0);
+    const Blocks& blocks = state.blocks;
+    for (std::size_t l = 0; l < bolt.links.size(); ++l)
+    {
+        const LinkPlace at = place_of(bolt, bolt.links[l], blocks);
+        if (bolt.kind == BoltKind::anchored)
+            memory_of<AnchoredMemory>(bolt, history)[l].free = at.distance - bolt.pretension / bolt.stiffness;
+        else if (bolt.kind == BoltKind::local)
+        {
+            memory_of<LocalMemory>(bolt, history)[l].free = at.distance;
+            memory_of<LocalMemory>(bolt, history)[l].straight = at.across;
+        }
+        else
+            grouted_memory(bolt, history).opening[l] = at.distance;
+    }
+}
+}  // namespace
+
+bool has_bolts(const SupportState& support)
+{
+    return std::ranges::any_of(support.bolts, [](const BoltRecord& record) { return record.status != BoltStatus::planned; });
+}
+
+std::vector<Index> bolted_blocks(const Model& model, const State& state)
+{
+    std::vector<Index> blocks;
+    for (const BoltEnd& end : model.support.ends)
+        if (state.support.bolts[end.bolt].status != BoltStatus::planned && (blocks.empty() || blocks.back() != end.block))
+            blocks.push_back(end.block);
+    return blocks;
+}
+
+bool install_bolts(const Model& model, State& state)
+{
+    bool any = false;
+    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
+    {
+        const Bolt& bolt = model.support.bolts[i];
+        if (bolt.stage != state.stage)
+            continue;
+        install(bolt, state);
+        state.support.bolts[i] = {.status = BoltStatus::elastic,
+                                  .force = bolt.pretension,
+                                  .greatest_force = bolt.pretension,
+                                  .stored = held(bolt.pretension, bolt.stiffness)};
+        any = true;
+    }
+    return any;
+}
+
+void pull_bolts(const Model& model, State& state, std::vector<BlockPush>& pushes)
+{
+    pushes.clear();
+    Pull pull(state.blocks, pushes);
+    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
+    {
+        const Bolt& bolt = model.support.bolts[i];
+        BoltRecord& record = state.support.bolts[i];
+        if (!acts(bolt, record))
+            continue;
+        if (std::ranges::none_of(bolt.links, [&](const BoltLink& link) { return is_there(link, state.blocks); }))
+        {
+            record.status = BoltStatus::lost;
+            record.force = record.shear_force = record.stored = 0.0;
+            continue;
+        }
+        if (bolt.kind == BoltKind::anchored)
+            pull_anchored(bolt, state.blocks, *memory_of<AnchoredMemory>(bolt, state.support.history), record, pull);
+        else if (bolt.kind == BoltKind::local)
+            pull_local(bolt, state.blocks, memory_of<LocalMemory>(bolt, state.support.history), record, pull);
+        else
+            pull_bar(bolt, state.blocks, grouted_memory(bolt, state.support.history), record, pull);
+        record.greatest_force = std::max(record.greatest_force, record.force);
+    }
+}
+
+void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external)
+{
+    for (const BlockPush& push : pushes)
+        external[push.block] = constant.empty() ? Triple{} : constant[push.block];
+}
+
+void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& external)
+{
+    for (const BlockPush& push : pushes)
+    {
+        Triple& on = external[push.block];
+        on = {on.x + push.force.x, on.y + push.force.y, on.w + push.force.w};
+    }
+}
+
+void add_bolt_work(const std::vector<BlockPush>& pushes, const Blocks& blocks, EnergyLedger& ledger)
+{
+    const auto power = [](const Triple& f, double x, double y, double w) { return f.x * x + f.y * y + f.w * w; };
+    for (const BlockPush& push : pushes)
+    {
+        const BlockMotion& now = blocks.motion[push.block];
+        const double after = 0.5 * blocks.step.next * power(push.force, now.vx, now.vy, now.w);
+        ledger.load_work += 0.5 * blocks.step.last * power(push.force, push.velocity.x, push.velocity.y, push.velocity.w) + after;
+        ledger.coasting -= after;
+    }
+}
+}  // namespace hdem

@@ -1,0 +1,37 @@
+#pragma once
+/// What bolts do in a cycle: forces from where the blocks are.
+///
+///   anchored   T = K (d - d_0 - e_p),  0 <= T <= yield               d distance of its two ends, d_0 that without force [m]
+///   local      axial likewise, |T| <= yield, across the active length; shear  Q = K_s (u_s - u_0 - u_p),  |Q| <= shear_strength,
+///              u_s the part of the distance of its two ends that is square to the bolt, which turns with the blocks
+///   grouted    grouted_bolt.h; a joint opens by what the distance of two points beside it grows, one diameter of the bar away from it on each side
+///
+/// The two blocks of a link get opposite forces on one line, so that momentum and angular momentum are kept. A bolt that is installed remembers where its ends are:
+/// it has no force but its pretension.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+namespace hdem
+{
+/// Has any been installed?
+[[nodiscard]] bool has_bolts(const SupportState& support);
+
+/// Blocks of all that have been installed, ascending: these never rest. Of those that act no more too, so that it does not depend on when a run was restarted.
+[[nodiscard]] std::vector<Index> bolted_blocks(const Model& model, const State& state);
+
+/// Those of the stage that has begun, where the blocks are now.
+/// @return  whether there are any
+bool install_bolts(const Model& model, State& state);
+
+/// Their forces in this cycle, in the order of the bolts, with the velocities before the step; what slips, yields and ruptures.
+void pull_bolts(const Model& model, State& state, std::vector<BlockPush>& pushes);
+
+/// Before loads are added: forget the forces of the last cycle.
+void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external);
+void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& external);
+
+/// Their work over the step, once the velocities are final.
+void add_bolt_work(const std::vector<BlockPush>& pushes, const Blocks& blocks, EnergyLedger& ledger);
+}  // namespace hdem

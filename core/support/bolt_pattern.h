@@ -1,0 +1,20 @@
+#pragma once
+/// Bolts around an excavation.
+
+#include "core/model/case_def.h"
+
+#include <vector>
+
+namespace hdem
+{
+/// A bolt's head and end in the user's coordinates.
+struct BoltLine
+{
+    Vec2 from = {0.0, 0.0};  ///< [m]
+    Vec2 to = {0.0, 0.0};
+};
+
+/// Lines of `pattern.length` with their heads on the outline, square to it. A stretch of the outline within the pattern's arc is cut into equal pieces no longer than
+/// `along`; a head stands in the middle of each.
+[[nodiscard]] std::vector<BoltLine> bolts_around(const Polygon& outline, const BoltDef& pattern);
+}  // namespace hdem

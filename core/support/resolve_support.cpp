@@ -1,0 +1,215 @@
+#include "core/support/resolve_support.h"
+
+#include "core/rock/excavation.h"
+#include "core/rock/problem_text.h"
+#include "core/support/bolt_path.h"
+#include "core/support/bolt_pattern.h"
+#include "core/support/grouted_bolt.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+constexpr double gap_share = 1e-3;  // of the mean block size: so much may lie between two blocks, or before a head
+
+class SupportResolver
+{
+  public:
+    SupportResolver(const CaseDef& def, const Blocks& blocks, Model& model) : def_(def), blocks_(blocks), model_(model) {}
+
+    std::vector<Problem> run()
+    {
+        for (std::size_t i = 0; i < def_.bolts.size(); ++i)
+        {
+            const BoltDef& bolt = def_.bolts[i];
+            key_ = "bolt[" + std::to_string(i) + "]";
+            object_ = "bolt \"" + bolt.name + "\": ";
+            const auto stage = std::ranges::find(def_.stages, bolt.stage, &StageDef::name);
+            stage_ = bolt.stage.empty() || stage == def_.stages.end() ? 0 : static_cast<Index>(stage - def_.stages.begin());
+            find_gone();
+            if (bolt.around.empty())
+                add(bolt, bolt.name, {*bolt.from, *bolt.to}, &problems_);
+            else
+                add_pattern(bolt);
+        }
+        list_ends(model_.support);
+        return std::move(problems_);
+    }
+
+  private:
+    /// Walls, and what is excavated by the time of the stage.
+    void find_gone()
+    {
+        gone_.assign(static_cast<std::size_t>(model_.blocks()), 0);
+        for (Index b = 0; b < model_.blocks(); ++b)
+        {
+            gone_[b] = model_.mass[b] == 0.0 ? 1 : 0;
+            const Index excavation = model_.excavation[b];
+            for (Index s = 0; s <= stage_ && static_cast<std::size_t>(s) < def_.stages.size(); ++s)
+                for (const std::string& name : def_.stages[s].excavate)
+                    if (name == model_.name[b] || (excavation != no_index && name == model_.excavation_names[excavation]))
+                        gone_[b] = 1;
+        }
+    }
+
+    void add_pattern(const BoltDef& bolt)
+    {
+        const auto excavation = std::ranges::find(def_.excavations, bolt.around, &ExcavationDef::name);
+        int number = 0, left_out = 0;
+        for (const BoltLine& line : bolts_around(outline_polygon(*excavation), bolt))
+        {
+            std::vector<Problem> reasons;
+            add(bolt, bolt.name + "." + std::to_string(++number), line, &reasons);
+            left_out += reasons.empty() ? 0 : 1;
+        }
+        if (left_out == number)
+            problems_.push_back({.key = key_ + ".around",
+                                 .text = object_ + "around = \"" + bolt.around + "\" (none of its " + std::to_string(number) +
+                                         " bolts ties two blocks together: they lie in one block, or outside the rock). Give a "
+                                         "greater length, or another arc."});
+        else if (left_out > 0)
+            problems_.push_back({.severity = Problem::Severity::warning,
+                                 .key = key_ + ".around",
+                                 .text = object_ + "around = \"" + bolt.around + "\" (" + std::to_string(left_out) + " of " +
+                                         std::to_string(number) +
+                                         " bolts would do nothing: they lie in one block, or outside the rock; they are left out). "
+                                         "Give a greater length to change that."});
+    }
+
+    void add(const BoltDef& from, const std::string& name, const BoltLine& line, std::vector<Problem>* problems)
+    {
+        const Vec2 head = line.from - model_.origin, end = line.to - model_.origin;
+        const double length = (end - head).norm(), least = gap_share * model_.mean_size;
+        const std::vector<PathPiece> path = pieces_along(head, end, model_, blocks_, gone_);
+        const auto fail = [&](const char* key, const std::string& text)
+        { problems->push_back({.key = key_ + key, .text = object_ + text}); };
+        const auto place = [&](double at) { return text(Vec2(line.from + at / length * (line.to - line.from))); };
+        if (path.empty() || path.front().from > least)
+            return fail(".from",
+                        "from = " + place(0.0) +
+                            " m (lies in no block that is there in its stage). Give a point of the rock or on its outline.");
+        if (path.back().to < length - least)
+            return fail(".to", "to = " + place(length) +
+                                   " m (lies in no block that is there in its stage). Give a point of the rock or on its outline.");
+        if (path.size() == 1 || (from.kind == BoltKind::anchored && path.front().block == path.back().block))
+            return fail(".to", "both ends lie in block \"" + model_.name[path.front().block] +
+                                   "\" (it would do nothing). Give a longer one.");
+        for (std::size_t i = 0; from.kind != BoltKind::anchored && i + 1 < path.size(); ++i)
+            if (path[i + 1].from - path[i].to > least)
+                return fail(".from", "from " + place(path[i].to) + " to " + place(path[i + 1].from) +
+                                         " m there is no block (it would have no rock around it). Move it, or end it there.");
+        Bolt bolt = with_numbers(from, name, length);
+        bolt.axis = (end - head) / length;
+        if (from.kind == BoltKind::anchored)
+            bolt.links.push_back(link(path.front(), path.back(), head, end));
+        else
+            add_crossings(path, head, bolt);
+        if (from.kind == BoltKind::grouted)
+            add_segments(from, path, bolt);
+        bolt.history = model_.support.history_size;
+        bolt.history_size = from.kind == BoltKind::anchored
+                                ? 2
+                                : (from.kind == BoltKind::local ? 5 * static_cast<Index>(bolt.links.size())
+                                                                : grouted_history_size(bolt));
+        model_.support.history_size += bolt.history_size;
+        model_.support.bolts.push_back(std::move(bolt));
+    }
+
+    /// The one place where what is said of one bolt becomes what acts on a metre of thickness.
+    [[nodiscard]] Bolt with_numbers(const BoltDef& from, const std::string& name, double length) const
+    {
+        const double share = 1.0 / from.spacing;
+        Bolt bolt;
+        bolt.name = name;
+        bolt.kind = from.kind;
+        bolt.stage = stage_;
+        bolt.spacing = from.spacing;
+        bolt.pretension = share * from.pretension;
+        bolt.yield = from.yield ? share * *from.yield : Bolt::none;
+        bolt.rupture = from.rupture_strain.value_or(Bolt::none);
+        bolt.shear_stiffness = share * from.shear_stiffness;
+        bolt.shear_strength = from.shear_strength ? share * *from.shear_strength : Bolt::none;
+        bolt.section_stiffness = share * from.area * from.modulus;
+        bolt.bond_stiffness = share * from.bond_stiffness;
+        bolt.bond_strength = share * from.bond_strength;
+        bolt.plate = from.plate;
+        bolt.length = from.kind == BoltKind::local     ? from.active_length
+                      : from.kind == BoltKind::grouted ? 4.0 * std::sqrt(from.area / std::numbers::pi)  // twice the diameter
+                                                       : from.free_length.value_or(length);
+        bolt.stiffness = from.stiffness ? share * *from.stiffness : bolt.section_stiffness / bolt.length;
+        return bolt;
+    }
+
+    [[nodiscard]] BoltLink link(const PathPiece& first, const PathPiece& second, const Vec2& at_first, const Vec2& at_second) const
+    {
+        const auto centre = [&](Index b) { return Vec2(blocks_.motion[b].x, blocks_.motion[b].y); };
+        BoltLink made;
+        made.first = first.block;
+        made.second = second.block;
+        made.first_arm = at_first - centre(first.block);
+        made.second_arm = at_second - centre(second.block);
+        return made;
+    }
+
+    void add_crossings(const std::vector<PathPiece>& path, const Vec2& head, Bolt& bolt) const
+    {
+        const double half = 0.5 * bolt.length;
+        for (std::size_t i = 0; i + 1 < path.size(); ++i)
+            bolt.links.push_back(
+                link(path[i], path[i + 1], head + (path[i].to - half) * bolt.axis, head + (path[i + 1].from + half) * bolt.axis));
+        for (const PathPiece& piece : path)
+            bolt.blocks.push_back(piece.block);
+        for (BoltLink& each : bolt.links)
+        {
+            each.axial_stiffness = bolt.stiffness;
+            each.transverse_stiffness = bolt.shear_stiffness;
+        }
+    }
+
+    static void add_segments(const BoltDef& from, const std::vector<PathPiece>& path, Bolt& bolt)
+    {
+        const double longest = from.segment.value_or(0.1 * std::sqrt(bolt.section_stiffness / bolt.bond_stiffness));
+        const double unbonded = from.free_length.value_or(0.0);
+        const auto add = [&](std::size_t part, double begin, double end, bool is_bonded)
+        {
+            const auto number = static_cast<int>(std::max(1.0, std::ceil((end - begin) / longest - 1e-9)));
+            for (int k = 0; k < number && end > begin; ++k)
+                bolt.segments.push_back({static_cast<Index>(part), (end - begin) / number, is_bonded});
+        };
+        for (std::size_t part = 0; part < path.size(); ++part)
+        {
+            const double begin = path[part].from, end = path[part].to, least = 1e-6 * longest;
+            double split = std::clamp(unbonded, begin, end);
+            split = split - begin < least ? begin : (end - split < least ? end : split);  // no piece of round-off
+            add(part, begin, split, false);
+            add(part, split, end, true);
+        }
+        const std::vector<double> stiffness = link_stiffness(bolt);
+        for (std::size_t i = 0; i < bolt.links.size(); ++i)
+            bolt.links[i].axial_stiffness = stiffness[i];
+    }
+
+    const CaseDef& def_;
+    const Blocks& blocks_;
+    Model& model_;
+    std::vector<Problem> problems_;
+    std::string key_, object_;
+    Index stage_ = 0;
+    std::vector<std::uint8_t> gone_;
+};
+}  // namespace
+
+std::vector<Problem> resolve_support(const CaseDef& def, const Blocks& blocks, Model& model, SupportState& state)
+{
+    std::vector<Problem> problems = SupportResolver(def, blocks, model).run();
+    for (Bolt& bolt : model.support.bolts)
+        if (bolt.kind == BoltKind::anchored)
+            bolt.links.front().axial_stiffness = bolt.stiffness;
+    state.bolts.assign(model.support.bolts.size(), {});
+    state.history.assign(static_cast<std::size_t>(model.support.history_size), 0.0);
+    return problems;
+}
+}  // namespace hdem

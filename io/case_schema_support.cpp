@@ -1,0 +1,170 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+namespace
+{
+std::vector<KeySpec> place_keys()
+{
+    return {
+        field<&BoltDef::name>({.name = "name",
+                               .effect = "For histories and messages. Bolts of a pattern are called NAME.1, NAME.2, ...",
+                               .default_note = "\"bolt1\", \"bolt2\", ..."}),
+        field<&BoltDef::kind>({.name = "kind", .effect = "See above.", .choices = {"anchored", "grouted", "local"}}),
+        field<&BoltDef::from>({.name = "from",
+                               .unit = "m",
+                               .effect = "Its head, as drawn; on the outline of an opening, as a rule.",
+                               .example = "[10.0, 14.0]",
+                               .range = coordinate,
+                               .default_note = "around is given instead"}),
+        field<&BoltDef::to>({.name = "to",
+                             .unit = "m",
+                             .effect = "Its end in the rock, as drawn.",
+                             .example = "[10.0, 18.0]",
+                             .range = coordinate,
+                             .default_note = "around is given instead"}),
+        field<&BoltDef::around>({.name = "around",
+                                 .effect = "Name of an excavation: bolts with their heads on its outline, square to it.",
+                                 .example = "\"tunnel\"",
+                                 .default_note = "from and to are given instead"}),
+        field<&BoltDef::length>({.name = "length",
+                                 .unit = "m",
+                                 .effect = "Of each bolt of a pattern.",
+                                 .example = "4.0",
+                                 .range = length,
+                                 .default_note = "must be given with around"}),
+        field<&BoltDef::along>({.name = "along",
+                                .unit = "m",
+                                .effect = "Distance of the heads of a pattern along the outline. They stand in the middle of equal "
+                                          "stretches, no longer than this.",
+                                .example = "1.2",
+                                .range = length,
+                                .default_note = "must be given with around"}),
+        field<&BoltDef::arc>({.name = "arc",
+                              .unit = "deg",
+                              .effect = "Only heads in the directions from the first to the second, anticlockwise from the x axis, "
+                                        "as seen from the middle of the outline's box: [30, 150] is the roof.",
+                              .example = "[30, 150]",
+                              .range = {.low = -360, .high = 720},
+                              .default_note = "all around"}),
+        field<&BoltDef::stage>(
+            {.name = "stage",
+             .effect = "Name of the stage at whose start it is installed, after excavation: without force but for "
+                       "its pretension.",
+             .example = "\"supported\"",
+             .default_note = "the first"}),
+        field<&BoltDef::spacing>(
+            {.name = "spacing",
+             .unit = "m",
+             .effect = "Distance of such bolts out of plane. Forces, stiffnesses and strengths of this section "
+                       "are those of one bolt.",
+             .range = length})};
+}
+
+std::vector<KeySpec> bar_keys()
+{
+    return {
+        field<&BoltDef::area>({.name = "area",
+                               .unit = "m2",
+                               .effect = "Of the bar, A. Belongs to anchored and grouted.",
+                               .example = "4.9e-4",
+                               .range = positive,
+                               .default_note = "must be given, anchored: unless stiffness is"}),
+        field<&BoltDef::modulus>({.name = "modulus", .unit = "Pa", .effect = "Of the bar, E.", .range = positive}),
+        field<&BoltDef::stiffness>({.name = "stiffness",
+                                    .unit = "N/m",
+                                    .effect = "Anchored: of the bolt, instead of E A / free_length. Local: axial, of one crossing.",
+                                    .example = "3e7",
+                                    .range = non_negative,
+                                    .default_note = "E A / free_length; local: must be given"}),
+        field<&BoltDef::free_length>(
+            {.name = "free_length",
+             .unit = "m",
+             .effect = "Anchored: the length that stretches. Grouted: the length from the head on that has "
+                       "no bond.",
+             .example = "3.5",
+             .range = {.low = 0, .high = 1e8},
+             .default_note = "anchored: the distance of its ends; grouted: 0"}),
+        field<&BoltDef::pretension>({.name = "pretension",
+                                     .unit = "N",
+                                     .effect = "Force with which it is installed. Belongs to anchored.",
+                                     .range = non_negative}),
+        field<&BoltDef::yield>({.name = "yield",
+                                .unit = "N",
+                                .effect = "Axial force at which it yields: it bears no more and stays longer.",
+                                .example = "2.5e5",
+                                .range = positive,
+                                .default_note = "never"}),
+        field<&BoltDef::rupture_strain>(
+            {.name = "rupture_strain",
+             .effect = "Strain at which it ruptures, that of the pretension and of yielding included: of "
+                       "free_length, of a piece between two nodes, of active_length.",
+             .example = "0.1",
+             .range = positive,
+             .default_note = "never"}),
+        field<&BoltDef::bond_stiffness>({.name = "bond_stiffness",
+                                         .unit = "N/m/m",
+                                         .effect = "Of the grout, per metre of bolt. Belongs to grouted.",
+                                         .example = "1.12e8",
+                                         .range = positive,
+                                         .default_note = "must be given with grouted"}),
+        field<&BoltDef::bond_strength>({.name = "bond_strength",
+                                        .unit = "N/m",
+                                        .effect = "Greatest force between bolt and rock, per metre of bolt. Belongs to grouted.",
+                                        .example = "1.75e5",
+                                        .range = positive,
+                                        .default_note = "must be given with grouted"}),
+        field<&BoltDef::segment>({.name = "segment",
+                                  .unit = "m",
+                                  .effect = "Greatest distance of its nodes. Belongs to grouted.",
+                                  .example = "0.05",
+                                  .range = length,
+                                  .default_note = "0.1 (E A / bond_stiffness)^1/2"}),
+        field<&BoltDef::plate>({.name = "plate",
+                                .effect = "A plate holds the head against the rock: the bar cannot be drawn in there. Belongs to "
+                                          "grouted."}),
+        field<&BoltDef::shear_stiffness>({.name = "shear_stiffness",
+                                          .unit = "N/m",
+                                          .effect = "Across the bolt, of one crossing. Belongs to local.",
+                                          .example = "1e8",
+                                          .range = non_negative,
+                                          .default_note = "must be given with local"}),
+        field<&BoltDef::shear_strength>({.name = "shear_strength",
+                                         .unit = "N",
+                                         .effect = "Greatest force across the bolt. Belongs to local.",
+                                         .example = "5e4",
+                                         .range = positive,
+                                         .default_note = "no limit"}),
+        field<&BoltDef::active_length>(
+            {.name = "active_length",
+             .unit = "m",
+             .effect = "Length of bar that works at a crossing, half on each side; twice its diameter, as a "
+                       "rule. The axial force acts along the line between its two ends. Belongs to local.",
+             .example = "0.05",
+             .range = length,
+             .default_note = "must be given with local"})};
+}
+}  // namespace
+
+SectionSpec bolt_section()
+{
+    std::vector<KeySpec> keys = place_keys();
+    std::ranges::move(bar_keys(), std::back_inserter(keys));
+    return {"bolt",
+            SectionKind::array,
+            "bolt",
+            "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears "
+            "tension only. "
+            "grouted: a bar bonded to the rock along its length (cable, dowel); the bond slips, the bar yields; at a joint it is "
+            "free over "
+            "twice its diameter. local: an axial and a shear "
+            "spring at each joint that the line from -> to crosses. Their points belong to the blocks; a block that is excavated "
+            "takes its "
+            "part of a bolt with it. They act as forces with all methods; while there are bolts static solutions are not tried.",
+            std::move(keys),
+            append<&CaseDef::bolts>};
+}
+}  // namespace hdem

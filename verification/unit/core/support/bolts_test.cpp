@@ -1,0 +1,122 @@
+#include "core/support/bolt_forces.h"
+#include "core/support/bolt_pattern.h"
+#include "verification/unit/case_run.h"
+
+namespace hdem
+{
+namespace
+{
+using namespace test;
+
+/// Two free blocks that fly apart and turn, held by one bolt; no gravity, no damping.
+CaseDef flying_pair(const BoltDef& bolt)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.blocks = {
+        {.name = "left", .polygon = {{-1, 0}, {0, 0}, {0, 1}, {-1, 1}}, .velocity = {-0.5, 0.1}, .angular_velocity = 0.3},
+        {.name = "right", .polygon = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, .velocity = {0.5, -0.2}}};
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::force;
+    scene.damping.preset = DampingPreset::dynamic;
+    scene.bolts = {bolt};
+    scene.stages = {{.name = "fly", .cycles = 2000}};
+    return scene;
+}
+
+BoltDef bolt_of(BoltKind kind)
+{
+    BoltDef bolt{.name = "bolt", .kind = kind, .from = Vec2(-0.8, 0.3), .to = Vec2(0.7, 0.6)};
+    if (kind != BoltKind::local)
+        bolt.area = 1e-4;
+    bolt.bond_stiffness = 1e7;
+    bolt.bond_strength = 1e4;
+    bolt.active_length = 0.05;
+    if (kind == BoltKind::local)
+        bolt.stiffness = 1e6;
+    bolt.shear_stiffness = 1e6;
+    bolt.yield = 8e3;
+    return bolt;
+}
+
+TEST(Bolts, KeepMomentumAndTheEnergyLedger)
+{
+    for (const BoltKind kind : {BoltKind::anchored, BoltKind::grouted, BoltKind::local})
+    {
+        CaseRun run(flying_pair(bolt_of(kind)));
+        run.simulation.begin_stage(0);
+        const Momentum before = momentum(run.model(), run.state().blocks);
+        run.advance(2000);
+        const Momentum after = momentum(run.model(), run.state().blocks);
+        const BoltRecord& bolt = run.state().support.bolts[0];
+        EXPECT_GT(bolt.greatest_force, 1e3);
+        EXPECT_LT((after.linear - before.linear).norm(), 1e-8);
+        EXPECT_NEAR(after.angular, before.angular, 1e-3 * std::abs(before.angular) + 1.0);
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6);
+        EXPECT_NEAR(-run.state().ledger.load_work, bolt.stored + bolt.spent, 0.02 * (bolt.stored + bolt.spent));
+    }
+}
+
+TEST(Bolts, HaveNoForceWhenInstalledButTheirPretension)
+{
+    CaseDef scene = flying_pair(bolt_of(BoltKind::anchored));
+    scene.stages = {{.name = "fly", .cycles = 200}, {.name = "hold", .cycles = 10}};
+    scene.bolts[0].stage = "hold";
+    scene.bolts[0].pretension = 500.0;
+    scene.bolts[0].spacing = 2.0;
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(200);
+    EXPECT_EQ(run.state().support.bolts[0].status, BoltStatus::planned);
+    EXPECT_EQ(run.state().ledger.load_work, 0.0);
+    run.simulation.begin_stage(1);
+    EXPECT_DOUBLE_EQ(run.state().support.bolts[0].force, 250.0);
+    State state = run.state();
+    std::vector<BlockPush> pushes;
+    pull_bolts(run.model(), state, pushes);
+    EXPECT_NEAR(state.support.bolts[0].force, 250.0, 1e-6);
+    ASSERT_EQ(pushes.size(), 2u);
+    EXPECT_NEAR(std::hypot(pushes[0].force.x, pushes[0].force.y), 250.0, 1e-6);
+}
+
+TEST(Bolts, AreLostWithABlock)
+{
+    for (const BoltKind kind : {BoltKind::anchored, BoltKind::grouted, BoltKind::local})
+    {
+        CaseDef scene = flying_pair(bolt_of(kind));
+        scene.stages = {{.name = "fly", .cycles = 50}, {.name = "hold", .cycles = 10, .excavate = {"right"}}};
+        CaseRun run(scene);
+        run.simulation.begin_stage(0);
+        run.advance(50);
+        run.simulation.begin_stage(1);
+        run.advance(1);
+        EXPECT_EQ(run.state().support.bolts[0].status, BoltStatus::lost);
+        const Momentum before = momentum(run.model(), run.state().blocks);
+        run.advance(9);
+        EXPECT_EQ((momentum(run.model(), run.state().blocks).linear - before.linear).norm(), 0.0);
+    }
+}
+
+TEST(BoltPattern, StandsInEqualStretchesSquareToTheOutline)
+{
+    const Polygon room = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};
+    BoltDef pattern;
+    pattern.length = 3.0;
+    pattern.along = 1.5;
+    pattern.arc = Vec2(20.0, 160.0);  // the roof: its corners lie at 26.6 and 153.4 degrees
+    const std::vector<BoltLine> roof = bolts_around(room, pattern);
+    const double wall = 1.0 - 2.0 * std::tan(radians(20.0)), length = 4.0 + 2.0 * wall;
+    ASSERT_EQ(roof.size(), 4u);
+    for (std::size_t i = 0; i < roof.size(); ++i)
+    {
+        EXPECT_NEAR(roof[i].from.y(), 2.0, 1e-12);
+        EXPECT_NEAR(roof[i].from.x(), 4.0 + wall - (static_cast<double>(i) + 0.5) * length / 4.0, 1e-12);
+        EXPECT_LT((roof[i].to - roof[i].from - Vec2(0.0, 3.0)).norm(), 1e-12);
+    }
+    pattern.arc.reset();
+    const std::vector<BoltLine> all = bolts_around({room.rbegin(), room.rend()}, pattern);
+    EXPECT_EQ(all.size(), 8u);
+    for (const BoltLine& line : all)
+        EXPECT_GT((line.to - Vec2(2.0, 1.0)).norm(), (line.from - Vec2(2.0, 1.0)).norm());
+}
+}  // namespace
+}  // namespace hdem

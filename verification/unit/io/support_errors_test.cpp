@@ -1,0 +1,71 @@
+#include "core/rock/build_model.h"
+#include "verification/unit/io/case_text.h"
+
+#include <gmock/gmock.h>
+
+namespace hdem
+{
+namespace
+{
+using test::problems_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Lines 1 to 13; tests add theirs from line 14 on.
+const std::string head = R"([material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e9
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+[domain]
+width = 4.0
+height = 4.0
+fixed = ["bottom"]
+[[stage]]
+name = "stand"
+cycles = 10
+)";
+const std::string anchored = "[[bolt]]\nfrom = [1.0, 1.0]\nto = [1.0, 3.0]\n";
+
+void expect_one_problem(const std::string& text, const std::string& place_and_object, const std::string& says)
+{
+    EXPECT_THAT(problems_of(head + text), ElementsAre(testing::AllOf(StartsWith("case.toml:" + place_and_object), HasSubstr(says))))
+        << text;
+}
+
+TEST(SupportErrors, TellWhatIsWrongAndWhatToDo)
+{
+    expect_one_problem(anchored, "14:1: bolt \"bolt1\": area", "stiffness too");
+    expect_one_problem(anchored + "area = 1e-4\nstage = \"dig\"\n", "18:9: bolt \"bolt1\": stage", "no stage has this name");
+    expect_one_problem(anchored + "area = 1e-4\nplate = true\n", "18:9: bolt \"bolt1\": plate", "does not belong to kind anchored");
+    expect_one_problem(anchored + "area = 1e-4\nyield = 1e4\npretension = 2e4\n", "19:14: bolt \"bolt1\": pretension",
+                       "above yield");
+    expect_one_problem("[[bolt]]\nfrom = [1.0, 1.0]\narea = 1e-4\n", "14:1: bolt \"bolt1\": to", "is missing");
+    expect_one_problem("[[bolt]]\naround = \"shaft\"\nlength = 2.0\nalong = 1.0\narea = 1e-4\n", "15:10: bolt \"bolt1\": around",
+                       "shaft");
+    expect_one_problem("[[bolt]]\nkind = \"local\"\nfrom = [1.0, 1.0]\nto = [1.0, 3.0]\nstiffness = 1e8\nactive_length = 0.05\n",
+                       "14:1: bolt \"bolt1\": shear_stiffness", "is missing");
+}
+
+TEST(SupportErrors, TellOfEndsThatHoldNothing)
+{
+    const auto text_of_problem = [](const std::string& ends)
+    {
+        try
+        {
+            build_model(test::read(head + "[[bolt]]\narea = 1e-4\n" + ends));
+        }
+        catch (const InputError& error)
+        {
+            return error.problems().front().text;
+        }
+        return std::string("none");
+    };
+    EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("both ends lie in block"));
+    EXPECT_THAT(text_of_problem("from = [-1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("lies in no block"));
+    EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 5.0]\n"), HasSubstr("(1, 5)"));
+}
+}  // namespace
+}  // namespace hdem
