@@ -6,6 +6,7 @@
 #include "core/motion/flight.h"
 #include "core/motion/integrator.h"
 #include "core/motion/rest.h"
+#include "core/support/bolt_forces.h"
 #include "parallel/cycle.h"
 #include "parallel/impulse_sweeps.h"
 #include "parallel/openmp.h"
@@ -24,6 +25,8 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
                    state.blocks);  // Eqs. (7), (8)
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
+    if (!part.bolted.empty())
+        hold_by_bolts(work_.bolted, part.range, state.blocks);
 }
 
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)

@@ -102,8 +102,9 @@ struct LoadedBlock
 struct BlockPush
 {
     Index block = no_index;
-    Triple force;     ///< [N], moment about the centroid [N m]
-    Triple velocity;  ///< [m/s], [rad/s]
+    Triple force;          ///< [N], moment about the centroid [N m]
+    Triple velocity;       ///< [m/s], [rad/s]
+    double reserve = 0.0;  ///< strength of the bolt not in use [N]
 };
 
 struct Workspace

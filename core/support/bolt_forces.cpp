@@ -63,17 +63,17 @@ class Pull
   public:
     Pull(const Blocks& blocks, std::vector<BlockPush>& pushes) : blocks_(blocks), pushes_(pushes) {}
 
-    void add(const BoltLink& link, const Vec2& force, const Vec2& first_place, const Vec2& second_place)
+    void add(const BoltLink& link, const Vec2& force, const Vec2& first_place, const Vec2& second_place, double reserve)
     {
-        push(link.first, force, first_place);
-        push(link.second, -force, second_place);
+        push(link.first, force, first_place, reserve);
+        push(link.second, -force, second_place, reserve);
     }
 
   private:
-    void push(Index block, const Vec2& force, const Vec2& place)
+    void push(Index block, const Vec2& force, const Vec2& place, double reserve)
     {
         const BlockMotion& m = blocks_.motion[block];
-        pushes_.push_back({block, {force.x(), force.y(), cross(place - Vec2(m.x, m.y), force)}, {m.vx, m.vy, m.w}});
+        pushes_.push_back({block, {force.x(), force.y(), cross(place - Vec2(m.x, m.y), force)}, {m.vx, m.vy, m.w}, reserve});
     }
 
     const Blocks& blocks_;
@@ -96,7 +96,7 @@ void pull_anchored(const Bolt& bolt, const Blocks& blocks, AnchoredMemory& memor
     record.stored = held(record.force, bolt.stiffness);
     record.elongation = stretch - bolt.pretension / bolt.stiffness;
     if (record.force > 0.0)
-        pull.add(bolt.links.front(), record.force * at.line, at.first, at.second);
+        pull.add(bolt.links.front(), record.force * at.line, at.first, at.second, bolt.yield - record.force);
 }
 
 void pull_local(const Bolt& bolt, const Blocks& blocks, LocalMemory* memory, BoltRecord& record, Pull& pull)
@@ -129,31 +129,32 @@ void pull_local(const Bolt& bolt, const Blocks& blocks, LocalMemory* memory, Bol
         record.force = std::max(record.force, axial);
         record.shear_force = std::max(record.shear_force, std::abs(shear));
         const Vec2 middle = 0.5 * (at.first + at.second);
-        pull.add(link, axial * at.line, at.first, at.second);
-        pull.add(link, shear * turned_left(at.axis), middle, middle);
+        pull.add(link, axial * at.line, at.first, at.second, bolt.yield - std::abs(axial));
+        pull.add(link, shear * turned_left(at.axis), middle, middle, bolt.shear_strength - std::abs(shear));
     }
 }
 
 /// Opening of each link along the bolt, on top of one another: how far each part of the rock has moved.
 void pull_bar(const Bolt& bolt, const Blocks& blocks, const GroutedMemory& memory, BoltRecord& record, Pull& pull)
 {
-    thread_local std::vector<double> moved, tension;
+    thread_local std::vector<double> moved, tension, reserve;
     thread_local std::vector<std::uint8_t> gone;
     moved.assign(bolt.blocks.size(), 0.0);
     tension.assign(bolt.links.size(), 0.0);
+    reserve.assign(bolt.links.size(), 0.0);
     gone.clear();
     for (const Index block : bolt.blocks)
         gone.push_back(blocks.present[block] != 0 ? 0 : 1);
     for (std::size_t l = 0; l < bolt.links.size(); ++l)
         moved[l + 1] = moved[l] + place_of(bolt, bolt.links[l], blocks).distance - memory.opening[l];
-    pull_grouted(bolt, moved, gone, memory, tension, record);
+    pull_grouted(bolt, moved, gone, memory, tension, reserve, record);
     record.elongation = moved.back();
     for (std::size_t l = 0; l < bolt.links.size(); ++l)
     {
         if (!is_there(bolt.links[l], blocks))
             continue;
         const LinkPlace at = place_of(bolt, bolt.links[l], blocks);
-        pull.add(bolt.links[l], tension[l] * at.line, at.first, at.second);
+        pull.add(bolt.links[l], tension[l] * at.line, at.first, at.second, reserve[l]);
     }
 }
 
@@ -254,6 +255,24 @@ void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& 
     {
         Triple& on = external[push.block];
         on = {on.x + push.force.x, on.y + push.force.y, on.w + push.force.w};
+    }
+}
+
+void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Blocks& blocks)
+{
+    for (const BlockPush& push : pushes)
+    {
+        const double pull = std::hypot(push.force.x, push.force.y);
+        if (push.block < range.begin || push.block >= range.end || !(push.reserve > 0.0) || !(pull > 0.0))
+            continue;
+        BlockForce& on = blocks.force[push.block];
+        on.reserve += push.reserve;
+        if (on.contacts != 0)
+            continue;
+        on.contacts = contact_force;
+        on.mobilised = 0.0F;
+        on.t_x = static_cast<float>(push.force.x / pull);
+        on.t_y = static_cast<float>(push.force.y / pull);
     }
 }
 

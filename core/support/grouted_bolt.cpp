@@ -156,6 +156,33 @@ void balance(const Bar& bar, std::span<double> u, double accuracy)
         net = bar.assemble(u, s.step, s.diagonal, s.right);
     }
 }
+
+/// What the bar and the bond on the weaker side of each link bear, less what is in use.
+void find_reserve(const Bar& bar, const Bolt& bolt, std::span<const double> tension, std::span<double> reserve)
+{
+    const std::size_t segments = bolt.segments.size();
+    const auto pass = [&](std::size_t e, double grip)
+    {
+        const bool holds = bar.bar(e).stiffness > 0.0;
+        return holds ? grip + 2.0 * (bar.bond(e).stiffness > 0.0 ? bar.bond(e).limit : 0.0) : 0.0;
+    };
+    const auto is_link = [&](std::size_t e) { return bolt.segments[e + 1].part != bolt.segments[e].part; };
+    double grip = bar.plate_stiffness() > 0.0 ? Bolt::none : 0.0;
+    for (std::size_t e = 0; e + 1 < segments; ++e)
+    {
+        grip = pass(e, grip);
+        if (is_link(e))
+            reserve[bolt.segments[e].part] = std::min(bolt.yield, grip);
+    }
+    grip = 0.0;
+    for (std::size_t e = segments - 1; e > 0; --e)
+    {
+        grip = pass(e, grip);
+        double& left = reserve[bolt.segments[e - 1].part];
+        if (is_link(e - 1))
+            left = std::max(std::min(left, grip) - std::abs(tension[bolt.segments[e - 1].part]), 0.0);
+    }
+}
 }  // namespace
 
 Index grouted_history_size(const Bolt& bolt)
@@ -172,7 +199,7 @@ GroutedMemory grouted_memory(const Bolt& bolt, std::vector<double>& history)
 }
 
 void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<const std::uint8_t> gone, const GroutedMemory& memory,
-                  std::span<double> tension, BoltRecord& record)
+                  std::span<double> tension, std::span<double> reserve, BoltRecord& record)
 {
     const Bar bar(bolt, moved, gone, memory.segment);
     const double unit = bolt.bond_strength * bolt.segments.front().length;
@@ -215,6 +242,7 @@ void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<con
     }
     for (const double t : tension)
         record.force = std::max(record.force, t);
+    find_reserve(bar, bolt, tension, reserve);
 }
 
 std::vector<double> link_stiffness(const Bolt& bolt)

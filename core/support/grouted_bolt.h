@@ -48,8 +48,9 @@ struct GroutedMemory
 /// @param moved    D of each part [m]
 /// @param gone     per part: is the block not there? Then the bar is not either.
 /// @param tension  of each link, out [N]
+/// @param reserve  of each link, out: how much more tension the bar, and the bond on both sides of it, could bear [N]
 void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<const std::uint8_t> gone, const GroutedMemory& memory,
-                  std::span<double> tension, BoltRecord& record);
+                  std::span<double> tension, std::span<double> reserve, BoltRecord& record);
 
 /// Upper bound on how much more force a link takes when the joints open by 1 m: sum of the sizes of its row of the elastic stiffness [N/m].
 [[nodiscard]] std::vector<double> link_stiffness(const Bolt& bolt);

@@ -1,6 +1,7 @@
 /// Rock bolts.
 
 #include "verification/checks/case_run.h"
+#include "verification/checks/turned_case.h"
 #include "verification/checks/checks.h"
 
 #include <fmt/format.h>
