@@ -209,11 +209,11 @@ SectionSpec history_section()
                                        .default_note = "block or between is given instead"}),
              field<&HistoryDef::quantities>(
                  {.name = "quantities",
-                 .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
-                           "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
-                           "4 ruptured, 5 lost). "
-                           "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
-                           "contacts, by their length; 0 where a joint has no memory.",
+                  .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
+                            "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
+                            "4 ruptured, 5 lost). "
+                            "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
+                            "contacts, by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",
                   .choices = std::move(quantities),
                   .required = true}),

@@ -112,7 +112,7 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
         if (!is_finite(state.rebuilt_at[i]) || !is_rotation(state.rebuilt_at[i]))
             return Damage{"/blocks/rebuilt_at", "not a place and a rotation"};
         const BlockForce& f = blocks.force[i];
-        if (!are_finite({f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y}) ||
+        if (!are_finite({f.x, f.y, f.moment, f.mobilised, f.t_x, f.t_y}) || std::isnan(f.reserve) ||  // a bolt may never yield
             f.contacts > (contact_force | contact_impulse))
             return Damage{"/blocks/force", "not a force"};
         if (!(blocks.stable_step[i] >= 0.0))

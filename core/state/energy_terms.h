@@ -15,6 +15,7 @@ struct EnergyLedger
     double load_work = 0.0;
     double boundary = 0.0;
     double water = 0.0;
+    double support = 0.0;
     double position_correction = 0.0;
     double dilation = 0.0;
 
@@ -57,6 +58,8 @@ inline constexpr std::array ledger_terms = {
                "work of loads, of prescribed motions of blocks, and of forces of excavated blocks"},
     LedgerTerm{"boundary", &EnergyLedger::boundary, LedgerSide::in, true, "work of tractions on sides, and of walls that move"},
     LedgerTerm{"water", &EnergyLedger::water, LedgerSide::in, true, "work of water pressures"},
+    LedgerTerm{"support", &EnergyLedger::support, LedgerSide::in, true,
+               "work of bolts on blocks: less what bolts hold and have spent since they were installed"},
     LedgerTerm{"position_correction", &EnergyLedger::position_correction, LedgerSide::in, false,
                "put into springs by the position correction"},
     LedgerTerm{"dilation", &EnergyLedger::dilation, LedgerSide::in, true,

@@ -283,7 +283,7 @@ void add_bolt_work(const std::vector<BlockPush>& pushes, const Blocks& blocks, E
     {
         const BlockMotion& now = blocks.motion[push.block];
         const double after = 0.5 * blocks.step.next * power(push.force, now.vx, now.vy, now.w);
-        ledger.load_work += 0.5 * blocks.step.last * power(push.force, push.velocity.x, push.velocity.y, push.velocity.w) + after;
+        ledger.support += 0.5 * blocks.step.last * power(push.force, push.velocity.x, push.velocity.y, push.velocity.w) + after;
         ledger.coasting -= after;
     }
 }

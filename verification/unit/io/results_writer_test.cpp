@@ -106,6 +106,11 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     run.state.contacts.has_preload = run.state.contacts.has_memory = true;
     run.state.contacts.resize(run.state.contacts.size());
     run.model.joints.rows.assign(run.model.joints.laws.size(), {.kind = kind_of<CoulombResidual>()});
+    run.model.support.bolts = {{.name = "bolt"}};
+    run.state.support = {.bolts = {{.force = 1.0}}, .history = {2.0}};
+    HistoryDef of_bolt{.name = "bolt", .quantities = bolt_history_quantities()};
+    of_bolt.bolt = "bolt";
+    run.model.histories.push_back(of_bolt);
     RunRecorder recorder(folder.path(), run.model, some_provenance());
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);

@@ -52,7 +52,7 @@ TEST(Bolts, KeepMomentumAndTheEnergyLedger)
         EXPECT_LT((after.linear - before.linear).norm(), 1e-8);
         EXPECT_NEAR(after.angular, before.angular, 1e-3 * std::abs(before.angular) + 1.0);
         EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6);
-        EXPECT_NEAR(-run.state().ledger.load_work, bolt.stored + bolt.spent, 0.02 * (bolt.stored + bolt.spent));
+        EXPECT_NEAR(-run.state().ledger.support, bolt.stored + bolt.spent, 0.02 * (bolt.stored + bolt.spent));
     }
 }
 
@@ -67,7 +67,7 @@ TEST(Bolts, HaveNoForceWhenInstalledButTheirPretension)
     run.simulation.begin_stage(0);
     run.advance(200);
     EXPECT_EQ(run.state().support.bolts[0].status, BoltStatus::planned);
-    EXPECT_EQ(run.state().ledger.load_work, 0.0);
+    EXPECT_EQ(run.state().ledger.support, 0.0);
     run.simulation.begin_stage(1);
     EXPECT_DOUBLE_EQ(run.state().support.bolts[0].force, 250.0);
     State state = run.state();
