@@ -106,6 +106,24 @@ const std::vector<KnownOfBolt>& known_of_bolt()
     return all;
 }
 
+struct KnownOfLiner
+{
+    const char* quantity;
+    Column column;
+    double (*value)(const Liner&, const LinerRecord&);
+};
+
+const std::vector<KnownOfLiner>& known_of_liner()
+{
+    static const std::vector<KnownOfLiner> all = {
+        {"thrust", {"thrust", "N"}, [](const Liner&, const LinerRecord& r) { return r.thrust; }},
+        {"moment", {"moment", "N m"}, [](const Liner&, const LinerRecord& r) { return r.moment; }},
+        {"liner_displacement", {"liner_displacement", "m"}, [](const Liner&, const LinerRecord& r) { return r.displacement; }},
+        {"hinges", {"hinges", "1"}, [](const Liner&, const LinerRecord& r) { return static_cast<double>(r.hinges); }},
+        {"parted", {"parted", "m"}, [](const Liner&, const LinerRecord& r) { return r.parted; }}};
+    return all;
+}
+
 /// All names that select something, each once.
 template <class Known>
 std::vector<std::string> names_of(const std::vector<Known>& all)
@@ -156,6 +174,27 @@ const std::vector<std::string>& bolt_history_quantities()
     return all;
 }
 
+const std::vector<std::string>& liner_history_quantities()
+{
+    static const std::vector<std::string> all = names_of(known_of_liner());
+    return all;
+}
+
+void HistorySampler::select_of_liner(const Model& model, const HistoryDef& def)
+{
+    const auto at = std::ranges::find(model.support.liners, def.liner, &Liner::name);
+    if (at == model.support.liners.end())
+        throw InputError(Problem{.key = "history",
+                                 .text = "history \"" + def.name + "\": liner \"" + def.liner +
+                                         "\" (no such liner). Give the name of a [[liner]]."});
+    liner_ = static_cast<Index>(at - model.support.liners.begin());
+    for (const std::string& quantity : def.quantities)
+        if (!select(known_of_liner(), quantity, columns_, of_liner_))
+            throw InputError(Problem{.key = "history",
+                                     .text = "history \"" + def.name + "\": quantity \"" + quantity +
+                                             "\" (not known for a liner). See [[history]] in io/case_format.md."});
+}
+
 void HistorySampler::select_of_bolt(const Model& model, const HistoryDef& def)
 {
     const auto at = std::ranges::find(model.support.bolts, def.bolt, &Bolt::name);
@@ -179,6 +218,11 @@ HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
     if (!def.bolt.empty())
     {
         select_of_bolt(model, def);
+        return;
+    }
+    if (!def.liner.empty())
+    {
+        select_of_liner(model, def);
         return;
     }
     const std::string object = "history \"" + def.name + "\": ";
@@ -280,6 +324,8 @@ void HistorySampler::sample(const Model& model, const State& state, std::span<do
         values[i] = of_block_[i](model, state, model.slot_of_user[first_user_]);
     for (std::size_t i = 0; i < of_bolt_.size(); ++i)
         values[i] = of_bolt_[i](model.support.bolts[bolt_], state.support.bolts[bolt_]);
+    for (std::size_t i = 0; i < of_liner_.size(); ++i)
+        values[i] = of_liner_[i](model.support.liners[liner_], state.support.liners[liner_]);
     if (of_pair_.empty())
         return;
     find_contacts(model, state);

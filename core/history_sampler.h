@@ -1,5 +1,5 @@
 #pragma once
-/// [[history]]: quantities of one block, of the contacts between two, or of a bolt, as numbers.
+/// [[history]]: quantities of one block, of the contacts between two, of a bolt, or of a liner, as numbers.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -14,6 +14,7 @@ namespace hdem
 const std::vector<std::string>& block_history_quantities();
 const std::vector<std::string>& contact_history_quantities();
 const std::vector<std::string>& bolt_history_quantities();
+const std::vector<std::string>& liner_history_quantities();
 
 /// One sampled number.
 struct Column
@@ -72,8 +73,10 @@ class HistorySampler
     using PairQuantity = double (*)(const Model&, const PairSample&);
 
     using BoltQuantity = double (*)(const Bolt&, const BoltRecord&);
+    using LinerQuantity = double (*)(const Liner&, const LinerRecord&);
 
     void select_of_bolt(const Model& model, const HistoryDef& def);
+    void select_of_liner(const Model& model, const HistoryDef& def);
     void find_contacts(const Model& model, const State& state);
     PairSample sample_pair(const Model& model, const State& state);
     void add_memories(const Model& model, const State& state, PairSample& sums) const;
@@ -89,6 +92,8 @@ class HistorySampler
     std::vector<PairQuantity> of_pair_;
     std::vector<BoltQuantity> of_bolt_;
     Index bolt_ = no_index;
+    std::vector<LinerQuantity> of_liner_;
+    Index liner_ = no_index;
     std::vector<Index> contacts_;         ///< of the pair
     std::int64_t broad_phase_runs_ = -1;  ///< when contacts_ was found
     Vec2 normal_ = {0.0, 0.0};            ///< last known, zero before

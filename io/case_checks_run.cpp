@@ -222,7 +222,10 @@ class RunCheck : public CaseCheck
     {
         const auto has = [&](const std::vector<std::string>& all)
         { return std::find(all.begin(), all.end(), quantity) != all.end(); };
-        return has(block_quantities()) ? "block" : (has(bolt_quantities()) ? "bolt" : "between, the contacts of two blocks");
+        return has(block_quantities()) ? "block"
+                                       : (has(bolt_quantities())    ? "bolt"
+                                          : has(liner_quantities()) ? "liner"
+                                                                    : "between, the contacts of two blocks");
     }
 
     void check_history(const HistoryDef& history, const std::string& path)
@@ -234,9 +237,12 @@ class RunCheck : public CaseCheck
         exclude(path, object, "block", "between");
         exclude(path, object, "block", "bolt");
         exclude(path, object, "between", "bolt");
-        if (!block && !between && !bolt && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
+        const bool liner = given(path + ".liner");
+        for (const char* other : {"block", "between", "bolt"})
+            exclude(path, object, other, "liner");
+        if (!block && !between && !bolt && !liner && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
             problems_.add(path, object, "block, between", "none is given",
-                          "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], or bolt = \"NAME\".");
+                          "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], bolt = \"NAME\", or liner = \"NAME\".");
         if (block && !problems_.has(path + ".block"))
             check_block_reference(path + ".block", object, history.block);
         if (between && !problems_.has(path + ".between") &&
@@ -247,10 +253,11 @@ class RunCheck : public CaseCheck
 
         if (given(path + ".quantities") && history.quantities.empty())
             problems_.add(path + ".quantities", object, "quantities = []", "names nothing to sample", "Name at least one.");
-        const auto& fitting = block ? block_quantities() : (bolt ? bolt_quantities() : contact_quantities());
+        const auto& fitting = block ? block_quantities()
+                                    : (bolt ? bolt_quantities() : (liner ? liner_quantities() : contact_quantities()));
         Names seen;
         for (const std::string& quantity : history.quantities)
-            if (block + between + bolt == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
+            if (block + between + bolt + liner == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity),
                               fmt::format("belongs to {}", owner_of(quantity)), "Choose from " + quoted_list(fitting) + ".");
             else if (!seen.insert(quantity).second)

@@ -25,10 +25,51 @@ class SupportCheck : public CaseCheck
             if (!bolt.stage.empty())
                 check_reference(path + ".stage", object, bolt.stage, "stage", stages_);
         }
+        for (std::size_t i = 0; i < def_.liners.size(); ++i)
+            check_liner(def_.liners[i], fmt::format("liner[{}]", i), fmt::format("liner \"{}\"", printable(def_.liners[i].name)));
         check_statics();
     }
 
   private:
+    void check_liner(const LinerDef& liner, const std::string& path, const std::string& object)
+    {
+        if (std::ranges::count(def_.liners, liner.name, &LinerDef::name) > 1)
+            problems_.add(path + ".name", object, "name", "two liners have it", "Give another name.");
+        exclude(path, object, "around", "path");
+        if (given(path + ".around"))
+            check_reference(path + ".around", object, liner.around, "excavation", excavations_);
+        else if (!given(path + ".path") && !problems_.has(path + ".path"))
+            problems_.add(path, object, "around, path", "none is given", "Give around = \"NAME\" of an excavation, or path.");
+        else if (liner.path.size() < 2 && !problems_.has(path + ".path"))
+            problems_.add(path + ".path", object, "path", "has less than two points", "Give two or more.");
+        for (std::size_t k = 1; k < liner.path.size(); ++k)
+            if (liner.path[k] == liner.path[k - 1])
+                problems_.add(path + ".path", object, "path", fmt::format("points {} and {} are the same", k, k + 1),
+                              "Remove one.");
+        if (given(path + ".arc") && !given(path + ".around"))
+            problems_.add(path + ".arc", object, "arc", "belongs to around", "Remove it, or give around.");
+        check_arc(liner.arc, path, object);
+        if (!liner.stage.empty())
+            check_reference(path + ".stage", object, liner.stage, "stage", stages_);
+        for (std::size_t k = 0; k < liner.hardening.size(); ++k)
+            if ((k > 0 && !(liner.hardening[k][0] > liner.hardening[k - 1][0])) || !(liner.hardening[k][1] > 0.0))
+            {
+                problems_.add(path + ".hardening", object,
+                              fmt::format("hardening: row {} = [{}, {}]", k + 1, liner.hardening[k][0], liner.hardening[k][1]),
+                              "cycles must grow from row to row, and factors be above 0", "Write [[0, 0.1], [5000, 1.0]].");
+                break;
+            }
+        if (given(path + ".hardening") && liner.hardening.empty() && !problems_.has(path + ".hardening"))
+            problems_.add(path + ".hardening", object, "hardening = []", "has no rows", "Give rows, or remove it.");
+    }
+
+    void check_arc(const std::optional<Vec2>& arc, const std::string& path, const std::string& object)
+    {
+        if (arc && !(arc->y() > arc->x() && arc->y() <= arc->x() + 360.0))
+            problems_.add(path + ".arc", object, fmt::format("arc = [{}, {}]", arc->x(), arc->y()),
+                          "must go from a direction to a greater one, at most once around", "Write [30, 150], or [-60, 60].");
+    }
+
     void need(const std::string& path, const std::string& object, const char* key, const std::string& why)
     {
         if (!given(path + "." + key) && !problems_.has(path + "." + key))
@@ -44,9 +85,7 @@ class SupportCheck : public CaseCheck
                 exclude(path, object, "around", key);
             for (const char* key : {"length", "along"})
                 need(path, object, key, "around");
-            if (bolt.arc && !(bolt.arc->y() > bolt.arc->x() && bolt.arc->y() <= bolt.arc->x() + 360.0))
-                problems_.add(path + ".arc", object, fmt::format("arc = [{}, {}]", bolt.arc->x(), bolt.arc->y()),
-                              "must go from a direction to a greater one, at most once around", "Write [30, 150], or [-60, 60].");
+            check_arc(bolt.arc, path, object);
             return;
         }
         for (const char* key : {"from", "to"})
@@ -117,10 +156,11 @@ class SupportCheck : public CaseCheck
 
     void check_statics()
     {
-        for (std::size_t i = 0; i < def_.stages.size() && !def_.bolts.empty(); ++i)
+        for (std::size_t i = 0; i < def_.stages.size() && !(def_.bolts.empty() && def_.liners.empty()); ++i)
             if (def_.stages[i].solver == RestSolver::statics)
                 problems_.warn(fmt::format("stage[{}].solver", i), fmt::format("stage \"{}\"", printable(def_.stages[i].name)),
-                               "solver = \"static\"", "has no effect: static solutions do not know bolts", "Remove this key.");
+                               "solver = \"static\"", "has no effect: static solutions do not know bolts and liners",
+                               "Remove this key.");
     }
 };
 }  // namespace

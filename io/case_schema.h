@@ -100,4 +100,5 @@ std::string default_name(const SectionSpec& section, std::size_t number);
 const std::vector<std::string>& block_quantities();
 const std::vector<std::string>& contact_quantities();
 const std::vector<std::string>& bolt_quantities();
+const std::vector<std::string>& liner_quantities();
 }  // namespace hdem

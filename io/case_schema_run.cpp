@@ -188,10 +188,12 @@ SectionSpec history_section()
     std::vector<std::string> quantities = block_quantities();
     quantities.insert(quantities.end(), contact_quantities().begin(), contact_quantities().end());
     quantities.insert(quantities.end(), bolt_quantities().begin(), bolt_quantities().end());
+    quantities.insert(quantities.end(), liner_quantities().begin(), liner_quantities().end());
     return {"history",
             SectionKind::array,
             "history",
-            "Quantities of one block (`block`), of the contacts between two (`between`) or of a bolt (`bolt`), sampled into "
+            "Quantities of one block (`block`), of the contacts between two (`between`) of a bolt (`bolt`) or of a liner "
+            "(`liner`), sampled into "
             "results.h5.",
             {field<&HistoryDef::name>(
                  {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
@@ -207,11 +209,17 @@ SectionSpec history_section()
                                        .effect = "Name of the bolt; those of a pattern are called NAME.1, NAME.2, ...",
                                        .example = "\"roof.3\"",
                                        .default_note = "block or between is given instead"}),
+             field<&HistoryDef::liner>({.name = "liner",
+                                        .effect = "Name of the liner.",
+                                        .example = "\"shotcrete\"",
+                                        .default_note = "block, between or bolt is given instead"}),
              field<&HistoryDef::quantities>(
                  {.name = "quantities",
                   .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
                             "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
-                            "4 ruptured, 5 lost). "
+                            "4 ruptured, 5 lost). From `thrust` on they belong to `liner`: the greatest anywhere in it; nodes with "
+                            "a hinge; "
+                            "length that has come off the rock. "
                             "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
                             "contacts, by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",

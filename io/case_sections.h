@@ -37,6 +37,8 @@ SectionSpec water_crack_section();
 
 // case_schema_support.cpp
 SectionSpec bolt_section();
+// case_schema_liner.cpp
+SectionSpec liner_section();
 
 // case_schema_boundary.cpp
 SectionSpec boundary_section();

@@ -162,7 +162,7 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
                                   [](ReleasedForce& f) { return std::tie(f.x, f.y, f.moment); });
     if (!state.water.empty())
         archive.template rows<double>("/blocks/water", n, state.water, [](Triple& f) { return std::tie(f.x, f.y, f.w); });
-    if (state.support.bolts.empty())
+    if (state.support.bolts.empty() && state.support.liners.empty())
         return;
     archive.group("/bolts");
     const std::uint64_t bolts = state.support.bolts.size();
@@ -171,6 +171,17 @@ void exchange_blocks(Archive& archive, std::uint64_t n, State& state, Unpacked& 
     archive.template rows<double>("/bolts/record", bolts, state.support.bolts,
                                   [](BoltRecord& b)
                                   { return std::tie(b.force, b.shear_force, b.greatest_force, b.elongation, b.stored, b.spent); });
+    if (const std::uint64_t liners = state.support.liners.size(); liners > 0)
+    {
+        archive.group("/liners");
+        archive.template rows<std::uint8_t>("/liners/installed", liners, state.support.liners,
+                                            [](LinerRecord& l) { return std::tie(l.installed); });
+        archive.template rows<std::int64_t>("/liners/counts", liners, state.support.liners,
+                                            [](LinerRecord& l) { return std::tie(l.since, l.hinges); });
+        archive.template rows<double>("/liners/record", liners, state.support.liners,
+                                      [](LinerRecord& l)
+                                      { return std::tie(l.thrust, l.moment, l.displacement, l.parted, l.stored, l.spent); });
+    }
     archive.template rows<double>("/bolts/history", state.support.history.size(), state.support.history, itself);
 }
 
@@ -255,6 +266,7 @@ State load_state(const Hdf5Reader& file, Model& model)
     state.contacts.has_preload = model.insitu.given || state.contacts.has_memory;
     state.water.resize(model.water.given ? static_cast<std::size_t>(model.blocks()) : 0);
     state.support.bolts.resize(model.support.bolts.size());
+    state.support.liners.resize(model.support.liners.size());
     state.support.history.resize(static_cast<std::size_t>(model.support.history_size));
     Unpacked unpacked;
     Loader loader(file);

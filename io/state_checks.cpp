@@ -149,6 +149,10 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
         if (static_cast<std::uint8_t>(b.status) >= bolt_states ||
             !are_finite({b.force, b.shear_force, b.greatest_force, b.elongation, b.stored, b.spent}))
             return Damage{"/bolts/record", "not the record of a bolt"};
+    for (const LinerRecord& l : state.support.liners)
+        if (l.installed > 1 || l.since < 0 || l.since > state.cycle || l.hinges < 0 ||
+            !are_finite({l.thrust, l.moment, l.displacement, l.parted, l.stored, l.spent}))
+            return Damage{"/liners/record", "not the record of a liner"};
     if (!std::ranges::all_of(state.support.history, [](double value) { return std::isfinite(value); }))
         return Damage{"/bolts/history", "not a finite number"};
     const bool may_stay = state.stage_begun && model.stages[static_cast<std::size_t>(state.stage)].relax_to > 0.0;

@@ -13,6 +13,7 @@
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
 #include "core/support/bolt_forces.h"
+#include "core/support/liner_forces.h"
 #include "parallel/openmp.h"
 #include "parallel/step_update.h"
 
@@ -109,8 +110,8 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
     work_.held = blocks_held_on_average(model, state);
     work_.external = work_.constant;
     work_.bolted.clear();
-    work_.external.resize(rules_.has_loads || rules_.has_bolts ? blocks : work_.constant.size());
-    const std::vector<Index> bolted = rules_.has_bolts ? bolted_blocks(model, state) : std::vector<Index>{};
+    work_.external.resize(rules_.has_loads || rules_.has_support ? blocks : work_.constant.size());
+    const std::vector<Index> bolted = rules_.has_support ? bolted_blocks(model, state) : std::vector<Index>{};
     const std::vector<Index> pushed = pushed_blocks(model, state);
     for (BlockPart& part : partition_.blocks)
     {
@@ -141,7 +142,7 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, in
     const StageRules rules = find_rules_(model, state);
     const bool same = prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) &&
                       rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
-                      rules.has_loads == rules_.has_loads && rules.has_bolts == rules_.has_bolts &&
+                      rules.has_loads == rules_.has_loads && rules.has_support == rules_.has_support &&
                       rules.tractions_change == rules_.tractions_change && rules.moves_walls == rules_.moves_walls;
     rules_ = rules;
     if (!same)
@@ -193,7 +194,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.
     const bool step_changes = state.blocks.step.last != state.blocks.step.next;
-    if (rules_.has_loads || rules_.has_bolts || rules_.moves_walls || rules_.tractions_change)
+    if (rules_.has_loads || rules_.has_support || rules_.moves_walls || rules_.tractions_change)
         team.alone(
             [&]
             {
@@ -201,13 +202,14 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
                     drive_walls(model, work_.block_contacts, state);
                 if (rules_.tractions_change)
                     take_tractions(model, state);
-                if (rules_.has_bolts)
+                if (rules_.has_support)
                     clear_bolt_forces(work_.bolted, work_.constant, work_.external);
                 if (rules_.has_loads)
                     take_loads(model, state);
-                if (rules_.has_bolts)
+                if (rules_.has_support)
                 {
                     pull_bolts(model, state, work_.bolted);
+                    press_liners(model, state, liner_solvers_, work_.bolted);
                     add_bolt_forces(work_.bolted, work_.external);
                 }
             });
@@ -271,7 +273,7 @@ void CycleRunner::close_cycle(const Model& model, State& state)
         add_load_work(model, work_.loaded, state);
         add_released_work(model, work_.released, state);
     }
-    if (rules_.has_bolts)
+    if (rules_.has_support)
         add_bolt_work(work_.bolted, state.blocks, state.ledger);
     ++state.cycle;
     Steps& step = state.blocks.step;

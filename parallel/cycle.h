@@ -6,6 +6,7 @@
 #include "core/stage/rules.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
+#include "core/support/liner_forces.h"
 #include "parallel/contact_rebuild.h"
 #include "parallel/partition.h"
 #include "parallel/stage_times.h"
@@ -70,6 +71,7 @@ class CycleRunner
                             StageClock& clock);
 
     Workspace work_;
+    LinerSolvers liner_solvers_;
     ContactRebuild rebuild_;
     Partition partition_;
     std::vector<StageSamples> samples_;

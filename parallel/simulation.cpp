@@ -17,6 +17,7 @@
 #include "core/stress/drawn_joints.h"
 #include "core/support/bolt_forces.h"
 #include "core/support/bolt_springs.h"
+#include "core/support/liner_forces.h"
 #include "core/water/water_forces.h"
 #include "parallel/state_check.h"
 
@@ -111,7 +112,7 @@ std::vector<Problem> Simulation::find_problems()
         problems.push_back({.key = "time.step",
                             .text = "time: step = " + with_digits("%.4g", model_.time_step) +
                                     " s (above the stable limit 2/omega_max = " + with_digits("%.4g", limit) +
-                                    (model_.support.empty() ? " s of the contacts)." : " s of the contacts and bolts).") +
+                                    (model_.support.empty() ? " s of the contacts)." : " s of the contacts, bolts and liners).") +
                                     " Give a smaller step, or none to use " + with_digits("%.4g", model_.default_time_step) +
                                     " s."});
     return problems;
@@ -291,7 +292,8 @@ void Simulation::begin_stage(Index stage)
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
         change_blocks(def, sides);
     change_water();
-    if (install_bolts(model_, state_))
+    const bool bolted = install_bolts(model_, state_), lined = install_liners(model_, state_);
+    if (bolted || lined)
         runner_.take_contacts();
     start_walls(model_, state_);
     state_.method = def.method.value_or(state_.method);

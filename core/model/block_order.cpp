@@ -78,6 +78,10 @@ void reorder_blocks(const std::vector<Index>& user_number, Model& model)
         for (Index& block : bolt.blocks)
             block = to[block];
     }
+    for (Liner& liner : model.support.liners)
+        for (LinerSegment& segment : liner.segments)
+            if (segment.block != no_index)
+                segment.block = to[segment.block];
     list_ends(model.support);
     model.user_number = user_number;
     for (std::size_t i = 0; i < user_number.size(); ++i)

@@ -336,6 +336,32 @@ struct BoltDef
     double active_length = 0.0;            ///< local: across a joint [m]
 };
 
+/// [[liner]]: beams along the outline of an excavation (around) or along points (path), and what ties them to the rock. Per metre out of plane.
+struct LinerDef
+{
+    std::string name;                            ///< "liner1", ... when not given
+    std::string around;                          ///< name of an excavation
+    std::optional<Vec2> arc;                     ///< only between these directions, seen from the middle of the outline [deg]
+    Polygon path;                                ///< or points with the rock on the right-hand side, as drawn [m]
+    std::string stage;                           ///< at whose start it is installed; "" = the first
+    double thickness = 0.0;                      ///< [m]
+    double modulus = 0.0;                        ///< [Pa]
+    std::optional<double> inertia;               ///< second moment of area instead of thickness^3 / 12 [m4/m]
+    double density = 2400.0;                     ///< [kg/m3]
+    std::optional<double> compressive_strength;  ///< [Pa]
+    std::optional<double> tensile_strength;      ///< [Pa]
+    std::optional<double> moment_strength;       ///< [N m/m]
+    std::optional<double> segment;               ///< longest distance of nodes [m]
+    double normal_stiffness = 0.0;               ///< of what ties it to the rock [Pa/m]
+    std::optional<double> shear_stiffness;       ///< the same as normal_stiffness when not given [Pa/m]
+    double friction_angle_deg = 30.0;            ///< [deg]
+    double cohesion = 0.0;                       ///< [Pa]
+    double bond_strength = 0.0;                  ///< tension [Pa]
+    FactorTable hardening;                       ///< rows: cycles since it was installed, factor of modulus and strengths
+    double pressure = 0.0;                       ///< between rock and liner [Pa]
+    std::int64_t pressure_cycles = 0;            ///< over which it grows, since it was installed
+};
+
 // ---- loads, method, time --------------------------------------------------------------------------------------------
 
 /// From when until when, in cycles or in seconds (both may be open).
@@ -489,7 +515,8 @@ struct HistoryDef
     std::string block;  ///< block quantities: displacement, position, velocity, rotation, angular_velocity, force, kinetic_energy
     std::vector<std::string>
         between;  ///< or contact quantities between two named blocks: normal_force, shear_force, overlap, shear_displacement, contact_length, impulse_points
-    std::string bolt;  ///< or quantities of a bolt: axial_force, across_force, greatest_force, elongation
+    std::string bolt;   ///< or quantities of a bolt: axial_force, across_force, greatest_force, elongation
+    std::string liner;  ///< or of a liner: thrust, moment, liner_displacement, hinges
     std::vector<std::string> quantities;
     std::int64_t every = 1;  ///< cycles
 };
@@ -523,6 +550,7 @@ struct CaseDef
     std::vector<WaterCrackDef> water_cracks;
     std::vector<BoundaryDef> boundaries;
     std::vector<BoltDef> bolts;
+    std::vector<LinerDef> liners;
     Vec2 gravity = {0.0, -9.81};    ///< [m/s2]
     double gravity_tilt_deg = 0.0;  ///< by which the model is tilted, anticlockwise [deg]
     std::vector<LoadDef> loads;

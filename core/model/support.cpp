@@ -17,6 +17,24 @@ void list_ends(Support& support)
             support.ends.push_back({link.second, bolt, at, false});
         }
     std::ranges::sort(support.ends, {}, [](const BoltEnd& e) { return std::tuple(e.block, e.bolt, e.link, e.is_first); });
+    support.ties.clear();
+    for (std::size_t i = 0; i < support.liners.size(); ++i)
+        for (std::size_t s = 0; s < support.liners[i].segments.size(); ++s)
+            for (int end = 0; end < 2; ++end)
+                if (const Index block = support.liners[i].segments[s].block; block != no_index)
+                    support.ties.push_back({block, static_cast<Index>(i), static_cast<Index>(s), end});
+    std::ranges::sort(support.ties, {}, [](const LinerTie& t) { return std::tuple(t.block, t.liner, t.segment, t.end); });
+}
+
+IndexRange ties_of(const Support& support, Index block)
+{
+    const auto found = std::ranges::equal_range(support.ties, block, {}, &LinerTie::block);
+    return {static_cast<Index>(found.begin() - support.ties.begin()), static_cast<Index>(found.end() - support.ties.begin())};
+}
+
+bool is_held(const Support& support, Index block)
+{
+    return ends_of(support, block).size() > 0 || ties_of(support, block).size() > 0;
 }
 
 IndexRange ends_of(const Support& support, Index block)

@@ -67,6 +67,12 @@ bool is_clearly_stable(double step, const Model& model, const Blocks& blocks, co
             sum[link.first] += (link.axial_stiffness + link.transverse_stiffness) * mobile;
             sum[link.second] += (link.axial_stiffness + link.transverse_stiffness) * mobile;
         }
+    for (const LinerTie& tie : model.support.ties)
+    {
+        const Liner& liner = model.support.liners[tie.liner];
+        sum[tie.block] += 0.5 * liner.segments[tie.segment].length * (liner.normal_stiffness + liner.shear_stiffness) *
+                          mobility_bound(model, tie.block, inverse_masses(blocks, tie.block));
+    }
     double greatest = 0.0;
     for (Index b = 0; b < blocks.size(); ++b)
         greatest = std::max(greatest, blocks.is_free(b) ? sum[b] : 0.0);

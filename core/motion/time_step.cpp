@@ -78,13 +78,13 @@ double stable_step(IndexRange range, const Model& model, const BlockContacts& li
     double greatest = 0.0;
     for (Index b = range.begin; b < range.end; ++b)
     {
-        const IndexRange bolts = ends_of(model.support, b);
-        if (!blocks.is_free(b) || (list.begin[b] == list.begin[b + 1] && bolts.size() == 0))
+        const bool is_supported = is_held(model.support, b);
+        if (!blocks.is_free(b) || (list.begin[b] == list.begin[b + 1] && !is_supported))
             continue;
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
             add_contact(model, contacts, list.entry[e] / 2, b, blocks, sum);
-        if (bolts.size() > 0)
+        if (is_supported)
         {
             const auto mobile = [&](Index i)
             { return blocks.is_free(i) ? inverse_masses(model.full_inertia[i]) : Vec3(Vec3::Zero()); };
@@ -130,7 +130,7 @@ void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& con
     }
 }
 
-/// The same of the bolts.
+/// The same of bolts and liners.
 void add_bolt_stiffness(const Model& model, const Blocks& blocks, const std::vector<Vec3>& u, std::vector<Vec3>& force)
 {
     for (const Bolt& bolt : model.support.bolts)
@@ -143,6 +143,8 @@ void add_bolt_stiffness(const Model& model, const Blocks& blocks, const std::vec
                                  force[link.first] += f * spring.first;
                                  force[link.second] += f * spring.second;
                              });
+    for (Index b = 0; b < (model.support.ties.empty() ? 0 : model.blocks()); ++b)
+        for_tie_springs(model, blocks, b, [&](double stiffness, const Vec3& row) { force[b] += stiffness * row.dot(u[b]) * row; });
 }
 
 /// Energy of a motion of one block, twice; what is prescribed has none.

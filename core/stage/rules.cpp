@@ -54,7 +54,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .gravity = model.gravity.norm(),
             .until_converged = begun && model.stages[state.stage].until_converged,
             .has_loads = !model.loads.empty(),
-            .has_bolts = has_bolts(state.support),
+            .has_support = has_support(state.support),
             .loads_change = state.cycle < steady_from(model, state),
             .tractions_change = do_tractions_change(model, state),
             .times_to_come = are_times_to_come(model, state),
@@ -97,10 +97,10 @@ StageRules resolve_rules(const StageSetting& s)
             .rest = looks_for_rest && is_steady && !s.releases && !s.holds_mean ? rest_of(s, g) : RestRule{},
             .ends_at_rest = s.until_converged,
             .has_loads = s.has_loads || s.releases || s.holds_released,
-            .has_bolts = s.has_bolts,
+            .has_support = s.has_support,
             .tractions_change = s.tractions_change,
             .moves_walls = s.moves_walls,
-            .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.has_bolts && !s.holds_mean && !s.keeps_released &&
+            .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.has_support && !s.holds_mean && !s.keeps_released &&
                              s.method != Method::impulse && s.gravity > 0.0 && s.solver == RestSolver::statics};
 }
 
@@ -126,7 +126,7 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
                          .convergence = def.convergence,
                          .gravity = def.gravity.norm(),
                          .has_loads = !def.loads.empty(),
-                         .has_bolts = !def.bolts.empty(),
+                         .has_support = !def.bolts.empty() || !def.liners.empty(),
                          .is_driven = is_driven(def),
                          .holds_mean = def.domain.hold == DomainHold::mean,
                          .has_step = def.time.step.has_value()};

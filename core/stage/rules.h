@@ -34,7 +34,7 @@ struct StageSetting
     double gravity = 9.81;          ///< size of [m/s2]
     bool until_converged = false;   ///< the stage ends when the rock is at rest
     bool has_loads = false;         ///< the case has loads of any kind
-    bool has_bolts = false;         ///< bolts are installed
+    bool has_support = false;       ///< bolts or liners are installed
     bool loads_change = false;      ///< loads or sides change, now or later in the stage
     bool tractions_change = false;  ///< those on sides
     bool times_to_come = false;     ///< something changes at a time given in seconds
@@ -58,7 +58,7 @@ struct StageRules
     RestRule rest;
     bool ends_at_rest = false;      ///< the stage ends when the rock is at rest
     bool has_loads = false;         ///< there are loads to be looked at in each cycle
-    bool has_bolts = false;         ///< bolts pull; they turn off neither rest nor longer steps
+    bool has_support = false;       ///< bolts and liners act; they turn off neither rest nor longer steps
     bool tractions_change = false;  ///< those on sides have to be found anew in each cycle
     bool moves_walls = false;       ///< walls of [[boundary]] move
     bool tries_statics = false;     ///< the state of rest is sought by a static solution first, from where the stage begins

@@ -81,6 +81,11 @@ std::uint64_t state_hash(const Model& model, const State& state)
                                            b.greatest_force + 0.0};
         XXH3_64bits_update(hash, values.data(), sizeof values);
     }
+    for (const LinerRecord& l : state.support.liners)
+    {
+        const std::array<double, 3> values{static_cast<double>(l.installed), static_cast<double>(l.since), l.spent + 0.0};
+        XXH3_64bits_update(hash, values.data(), sizeof values);
+    }
     for (const double value : state.support.history)
     {
         const double positive_zero = value + 0.0;
@@ -175,6 +180,18 @@ std::uint64_t model_hash(const Model& model)
                  link.first_arm.x(), link.first_arm.y(), link.second_arm.x(), link.second_arm.y()});
         for (const BoltSegment& segment : bolt.segments)
             add({static_cast<double>(segment.part), segment.length, segment.is_bonded ? 1.0 : 0.0});
+    }
+    for (const Liner& liner : model.support.liners)
+    {
+        add({static_cast<double>(liner.stage), liner.mass, liner.axial_stiffness, liner.bending_stiffness,
+             liner.compressive_strength, liner.tensile_strength, liner.moment_strength, liner.normal_stiffness,
+             liner.shear_stiffness, liner.friction, liner.cohesion, liner.bond_strength, liner.pressure,
+             static_cast<double>(liner.pressure_cycles)});
+        for (const auto& row : liner.hardening)
+            add({row[0], row[1]});
+        for (const LinerSegment& s : liner.segments)
+            add({s.block == no_index ? -1.0 : static_cast<double>(model.user_number[s.block]), static_cast<double>(s.node[0]),
+                 static_cast<double>(s.node[1]), s.arm[0].x(), s.arm[0].y(), s.length, s.along.x(), s.along.y()});
     }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);

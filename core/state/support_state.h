@@ -29,10 +29,25 @@ struct BoltRecord
     double spent = 0.0;           ///< by yield, slip of the bond and rupture [J]
 };
 
+/// A liner as last found, per metre of thickness.
+struct LinerRecord
+{
+    std::uint8_t installed = 0;
+    std::int64_t since = 0;     ///< cycle at which it was installed
+    double thrust = 0.0;        ///< greatest compression along it [N]
+    double moment = 0.0;        ///< greatest, whatever its sign [N m]
+    double displacement = 0.0;  ///< greatest of its nodes since it was installed [m]
+    std::int64_t hinges = 0;    ///< nodes at which it has turned plastically
+    double parted = 0.0;        ///< length that has come off the rock [m]
+    double stored = 0.0;        ///< elastic energy [J]
+    double spent = 0.0;         ///< by hinges, yield and slip [J]
+};
+
 struct SupportState
 {
     std::vector<BoltRecord> bolts;
-    /// Numbers of each bolt, see the laws in core/support.
+    std::vector<LinerRecord> liners;
+    /// Numbers of each bolt and liner, see the laws in core/support.
     std::vector<double> history;
 };
 }  // namespace hdem

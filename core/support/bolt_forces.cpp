@@ -185,9 +185,10 @@ void install(const Bolt& bolt, State& state)
 }
 }  // namespace
 
-bool has_bolts(const SupportState& support)
+bool has_support(const SupportState& support)
 {
-    return std::ranges::any_of(support.bolts, [](const BoltRecord& record) { return record.status != BoltStatus::planned; });
+    return std::ranges::any_of(support.bolts, [](const BoltRecord& record) { return record.status != BoltStatus::planned; }) ||
+           std::ranges::any_of(support.liners, [](const LinerRecord& record) { return record.installed != 0; });
 }
 
 std::vector<Index> bolted_blocks(const Model& model, const State& state)
@@ -196,6 +197,12 @@ std::vector<Index> bolted_blocks(const Model& model, const State& state)
     for (const BoltEnd& end : model.support.ends)
         if (state.support.bolts[end.bolt].status != BoltStatus::planned && (blocks.empty() || blocks.back() != end.block))
             blocks.push_back(end.block);
+    for (const LinerTie& tie : model.support.ties)
+        if (state.support.liners[tie.liner].installed != 0)
+            blocks.push_back(tie.block);
+    std::ranges::sort(blocks);
+    const auto again = std::ranges::unique(blocks);
+    blocks.erase(again.begin(), again.end());
     return blocks;
 }
 

@@ -16,7 +16,7 @@
 namespace hdem
 {
 /// Has any been installed?
-[[nodiscard]] bool has_bolts(const SupportState& support);
+[[nodiscard]] bool has_support(const SupportState& support);
 
 /// Blocks of all that have been installed, ascending: these never rest. Of those that act no more too, so that it does not depend on when a run was restarted.
 [[nodiscard]] std::vector<Index> bolted_blocks(const Model& model, const State& state);

@@ -64,27 +64,28 @@ std::vector<Piece> pieces_of(const Polygon& outline, const std::optional<Vec2>& 
     return pieces;
 }
 
-void add_stretch(const std::vector<Piece>& stretch, const BoltDef& pattern, std::vector<BoltLine>& lines)
+void add_stretch(const Polygon& stretch, const BoltDef& pattern, std::vector<BoltLine>& lines)
 {
     double length = 0.0;
-    for (const Piece& piece : stretch)
-        length += piece.length();
+    for (std::size_t i = 1; i < stretch.size(); ++i)
+        length += (stretch[i] - stretch[i - 1]).norm();
     const double number = std::max(1.0, std::ceil(length / pattern.along - 1e-9));
     double passed = 0.0, next = 0.5 * length / number;
-    for (const Piece& piece : stretch)
+    for (std::size_t i = 1; i < stretch.size(); ++i)
     {
-        const Vec2 along = (piece.to - piece.from).normalized();
-        for (; next < passed + piece.length(); next += length / number)
+        const double piece = (stretch[i] - stretch[i - 1]).norm();
+        const Vec2 along = (stretch[i] - stretch[i - 1]) / piece;
+        for (; next < passed + piece; next += length / number)
         {
-            const Vec2 head = piece.from + (next - passed) * along;
+            const Vec2 head = stretch[i - 1] + (next - passed) * along;
             lines.push_back({head, head - pattern.length * turned_left(along)});
         }
-        passed += piece.length();
+        passed += piece;
     }
 }
 }  // namespace
 
-std::vector<BoltLine> bolts_around(const Polygon& outline, const BoltDef& pattern)
+std::vector<Polygon> stretches_of(const Polygon& outline, const std::optional<Vec2>& arc)
 {
     Polygon anticlockwise = outline;
     double twice_area = 0.0;
@@ -92,19 +93,23 @@ std::vector<BoltLine> bolts_around(const Polygon& outline, const BoltDef& patter
         twice_area += cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
     if (twice_area < 0.0)
         std::ranges::reverse(anticlockwise);
-    std::vector<BoltLine> lines;
-    std::vector<Piece> stretch;
-    for (const Piece& piece : pieces_of(anticlockwise, pattern.arc))
+    std::vector<Polygon> stretches;
+    bool goes_on = false;
+    for (const Piece& piece : pieces_of(anticlockwise, arc))
     {
+        if (piece.counts && !goes_on)
+            stretches.push_back({piece.from});
         if (piece.counts)
-            stretch.push_back(piece);
-        else if (!stretch.empty())
-        {
-            add_stretch(stretch, pattern, lines);
-            stretch.clear();
-        }
+            stretches.back().push_back(piece.to);
+        goes_on = piece.counts;
     }
-    if (!stretch.empty())
+    return stretches;
+}
+
+std::vector<BoltLine> bolts_around(const Polygon& outline, const BoltDef& pattern)
+{
+    std::vector<BoltLine> lines;
+    for (const Polygon& stretch : stretches_of(outline, pattern.arc))
         add_stretch(stretch, pattern, lines);
     return lines;
 }

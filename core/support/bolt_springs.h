@@ -1,5 +1,5 @@
 #pragma once
-/// Bolts as rows of a stiffness matrix, for the time step. All bolts of the case count, from the start and whatever has happened to them: so the step of a case does
+/// Bolts and liners as rows of a stiffness matrix, for the time step. All of the case count, from the start and whatever has happened to them: so the step of a case does
 /// not depend on when they are installed.
 
 #include "core/motion/contact_springs.h"
@@ -57,7 +57,26 @@ void for_bolt_springs(const Model& model, const Blocks& blocks, Index block, con
     }
 }
 
-/// Add what a block feels of its links, in coordinates in which its mass matrix is the unit matrix (stable_step, core/motion/time_step.h).
+/// The same for the ties of liners: they hold it against the liner, which counts as fixed.
+template <typename Use>
+void for_tie_springs(const Model& model, const Blocks& blocks, Index block, const Use& use)
+{
+    if (model.support.ties.empty())
+        return;
+    const BlockMotion& m = blocks.motion[block];
+    const IndexRange ties = ties_of(model.support, block);
+    for (Index i = ties.begin; i < ties.end; ++i)
+    {
+        const LinerTie& tie = model.support.ties[i];
+        const Liner& liner = model.support.liners[tie.liner];
+        const LinerSegment& segment = liner.segments[tie.segment];
+        const Vec2 arm = turned_with(m, segment.arm[tie.end]), n = segment.to_rock();
+        use(0.5 * segment.length * liner.normal_stiffness, Vec3(n.x(), n.y(), cross(arm, n)));
+        use(0.5 * segment.length * liner.shear_stiffness, Vec3(segment.along.x(), segment.along.y(), cross(arm, segment.along)));
+    }
+}
+
+/// Add what a block feels of its links and ties, in coordinates in which its mass matrix is the unit matrix (stable_step, core/motion/time_step.h).
 /// @param own       its inverse masses, 0 where it does not move
 /// @param of_other  the same of another block
 template <typename OfOther>
@@ -74,6 +93,12 @@ void add_bolt_rows(const Model& model, const Blocks& blocks, Index block, const 
                          if (mine > 0.0)
                              sum += stiffness * (1.0 + others / mine) * row * row.transpose();
                      });
+    for_tie_springs(model, blocks, block,
+                    [&](double stiffness, const Vec3& own_row)
+                    {
+                        const Vec3 row = root.cwiseProduct(own_row);
+                        sum += stiffness * row * row.transpose();
+                    });
 }
 
 /// Lower bound on the stable step of the bolts alone [s]: by block, as stable_step (core/motion/time_step.h).

@@ -5,6 +5,7 @@
 #include "core/support/bolt_path.h"
 #include "core/support/bolt_pattern.h"
 #include "core/support/grouted_bolt.h"
+#include "core/support/resolve_liner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,19 +28,48 @@ class SupportResolver
             const BoltDef& bolt = def_.bolts[i];
             key_ = "bolt[" + std::to_string(i) + "]";
             object_ = "bolt \"" + bolt.name + "\": ";
-            const auto stage = std::ranges::find(def_.stages, bolt.stage, &StageDef::name);
-            stage_ = bolt.stage.empty() || stage == def_.stages.end() ? 0 : static_cast<Index>(stage - def_.stages.begin());
-            find_gone();
+            take_stage(bolt.stage);
             if (bolt.around.empty())
                 add(bolt, bolt.name, {*bolt.from, *bolt.to}, &problems_);
             else
                 add_pattern(bolt);
         }
+        for (std::size_t i = 0; i < def_.liners.size(); ++i)
+            add_liner(def_.liners[i], "liner[" + std::to_string(i) + "]");
         list_ends(model_.support);
         return std::move(problems_);
     }
 
   private:
+    void take_stage(const std::string& name)
+    {
+        const auto stage = std::ranges::find(def_.stages, name, &StageDef::name);
+        stage_ = name.empty() || stage == def_.stages.end() ? 0 : static_cast<Index>(stage - def_.stages.begin());
+        find_gone();
+    }
+
+    void add_liner(const LinerDef& def, const std::string& key)
+    {
+        take_stage(def.stage);
+        LinerPlan plan{.def = &def, .stage = stage_, .stretches = {def.path}, .gone = &gone_};
+        if (!def.around.empty())
+            plan.stretches = stretches_of(outline_polygon(*std::ranges::find(def_.excavations, def.around, &ExcavationDef::name)),
+                                          def.arc);
+        std::optional<Liner> liner = resolve_liner(plan, blocks_, model_);
+        if (!liner)
+        {
+            problems_.push_back(
+                {.key = key + (def.around.empty() ? ".path" : ".around"),
+                 .text = "liner \"" + def.name +
+                         "\": there is no block behind it in its stage (it would hang in the air). The rock lies on the "
+                         "right-hand side of a path; turn it round, or move it."});
+            return;
+        }
+        liner->history = model_.support.history_size;
+        model_.support.history_size += liner->history_size;
+        model_.support.liners.push_back(std::move(*liner));
+    }
+
     /// Walls, and what is excavated by the time of the stage.
     void find_gone()
     {
@@ -209,6 +239,7 @@ std::vector<Problem> resolve_support(const CaseDef& def, const Blocks& blocks, M
         if (bolt.kind == BoltKind::anchored)
             bolt.links.front().axial_stiffness = bolt.stiffness;
     state.bolts.assign(model.support.bolts.size(), {});
+    state.liners.assign(model.support.liners.size(), {});
     state.history.assign(static_cast<std::size_t>(model.support.history_size), 0.0);
     return problems;
 }

@@ -79,6 +79,13 @@ void turn_support(const CaseDef& def, double angle, Overrides& turns)
     }
 }
 
+void turn_liners(const CaseDef& def, double angle, Overrides& turns)
+{
+    for (std::size_t i = 0; i < def.liners.size(); ++i)
+        if (!def.liners[i].path.empty())
+            turns.push_back(set(fmt::format("liner[{}].path", i), turned_polygon(def.liners[i].path, angle)));
+}
+
 Override turned_stress(const StressDef& s, double angle)
 {
     const double c = std::cos(angle), n = std::sin(angle);
@@ -102,6 +109,7 @@ Overrides turned_case(const std::string& case_file, const Overrides& overrides, 
     turn_loads(def, angle, turns);
     turn_water(def, angle, turns);
     turn_support(def, angle, turns);
+    turn_liners(def, angle, turns);
     if (def.insitu.stress)
         turns.push_back(turned_stress(*def.insitu.stress, angle));
     return turns;

@@ -82,6 +82,7 @@ TEST(CaseFormat, EveryFieldOfTheStructsHasItsKey)
                                                            {"WaterCrackDef", "water_crack"},
                                                            {"FactorOfSafetyDef", "factor_of_safety"},
                                                            {"BoltDef", "bolt"},
+                                                           {"LinerDef", "liner"},
                                                            {"HistoryDef", "history"},
                                                            {"OutputDef", "output"}};
     const std::set<std::string> otherwise = {

@@ -161,7 +161,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunBelowWater)
     }
 }
 
-/// Bolts of all kinds around the tunnel; some yield, slip and rupture.
+/// Bolts of all kinds and a lining around the tunnel; some yield, slip, part and rupture.
 TEST(Checkpoint, GivesTheUnbrokenRunWithBolts)
 {
     const ScratchFolder folder("checkpoint_bolts");
@@ -182,6 +182,17 @@ TEST(Checkpoint, GivesTheUnbrokenRunWithBolts)
     scene.bolts[2].shear_strength = 1e3;
     scene.bolts[2].rupture_strain = 0.1;
     scene.bolts[2].active_length = 0.05;
+    LinerDef& liner = scene.liners.emplace_back();
+    liner.name = "shotcrete";
+    liner.around = "tunnel";
+    liner.stage = "dig";
+    liner.thickness = 0.1;
+    liner.modulus = 1e10;
+    liner.moment_strength = 500.0;
+    liner.normal_stiffness = 1e9;
+    liner.bond_strength = 1e3;
+    liner.cohesion = 1e3;
+    liner.hardening = {{{0.0, 0.1}, {500.0, 1.0}}};
     const Ended unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {310, 700, 1150})
     {

@@ -111,6 +111,11 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     HistoryDef of_bolt{.name = "bolt", .quantities = bolt_history_quantities()};
     of_bolt.bolt = "bolt";
     run.model.histories.push_back(of_bolt);
+    run.model.support.liners = {{.name = "liner"}};
+    run.state.support.liners = {{.installed = 1}};
+    HistoryDef of_liner{.name = "liner", .quantities = liner_history_quantities()};
+    of_liner.liner = "liner";
+    run.model.histories.push_back(of_liner);
     RunRecorder recorder(folder.path(), run.model, some_provenance());
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);

@@ -49,6 +49,18 @@ TEST(SupportErrors, TellWhatIsWrongAndWhatToDo)
                        "14:1: bolt \"bolt1\": shear_stiffness", "is missing");
 }
 
+TEST(SupportErrors, TellWhatIsWrongWithALiner)
+{
+    const std::string beam = "thickness = 0.1\nmodulus = 25e9\nnormal_stiffness = 1e9\n";
+    expect_one_problem("[[liner]]\n" + beam, "14:1: liner \"liner1\": around, path", "none is given");
+    expect_one_problem("[[liner]]\npath = [[1.0, 1.0], [1.0, 1.0]]\n" + beam, "15:8: liner \"liner1\": path", "are the same");
+    expect_one_problem("[[liner]]\naround = \"shaft\"\n" + beam, "15:10: liner \"liner1\": around", "shaft");
+    expect_one_problem("[[liner]]\npath = [[0.0, 4.0], [4.0, 4.0]]\nhardening = [[5, 0.1], [5, 1.0]]\n" + beam,
+                       "16:13: liner \"liner1\": hardening: row 2", "must grow");
+    expect_one_problem("[[liner]]\npath = [[0.0, 4.0], [4.0, 4.0]]\narc = [30, 20]\n" + beam, "16:7: liner \"liner1\": arc",
+                       "around");
+}
+
 TEST(SupportErrors, TellOfEndsThatHoldNothing)
 {
     const auto text_of_problem = [](const std::string& ends)

@@ -1,0 +1,240 @@
+#include "core/support/liner_forces.h"
+
+#include "core/support/bolt_link.h"
+#include "core/support/liner_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+/// Factor of modulus and strengths so many cycles after it was installed: linear between rows, constant before and behind them.
+double hardening(const Liner& liner, std::int64_t cycles)
+{
+    if (liner.hardening.empty())
+        return 1.0;
+    const auto age = static_cast<double>(cycles);
+    const auto next = std::ranges::find_if(liner.hardening, [&](const auto& row) { return row[0] > age; });
+    if (next == liner.hardening.begin())
+        return (*next)[1];
+    const auto& last = *std::prev(next);
+    if (next == liner.hardening.end())
+        return last[1];
+    return last[1] + ((*next)[1] - last[1]) * (age - last[0]) / ((*next)[0] - last[0]);
+}
+
+Vec2 place_of_rock(const LinerSegment& segment, int end, const Blocks& blocks)
+{
+    const BlockMotion& m = blocks.motion[segment.block];
+    return Vec2(m.x, m.y) + turned_with(m, segment.arm[end]);
+}
+
+LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model, const State& state)
+{
+    const std::int64_t age = state.cycle - record.since;
+    LinerLoad load{
+        .step = state.blocks.step.last, .factor = hardening(liner, age), .gravity = model.gravity, .rock = {}, .gone = {}};
+    load.pressure = liner.pressure *
+                    (liner.pressure_cycles > age ? static_cast<double>(age) / static_cast<double>(liner.pressure_cycles) : 1.0);
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+    {
+        const LinerSegment& segment = liner.segments[s];
+        const bool gone = segment.block == no_index || state.blocks.present[segment.block] == 0;
+        load.gone.push_back(gone ? 1 : 0);
+        for (int end = 0; end < 2; ++end)
+        {
+            const double* then = memory.segment[s].place[end];
+            load.rock.push_back(gone ? Vec2(0.0, 0.0) : Vec2(place_of_rock(segment, end, state.blocks) - Vec2(then[0], then[1])));
+        }
+    }
+    return load;
+}
+
+/// As the modulus changes all forces stay: what the beams have flowed is seen from the new one.
+void harden(const Liner& liner, double factor, const LinerMemory& memory)
+{
+    if (*memory.factor == factor)
+        return;
+    const double share = *memory.factor / factor;
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+    {
+        const LinerSegment& segment = liner.segments[s];
+        LinerSegmentMemory& own = memory.segment[s];
+        const BeamShape shape(segment);
+        const double* first = &memory.moved[3 * segment.node[0]];
+        const double* second = &memory.moved[3 * segment.node[1]];
+        const auto seen = [&](double now, double flowed) { return now - (now - flowed) * share; };
+        own.plastic = seen(shape.of(0, first, second), own.plastic);
+        for (int end = 0; end < 2; ++end)
+            own.turned[end] = seen(shape.of(1 + end, first, second), own.turned[end]);
+    }
+    *memory.factor = factor;
+}
+
+/// Book what flowed in the cycle, and press on the rock.
+class Booking
+{
+  public:
+    Booking(const Liner& liner, const LinerLoad& load, const LinerMemory& memory, const Blocks& blocks, LinerRecord& record,
+            std::vector<BlockPush>& pushes)
+        : liner_(liner),
+          load_(load),
+          memory_(memory),
+          blocks_(blocks),
+          record_(record),
+          pushes_(pushes)
+    {
+    }
+
+    void run(const LinerSolver& solver)
+    {
+        record_.thrust = record_.moment = record_.displacement = record_.parted = record_.stored = 0.0;
+        for (std::size_t s = 0; s < liner_.segments.size(); ++s)
+        {
+            const BeamAnswer beam = solver.beam(s, load_, memory_);
+            const TieAnswer ties[2] = {load_.gone[s] == 0 ? solver.tie(s, 0, load_, memory_) : TieAnswer{},
+                                       load_.gone[s] == 0 ? solver.tie(s, 1, load_, memory_) : TieAnswer{}};
+            book(beam, memory_.segment[s]);
+            for (int end = 0; end < 2; ++end)
+                press(s, end, ties[end], beam.flows == 0);
+        }
+        count_hinges();
+        for (std::size_t node = 0; node < liner_.nodes.size(); ++node)
+            record_.displacement = std::max(record_.displacement, std::hypot(memory_.moved[3 * node], memory_.moved[3 * node + 1]));
+    }
+
+  private:
+    void count_hinges()
+    {
+        std::vector<std::uint8_t> turned(liner_.nodes.size(), 0);
+        for (std::size_t s = 0; s < liner_.segments.size(); ++s)
+            for (int end = 0; end < 2; ++end)
+                if (memory_.segment[s].hinge[end] != 0.0)
+                    turned[liner_.segments[s].node[end]] = 1;
+        record_.hinges = std::ranges::count(turned, std::uint8_t{1});
+    }
+
+    void book(const BeamAnswer& beam, LinerSegmentMemory& own)
+    {
+        own.plastic += beam.stretched;
+        for (int end = 0; end < 2; ++end)
+        {
+            own.turned[end] += beam.turned[end];
+            own.hinge[end] = beam.turned[end] != 0.0 ? 1.0 : own.hinge[end];
+            record_.moment = std::max(record_.moment, std::abs(beam.moment[end]));
+        }
+        record_.thrust = std::max(record_.thrust, -beam.thrust);
+        record_.stored += beam.stored;
+        record_.spent += beam.spent;
+    }
+
+    void press(std::size_t s, int end, const TieAnswer& tie, bool is_elastic)
+    {
+        if (load_.gone[s] != 0)
+            return;
+        const LinerSegment& segment = liner_.segments[s];
+        LinerSegmentMemory& own = memory_.segment[s];
+        own.slip[end] += tie.slips;
+        own.pressed[end] = tie.normal;
+        own.parted[end] = tie.parts ? 1.0 : own.parted[end];
+        record_.parted += tie.normal_tangent == 0.0 ? 0.5 * segment.length : 0.0;
+        record_.stored += tie.stored;
+        record_.spent += tie.spent;
+        const Vec2 force = tie.normal * segment.to_rock() + tie.shear * segment.along;
+        if (force.isZero(0.0))
+            return;
+        const BlockMotion& m = blocks_.motion[segment.block];
+        const Vec2 arm = turned_with(m, segment.arm[end]);
+        pushes_.push_back(
+            {segment.block, {force.x(), force.y(), cross(arm, force)}, {m.vx, m.vy, m.w}, is_elastic ? force.norm() : 0.0});
+    }
+
+    const Liner& liner_;
+    const LinerLoad& load_;
+    const LinerMemory& memory_;
+    const Blocks& blocks_;
+    LinerRecord& record_;
+    std::vector<BlockPush>& pushes_;
+};
+}  // namespace
+
+LinerSolvers::LinerSolvers() = default;
+LinerSolvers::~LinerSolvers() = default;
+LinerSolvers::LinerSolvers(LinerSolvers&&) noexcept = default;
+LinerSolvers& LinerSolvers::operator=(LinerSolvers&&) noexcept = default;
+
+LinerSolver& LinerSolvers::of(const Model& model, std::size_t liner)
+{
+    solvers_.resize(model.support.liners.size());
+    if (!solvers_[liner])
+        solvers_[liner] = std::make_unique<LinerSolver>(model.support.liners[liner]);
+    return *solvers_[liner];
+}
+
+void LinerSolvers::clear()
+{
+    solvers_.clear();
+}
+
+bool install_liners(const Model& model, State& state)
+{
+    bool any = false;
+    for (std::size_t i = 0; i < model.support.liners.size(); ++i)
+    {
+        const Liner& liner = model.support.liners[i];
+        if (liner.stage != state.stage)
+            continue;
+        std::fill_n(state.support.history.begin() + liner.history, liner.history_size, 0.0);
+        const LinerMemory memory = liner_memory(liner, state.support.history);
+        *memory.factor = hardening(liner, 0);
+        for (std::size_t s = 0; s < liner.segments.size(); ++s)
+            for (int end = 0; liner.segments[s].block != no_index && end < 2; ++end)
+            {
+                const Vec2 place = place_of_rock(liner.segments[s], end, state.blocks);
+                memory.segment[s].place[end][0] = place.x();
+                memory.segment[s].place[end][1] = place.y();
+            }
+        state.support.liners[i] = {.installed = 1, .since = state.cycle};
+        any = true;
+    }
+    return any;
+}
+
+void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::vector<BlockPush>& pushes)
+{
+    for (std::size_t i = 0; i < model.support.liners.size(); ++i)
+    {
+        const Liner& liner = model.support.liners[i];
+        LinerRecord& record = state.support.liners[i];
+        if (record.installed == 0)
+            continue;
+        const LinerMemory memory = liner_memory(liner, state.support.history);
+        const LinerLoad load = load_of(liner, record, memory, model, state);
+        harden(liner, load.factor, memory);
+        LinerSolver& solver = solvers.of(model, i);
+        solver.solve(load, memory);
+        Booking(liner, load, memory, state.blocks, record, pushes).run(solver);
+    }
+}
+
+std::vector<LinerForce> liner_forces(const Model& model, const State& state, std::size_t i)
+{
+    const Liner& liner = model.support.liners[i];
+    std::vector<double> history = state.support.history;
+    const LinerMemory memory = liner_memory(liner, history);
+    const LinerSolver solver(liner);
+    const LinerLoad load{.factor = *memory.factor, .rock = {}, .gone = {}};
+    std::vector<LinerForce> forces;
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+    {
+        const BeamAnswer beam = solver.beam(s, load, memory);
+        // The inside of the liner lies on its left: a moment that turns the first end anticlockwise stretches it.
+        forces.push_back({.thrust = -beam.thrust,
+                          .shear = (beam.moment[0] + beam.moment[1]) / liner.segments[s].length,
+                          .moment = {beam.moment[0], -beam.moment[1]}});
+    }
+    return forces;
+}
+}  // namespace hdem

@@ -1,0 +1,49 @@
+#pragma once
+/// What liners do in a cycle: they follow the rock behind them and press on it. Laws: liner_beam.h, liner_tie.h; where the nodes are: liner_solver.h.
+///
+/// A liner that is installed has no force in it, whatever the rock has done before: ties and beams count from there.
+
+#include "core/model/model.h"
+#include "core/state/state.h"
+#include "core/state/workspace.h"
+
+#include <memory>
+#include <vector>
+
+namespace hdem
+{
+class LinerSolver;
+
+/// Solvers of a model's liners. They hold nothing that the state does not give again.
+class LinerSolvers
+{
+  public:
+    LinerSolvers();
+    ~LinerSolvers();
+    LinerSolvers(LinerSolvers&&) noexcept;
+    LinerSolvers& operator=(LinerSolvers&&) noexcept;
+
+    [[nodiscard]] LinerSolver& of(const Model& model, std::size_t liner);
+    /// Forget all, as the model's blocks have been renumbered.
+    void clear();
+
+  private:
+    std::vector<std::unique_ptr<LinerSolver>> solvers_;
+};
+
+/// Those of the stage that has begun, where the blocks are now.
+/// @return  whether there are any
+bool install_liners(const Model& model, State& state);
+
+/// Their forces in this cycle, appended to `pushes` in the order of the liners; what yields, slips and parts.
+void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::vector<BlockPush>& pushes);
+
+/// Forces in a liner as they are now: one a segment.
+struct LinerForce
+{
+    double thrust = 0.0;    ///< compression positive [N]
+    double shear = 0.0;     ///< [N]
+    double moment[2] = {};  ///< at its ends; positive: its inside is stretched [N m]
+};
+[[nodiscard]] std::vector<LinerForce> liner_forces(const Model& model, const State& state, std::size_t liner);
+}  // namespace hdem

@@ -1,0 +1,148 @@
+#include "io/case_fields.h"
+#include "io/case_sections.h"
+
+namespace hdem
+{
+using namespace fields;
+
+namespace
+{
+std::vector<KeySpec> place_keys()
+{
+    return {
+        field<&LinerDef::name>(
+            {.name = "name", .effect = "For histories and messages.", .default_note = "\"liner1\", \"liner2\", ..."}),
+        field<&LinerDef::around>({.name = "around",
+                                  .effect = "Name of an excavation: along its outline.",
+                                  .example = "\"tunnel\"",
+                                  .default_note = "path is given instead"}),
+        field<&LinerDef::arc>({.name = "arc",
+                               .unit = "deg",
+                               .effect = "Only the part of the outline in the directions from the first to the second, "
+                                         "anticlockwise from the x axis, as seen from the middle of the outline's box: [-10, 190] "
+                                         "leaves out the floor of most tunnels.",
+                               .example = "[-10, 190]",
+                               .range = {.low = -360, .high = 720},
+                               .default_note = "a closed ring"}),
+        with_assign(spec({.name = "path",
+                          .unit = "m",
+                          .effect = "Points, as drawn; the rock lies on the right-hand side of one who walks along them. A last "
+                                    "point that is the first closes it.",
+                          .example = "[[0, 0], [8, 0]]",
+                          .range = coordinate,
+                          .default_note = "around is given instead"},
+                         ValueType::line),
+                    assign_line<&LinerDef::path>),
+        field<&LinerDef::stage>({.name = "stage",
+                                 .effect = "Name of the stage at whose start it is installed, after excavation and without force.",
+                                 .example = "\"lined\"",
+                                 .default_note = "the first"})};
+}
+
+std::vector<KeySpec> beam_keys()
+{
+    return {
+        field<&LinerDef::thickness>(
+            {.name = "thickness", .unit = "m", .effect = "Of the beams, t.", .example = "0.15", .range = length, .required = true}),
+        field<&LinerDef::modulus>({.name = "modulus",
+                                   .unit = "Pa",
+                                   .effect = "Of the beams, E; divided by 1 - ν² for a lining that goes on out of plane.",
+                                   .example = "25e9",
+                                   .range = positive,
+                                   .required = true}),
+        field<&LinerDef::inertia>({.name = "inertia",
+                                   .unit = "m3",
+                                   .effect = "Second moment of area of a metre of it, I.",
+                                   .example = "2.8e-4",
+                                   .range = positive,
+                                   .default_note = "t³ / 12"}),
+        field<&LinerDef::density>({.name = "density", .unit = "kg/m3", .effect = "Gives weight and inertia.", .range = positive}),
+        field<&LinerDef::compressive_strength>({.name = "compressive_strength",
+                                                .unit = "Pa",
+                                                .effect = "Times t: the greatest thrust. It yields beyond.",
+                                                .example = "25e6",
+                                                .range = positive,
+                                                .default_note = "never yields"}),
+        field<&LinerDef::tensile_strength>({.name = "tensile_strength",
+                                            .unit = "Pa",
+                                            .effect = "Times t: the greatest tension along it.",
+                                            .example = "2e6",
+                                            .range = positive,
+                                            .default_note = "never yields"}),
+        field<&LinerDef::moment_strength>(
+            {.name = "moment_strength",
+             .unit = "N m/m",
+             .effect = "Greatest moment, M_p; a plastic hinge turns beyond. It does not depend on the thrust.",
+             .example = "11250",
+             .range = positive,
+             .default_note = "never yields"}),
+        field<&LinerDef::segment>(
+            {.name = "segment",
+             .unit = "m",
+             .effect = "Greatest distance of its nodes. They stand also at corners and where the block behind it changes.",
+             .example = "0.25",
+             .range = length,
+             .default_note = "2 t"}),
+        field<&LinerDef::hardening>(
+            {.name = "hardening",
+             .effect = "Rows [cycles since it was installed, factor of modulus and strengths]: linear in between, constant "
+                       "before and behind. Forces stay as the factor changes.",
+             .example = "[[0, 0.1], [5000, 1.0]]",
+             .range = non_negative,
+             .default_note = "1"})};
+}
+
+std::vector<KeySpec> tie_keys()
+{
+    return {
+        field<&LinerDef::normal_stiffness>({.name = "normal_stiffness",
+                                            .unit = "Pa/m",
+                                            .effect = "Of what ties it to the rock, against the rock.",
+                                            .example = "1e10",
+                                            .range = positive,
+                                            .required = true}),
+        field<&LinerDef::shear_stiffness>({.name = "shear_stiffness",
+                                           .unit = "Pa/m",
+                                           .effect = "The same along the rock.",
+                                           .example = "1e9",
+                                           .range = non_negative,
+                                           .default_note = "normal_stiffness"}),
+        field<&LinerDef::friction_angle_deg>({.name = "friction_angle_deg",
+                                              .unit = "deg",
+                                              .effect = "Between liner and rock.",
+                                              .range = {.low = 0, .high = 90, .high_included = false}}),
+        field<&LinerDef::cohesion>(
+            {.name = "cohesion", .unit = "Pa", .effect = "The same, until it comes off the rock there.", .range = non_negative}),
+        field<&LinerDef::bond_strength>({.name = "bond_strength",
+                                         .unit = "Pa",
+                                         .effect = "Tension at which it comes off the rock there.",
+                                         .range = non_negative}),
+        field<&LinerDef::pressure>(
+            {.name = "pressure",
+             .unit = "Pa",
+             .effect = "Between liner and rock, on the liner alone: water behind it, for example. (The rock's own "
+                       "water is [water].)",
+             .range = any_size}),
+        field<&LinerDef::pressure_cycles>({.name = "pressure_cycles",
+                                           .effect = "Cycles over which the pressure grows from 0, since the liner was installed.",
+                                           .range = count_or_none})};
+}
+}  // namespace
+
+SectionSpec liner_section()
+{
+    std::vector<KeySpec> keys = place_keys();
+    std::ranges::move(beam_keys(), std::back_inserter(keys));
+    std::ranges::move(tie_keys(), std::back_inserter(keys));
+    return {"liner",
+            SectionKind::array,
+            "liner",
+            "Linings: beams (Euler and Bernoulli) along the outline of an excavation, or along points, tied to the rock by springs "
+            "with "
+            "friction, cohesion and a bond that breaks. All numbers are those of a metre out of plane. Displacements of the liner "
+            "are taken as "
+            "small. They act as forces with all methods; while there are liners static solutions are not tried.",
+            std::move(keys),
+            append<&CaseDef::liners>};
+}
+}  // namespace hdem

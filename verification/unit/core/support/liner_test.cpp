@@ -1,0 +1,127 @@
+#include "core/support/liner_beam.h"
+#include "core/support/liner_forces.h"
+#include "verification/unit/case_run.h"
+
+namespace hdem
+{
+namespace
+{
+using namespace test;
+
+LinerDef lining()
+{
+    LinerDef liner{.name = "liner", .path = {{1.0, 0.0}, {-1.0, 0.0}}, .thickness = 0.05, .modulus = 1e9};
+    liner.segment = 0.1;
+    liner.normal_stiffness = 1e8;
+    liner.bond_strength = 1e5;
+    liner.cohesion = 1e5;
+    return liner;
+}
+
+/// Two free blocks that move apart and turn, lined along their lower side; no gravity, no damping.
+CaseDef flying_pair(const LinerDef& liner)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.blocks = {
+        {.name = "left", .polygon = {{-1, 0}, {0, 0}, {0, 1}, {-1, 1}}, .velocity = {-0.05, 0.01}, .angular_velocity = 0.03},
+        {.name = "right", .polygon = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, .velocity = {0.05, -0.02}}};
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::force;
+    scene.damping.preset = DampingPreset::dynamic;
+    scene.liners = {liner};
+    scene.stages = {{.name = "fly", .cycles = 2000}};
+    return scene;
+}
+
+TEST(Liners, KeepMomentumAndTheEnergyLedger)
+{
+    LinerDef light = lining();
+    light.density = 1e-3;  // so that next to all momentum is that of the blocks
+    CaseRun run(flying_pair(light));
+    run.simulation.begin_stage(0);
+    const Momentum before = momentum(run.model(), run.state().blocks);
+    run.advance(2000);
+    const Momentum after = momentum(run.model(), run.state().blocks);
+    const LinerRecord& liner = run.state().support.liners[0];
+    EXPECT_GT(run.state().support.liners[0].displacement, 1e-4);
+    EXPECT_LT((after.linear - before.linear).norm(), 1e-3);
+    EXPECT_NEAR(after.angular, before.angular, 1e-3 * std::abs(before.angular) + 1.0);
+    EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-6);
+    EXPECT_NEAR(-run.state().ledger.support, liner.stored + liner.spent, 0.05 * (liner.stored + liner.spent));
+}
+
+TEST(Liners, HaveNoForceWhenInstalledNorWhereNoBlockIsLeft)
+{
+    CaseDef scene = flying_pair(lining());
+    scene.liners[0].stage = "hold";
+    scene.stages = {{.name = "fly", .cycles = 200},
+                    {.name = "hold", .cycles = 10},
+                    {.name = "dig", .cycles = 10, .excavate = {"left", "right"}}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(200);
+    EXPECT_EQ(run.state().support.liners[0].installed, 0);
+    EXPECT_EQ(run.state().ledger.support, 0.0);
+    run.simulation.begin_stage(1);
+    LinerSolvers solvers;
+    State state = run.state();
+    std::vector<BlockPush> pushes;
+    press_liners(run.model(), state, solvers, pushes);
+    EXPECT_TRUE(pushes.empty());
+    run.advance(10);
+    EXPECT_NE(run.state().ledger.support, 0.0);
+    run.simulation.begin_stage(2);
+    const double work = run.state().ledger.support;
+    run.advance(10);
+    EXPECT_EQ(run.state().ledger.support, work);
+}
+
+TEST(LinerBeam, StaysWithinItsStrengthsAndGivesItsTangents)
+{
+    const BeamLaw law{
+        .axial = 1e6, .bending = 1e3, .compressive_strength = 500.0, .tensile_strength = 100.0, .moment_strength = 10.0};
+    for (const double e : {-1e-3, -1e-4, 5e-5, 2e-3})
+        for (const double first : {-0.01, -1e-3, 0.0, 2e-3, 0.02})
+            for (const double second : {-0.015, -2e-3, 0.0, 1e-3, 0.01})
+            {
+                const BeamAnswer a = answer_of_beam(law, e, {first, second});
+                EXPECT_GE(a.thrust, -500.0);
+                EXPECT_LE(a.thrust, 100.0);
+                for (int end = 0; end < 2; ++end)
+                {
+                    EXPECT_LE(std::abs(a.moment[end]), 10.0 * (1.0 + 1e-12));
+                    EXPECT_GE(a.moment[end] * a.turned[end], 0.0) << "flow against the moment";
+                }
+                // What has not flowed is elastic.
+                const double p = first - a.turned[0], q = second - a.turned[1];
+                EXPECT_NEAR(a.moment[0], 1e3 * (4.0 * p + 2.0 * q), 1e-9);
+                EXPECT_NEAR(a.moment[1], 1e3 * (2.0 * p + 4.0 * q), 1e-9);
+                const double by = 1e-9;
+                const BeamAnswer next = answer_of_beam(law, e, {first, second + by});
+                if (next.flows == a.flows)
+                {
+                    EXPECT_NEAR((next.moment[1] - a.moment[1]) / by, a.bending[2], 1.0);
+                    EXPECT_NEAR((next.stored + next.spent - a.stored - a.spent) / by, a.moment[1], 1e-3)
+                        << "force is the slope of the energy";
+                }
+            }
+}
+
+TEST(Liners, KeepTheirForcesAsTheyHarden)
+{
+    LinerDef fresh = lining();
+    fresh.hardening = {{{0.0, 0.1}, {400.0, 0.1}, {401.0, 1.0}}};
+    fresh.density = 1e-3;
+    CaseDef scene = flying_pair(fresh);
+    scene.blocks[0].velocity = {0.02, 0.0};
+    scene.blocks[1].velocity = {-0.02, 0.0};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(400);
+    const double before = run.state().support.liners[0].thrust;
+    run.advance(2);
+    EXPECT_GT(before, 0.0);
+    EXPECT_NEAR(run.state().support.liners[0].thrust, before, 0.1 * before) << "ten times as stiff";
+}
+}  // namespace
+}  // namespace hdem
