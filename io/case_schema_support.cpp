@@ -101,7 +101,8 @@ std::vector<KeySpec> bar_keys()
         field<&BoltDef::rupture_strain>(
             {.name = "rupture_strain",
              .effect = "Strain at which it ruptures, that of the pretension and of yielding included: of "
-                       "free_length, of a piece between two nodes, of active_length.",
+                       "free_length; of a piece between two nodes, or of twice the diameter where that is longer; of "
+                       "active_length.",
              .example = "0.1",
              .range = positive,
              .default_note = "never"}),

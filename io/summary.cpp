@@ -1,6 +1,7 @@
 #include "io/summary.h"
 
 #include "core/support/bolt_link.h"
+#include "core/support/liner_forces.h"
 #include "io/atomic_file.h"
 
 #include <fmt/format.h>
@@ -78,6 +79,67 @@ std::vector<BoltSummary> summarise_bolts(const Model& model, const State& state)
     return bolts;
 }
 
+std::vector<LinerSummary> summarise_liners(const Model& model, const State& state)
+{
+    std::vector<LinerSummary> liners;
+    for (std::size_t i = 0; i < model.support.liners.size(); ++i)
+    {
+        const Liner& liner = model.support.liners[i];
+        const LinerRecord& r = state.support.liners[i];
+        LinerSummary& made = liners.emplace_back();
+        made = {.name = liner.name,
+                .installed = r.installed != 0,
+                .thrust = r.thrust,
+                .moment = r.moment,
+                .displacement = r.displacement,
+                .hinges = r.hinges,
+                .parted = r.parted,
+                .stored = r.stored,
+                .spent = r.spent,
+                .segments = {}};
+        if (!made.installed)
+            continue;
+        const std::vector<LinerForce> forces = liner_forces(model, state, i);
+        const std::vector<Vec2> nodes = liner_nodes(model, state, i);
+        for (std::size_t s = 0; s < liner.segments.size(); ++s)
+            made.segments.push_back({.from = model.origin + nodes[liner.segments[s].node[0]],
+                                     .to = model.origin + nodes[liner.segments[s].node[1]],
+                                     .thrust = forces[s].thrust,
+                                     .shear = forces[s].shear,
+                                     .moment = {forces[s].moment[0], forces[s].moment[1]}});
+    }
+    return liners;
+}
+
+namespace
+{
+Json liners_json(const RunSummary& s)
+{
+    Json liners = Json::array();
+    for (const LinerSummary& liner : s.liners)
+    {
+        Json segments = Json::array();
+        for (const LinerPiece& piece : liner.segments)
+            segments.push_back({{"from", {piece.from.x(), piece.from.y()}},
+                                {"to", {piece.to.x(), piece.to.y()}},
+                                {"thrust", piece.thrust},
+                                {"shear", piece.shear},
+                                {"moment", piece.moment}});
+        liners.push_back({{"name", liner.name},
+                          {"installed", liner.installed},
+                          {"thrust", liner.thrust},
+                          {"moment", liner.moment},
+                          {"displacement", liner.displacement},
+                          {"hinges", liner.hinges},
+                          {"parted", liner.parted},
+                          {"stored", liner.stored},
+                          {"spent", liner.spent},
+                          {"segments", segments}});
+    }
+    return liners;
+}
+}  // namespace
+
 std::string summary_text(const RunSummary& s)
 {
     Json stages = Json::array();
@@ -132,6 +194,7 @@ std::string summary_text(const RunSummary& s)
         {"detached_blocks", s.detached_blocks},
         {"lost_blocks", s.lost_blocks},
         {"bolts", bolts},
+        {"liners", liners_json(s)},
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
         {"stage_wall_seconds", stage_seconds},

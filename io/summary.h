@@ -4,6 +4,7 @@
 #include "core/energy_ledger.h"
 #include "core/statics/static_result.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -51,6 +52,30 @@ struct BoltSummary
 };
 [[nodiscard]] std::vector<BoltSummary> summarise_bolts(const Model& model, const State& state);
 
+/// A segment of a liner at the end, of a metre out of plane.
+struct LinerPiece
+{
+    Vec2 from = {0.0, 0.0};          ///< where it is now [m]
+    Vec2 to = {0.0, 0.0};            ///< [m]
+    double thrust = 0.0;             ///< compression positive [N]
+    double shear = 0.0;              ///< [N]
+    std::array<double, 2> moment{};  ///< at its ends; positive: its inside is stretched [N m]
+};
+struct LinerSummary
+{
+    std::string name;
+    bool installed = false;
+    double thrust = 0.0;        ///< greatest [N]
+    double moment = 0.0;        ///< greatest, without sign [N m]
+    double displacement = 0.0;  ///< greatest since it was installed [m]
+    std::int64_t hinges = 0;    ///< nodes that have turned plastically
+    double parted = 0.0;        ///< length that has come off the rock [m]
+    double stored = 0.0;        ///< [J]
+    double spent = 0.0;         ///< [J]
+    std::vector<LinerPiece> segments;
+};
+[[nodiscard]] std::vector<LinerSummary> summarise_liners(const Model& model, const State& state);
+
 struct RunSummary
 {
     std::string case_name;  ///< key "case": name of the case file
@@ -81,6 +106,7 @@ struct RunSummary
     std::vector<std::string> detached_blocks;  ///< names
     std::vector<std::string> lost_blocks;      ///< names of blocks that have left the model and are held
     std::vector<BoltSummary> bolts;
+    std::vector<LinerSummary> liners;
     EnergyLedger energy;  ///< sums since the start [J]
     StoredEnergy stored;  ///< at the end [J]
     double wall_seconds = 0.0;

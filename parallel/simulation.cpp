@@ -431,7 +431,8 @@ void Simulation::find_calm(const Equilibrium& now)
     // Each block by itself may have what all together may not.
     const bool blocks_hold = now.fastest.value < convergence.mean_speed &&
                              now.unbalanced.value < convergence.block_unbalanced_ratio;
-    state_.is_calm = was_calm ? now.fastest.value <= stirs * convergence.mean_speed : blocks_hold || all_rest(state_.blocks);
+    const auto all_stopped = [&] { return all_rest(model_, rest, bolted_blocks(model_, state_), state_.blocks); };
+    state_.is_calm = was_calm ? now.fastest.value <= stirs * convergence.mean_speed : blocks_hold || all_stopped();
     if (state_.is_calm && !was_calm && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
         state_.rest_changed = true;
 }

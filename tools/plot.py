@@ -63,6 +63,7 @@ def parse(arguments):
     parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
     parser.add_argument("--bolts", action="store_true", help="draw the bolts of the last frame, coloured by their axial force")
+    parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings at the end of the run with this along them")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
     parser.add_argument("--factor", action="store_true", help="draw displacement against the factor of the trials of hdem fos instead")
@@ -180,6 +181,30 @@ def draw_bolts(axes, options):
     return [Line2D([], [], color=colours(share), linewidth=1.8, label=f"bolt, {share * greatest / factor:.3g} {unit}") for share in (0.0, 0.5, 1.0)]
 
 
+def draw_liners(axes, options, view):
+    """Linings as lines; thrust or moment stands off them, on the inside where it compresses or stretches the inside."""
+    folder = options.result if options.result.is_dir() else options.result.parent
+    try:
+        pieces = [piece for liner in json.loads((folder / "summary.json").read_text(encoding="utf-8"))["liners"] for piece in liner["segments"]]
+        lines = np.array([[piece["from"], piece["to"]] for piece in pieces], dtype=float).reshape(-1, 2, 2)
+        moments = options.liners == "moment"
+        values = np.array([piece["moment"] if moments else [piece["thrust"]] * 2 for piece in pieces], dtype=float).reshape(-1, 2)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ResultError(f"--liners: {folder / 'summary.json'} has no linings ({error}). It is written at the end of a run.") from error
+    if not len(lines):
+        raise ResultError("--liners: this run has no lining that was installed")
+    greatest = float(np.max(np.abs(values), initial=0.0)) or 1.0
+    along = lines[:, 1] - lines[:, 0]
+    inside = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1)[:, None]
+    off = lines + inside[:, None, :] * (values / greatest)[:, :, None] * 0.08 * min(view[2] - view[0], view[3] - view[1])
+    axes.add_collection(PolyCollection(np.concatenate([lines, off[:, ::-1]], axis=1), facecolors=ORANGE, alpha=0.35, linewidths=0.0, zorder=3.5))
+    axes.add_collection(LineCollection(off, colors=ORANGE, linewidths=0.7, zorder=3.6))
+    axes.add_collection(LineCollection(lines, colors="black", linewidths=1.8, capstyle="round", zorder=3.8))
+    factor, unit = scaled_unit("N m" if moments else "N", greatest)
+    name = "moment of the lining, inside where the inside is stretched" if moments else "thrust of the lining, inside where it is compressed"
+    return [Line2D([], [], color=ORANGE, linewidth=4.0, alpha=0.5, label=f"{name}: at most {greatest / factor:.3g} {unit}")]
+
+
 def view_of(blocks, options):
     """x0, y0, x1, y1 [m]"""
     if options.window:
@@ -222,7 +247,7 @@ def draw_frame(run, options):
     contacts = run.contacts(options.frame) if over else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
-    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts)
+    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners))
     figure, axes = figure_for(view, options, field, rows)
     handles = draw_field(axes, blocks, options) if field else draw_classes(axes, blocks, options)
     line = float(np.clip(14.0 / math.sqrt(max(visible(blocks, view), 1)), 0.04, 0.6))
@@ -235,6 +260,8 @@ def draw_frame(run, options):
         handles += draw_joints(axes, contacts, options.joints, options.width)
     if options.bolts:
         handles += draw_bolts(axes, options)
+    if options.liners:
+        handles += draw_liners(axes, options, view)
     if options.crosses:
         handles += draw_crosses(axes, blocks, view)
     axes.set_xlim(view[0], view[2])

@@ -88,10 +88,11 @@ void wake_all(Blocks& blocks)
     std::fill(blocks.rest.begin(), blocks.rest.end(), std::uint8_t{0});
 }
 
-bool all_rest(const Blocks& blocks)
+bool all_rest(const Model& model, const RestRule& rule, const std::vector<Index>& taking_part, const Blocks& blocks)
 {
     for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.is_free(b) && blocks.takes_part(b))
+        if (blocks.is_free(b) && blocks.takes_part(b) &&
+            !(std::ranges::binary_search(taking_part, b) && is_quiet(b, model, rule, blocks)))
             return false;
     return true;
 }

@@ -35,8 +35,8 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
 /// All blocks take part again.
 void wake_all(Blocks& blocks);
 
-/// Does no free block take part any more?
-[[nodiscard]] bool all_rest(const Blocks& blocks);
+/// Does no free block take part any more? Blocks of `taking_part` (ascending) always do: these need to be as quiet as others that are stopped.
+[[nodiscard]] bool all_rest(const Model& model, const RestRule& rule, const std::vector<Index>& taking_part, const Blocks& blocks);
 
 /// Where the stage may not end yet: stopped blocks whose unbalance is `limit` or more take part again [m/s2].
 /// @return  whether there are any

@@ -130,30 +130,37 @@ void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>&
 
 struct Scratch
 {
-    std::vector<double> step, diagonal, right, tried;
+    std::vector<double> step, way, diagonal, right, tried;
 };
 
-/// Newton's method; where a full step makes matters worse, halves of it.
+/// Newton's method. A full step counts where it makes the greatest net force less; else the halves of it do, until the energy is no more than before.
 void balance(const Bar& bar, std::span<double> u, double accuracy)
 {
     thread_local Scratch s;
-    for (std::vector<double>* each : {&s.step, &s.diagonal, &s.right, &s.tried})
+    for (std::vector<double>* each : {&s.step, &s.way, &s.diagonal, &s.right, &s.tried})
         each->resize(u.size());
     double net = bar.assemble(u, s.step, s.diagonal, s.right);
     for (int i = 0; i < most_steps && net > accuracy; ++i)
     {
         solve_tridiagonal(s.diagonal, s.right, s.step);
-        const double before = bar.energy(u), allowed = before + 1e-12 * std::abs(before);  // round-off is no worsening
-        double share = 1.0;
-        for (int half = 0; half < 40; ++half, share *= 0.5)
+        std::swap(s.step, s.way);
+        const auto go = [&](double share)
         {
             for (std::size_t k = 0; k < u.size(); ++k)
-                s.tried[k] = u[k] + share * s.step[k];
-            if (bar.energy(s.tried) <= allowed)
-                break;
+                s.tried[k] = u[k] + share * s.way[k];
+        };
+        go(1.0);
+        double next = bar.assemble(s.tried, s.step, s.diagonal, s.right);
+        if (!(next < net))
+        {
+            const double before = bar.energy(u), allowed = before + 1e-12 * std::abs(before);  // round-off is no worsening
+            double share = 1.0;
+            for (int half = 0; half < 40 && bar.energy(s.tried) > allowed; ++half)
+                go(share *= 0.5);
+            next = bar.assemble(s.tried, s.step, s.diagonal, s.right);
         }
         std::ranges::copy(s.tried, u.begin());
-        net = bar.assemble(u, s.step, s.diagonal, s.right);
+        net = next;
     }
 }
 
@@ -231,7 +238,7 @@ void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<con
         record.spent += steel.limit < Bolt::none ? steel.limit * std::abs(flow) : 0.0;
         if (flow != 0.0 && record.status != BoltStatus::ruptured)
             record.status = BoltStatus::yielded;
-        if (memory.node[e + 1] - memory.node[e] > bolt.rupture * bolt.segments[e].length)
+        if (memory.node[e + 1] - memory.node[e] > bolt.rupture * std::max(bolt.segments[e].length, bolt.length))
         {
             own.cut = 1.0;
             record.status = BoltStatus::ruptured;

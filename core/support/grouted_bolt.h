@@ -9,7 +9,7 @@
 ///   0 = N_k+1 - N_k + sum of q
 ///
 /// with slip and e_p of the last cycle. These are the conditions of the least of a convex function, found by Newton's method, each step with one tridiagonal system.
-/// What the rock feels at a joint is the tension of the bar there: all other forces of the bar act within one block.
+/// What the rock feels at a joint is the tension of the bar there, of a short piece without bond: all other forces of the bar act within one block.
 ///
 /// Closed forms of the pull-out test, lambda = (k_b / E A)^1/2, bond length L, l of it slipped:
 ///

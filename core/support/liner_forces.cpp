@@ -219,6 +219,26 @@ void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::
     }
 }
 
+std::vector<Vec2> liner_nodes(const Model& model, const State& state, std::size_t i)
+{
+    const Liner& liner = model.support.liners[i];
+    std::vector<double> history = state.support.history;
+    const LinerMemory memory = liner_memory(liner, history);
+    // What it counts from is where the rock was when it was installed, not where it was drawn.
+    std::vector<Vec2> nodes = liner.nodes, begun(nodes.size(), Vec2(0.0, 0.0));
+    std::vector<double> ties(nodes.size(), 0.0);
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+        for (int end = 0; liner.segments[s].block != no_index && end < 2; ++end)
+        {
+            const Index node = liner.segments[s].node[end];
+            begun[node] += Vec2(memory.segment[s].place[end][0], memory.segment[s].place[end][1]);
+            ties[node] += 1.0;
+        }
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        nodes[n] = (ties[n] > 0.0 ? Vec2(begun[n] / ties[n]) : nodes[n]) + Vec2(memory.moved[3 * n], memory.moved[3 * n + 1]);
+    return nodes;
+}
+
 std::vector<LinerForce> liner_forces(const Model& model, const State& state, std::size_t i)
 {
     const Liner& liner = model.support.liners[i];

@@ -45,5 +45,7 @@ struct LinerForce
     double shear = 0.0;     ///< [N]
     double moment[2] = {};  ///< at its ends; positive: its inside is stretched [N m]
 };
+/// Where its nodes are now [m].
+[[nodiscard]] std::vector<Vec2> liner_nodes(const Model& model, const State& state, std::size_t liner);
 [[nodiscard]] std::vector<LinerForce> liner_forces(const Model& model, const State& state, std::size_t liner);
 }  // namespace hdem

@@ -14,7 +14,8 @@ namespace hdem
 {
 namespace
 {
-constexpr double gap_share = 1e-3;  // of the mean block size: so much may lie between two blocks, or before a head
+constexpr double gap_share = 1e-3;     // of the mean block size: so much may lie between two blocks, or before a head
+constexpr double bridge_share = 0.01;  // of the longest segment: length of a bar's piece at a joint
 
 class SupportResolver
 {
@@ -216,6 +217,9 @@ class SupportResolver
             split = split - begin < least ? begin : (end - split < least ? end : split);  // no piece of round-off
             add(part, begin, split, false);
             add(part, split, end, true);
+            if (part + 1 <
+                path.size())  // what bridges the joint has no bond: its tension is that of the joint, and yields as the bar does
+                bolt.segments.push_back({static_cast<Index>(part), bridge_share * longest, false});
         }
         const std::vector<double> stiffness = link_stiffness(bolt);
         for (std::size_t i = 0; i < bolt.links.size(); ++i)

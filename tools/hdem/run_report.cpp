@@ -203,6 +203,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     for (const Index block : moved.detached)
         s.detached_blocks.push_back(model.name[block]);
     s.bolts = summarise_bolts(model, state);
+    s.liners = summarise_liners(model, state);
     s.energy = state.ledger;
     s.stored = stored_energy(model, state);
     s.wall_seconds = wall_seconds;
@@ -290,6 +291,21 @@ void print_bolts(Log& log, std::vector<BoltSummary> bolts)
     if (bolts.size() > most)
         log.line(fmt::format("  and {} that bear less: summary.json has all", bolts.size() - most));
 }
+
+void print_liners(Log& log, const std::vector<LinerSummary>& liners)
+{
+    if (liners.empty())
+        return;
+    log.line("liners, of a metre out of plane: the greatest anywhere in each");
+    log.line(fmt::format("  {:<16} {:>12} {:>14} {:>18} {:>8} {:>12}", "liner", "thrust [N]", "moment [N m]", "displacement [m]",
+                         "hinges", "parted [m]"));
+    for (const LinerSummary& l : liners)
+        if (l.installed)
+            log.line(fmt::format("  {:<16} {:>12.5g} {:>14.5g} {:>18.4g} {:>8} {:>12.4g}", l.name, l.thrust, l.moment,
+                                 l.displacement, l.hinges, l.parted));
+        else
+            log.line(fmt::format("  {:<16} not installed", l.name));
+}
 }  // namespace
 
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
@@ -312,6 +328,7 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
                          fmt::join(s.detached_blocks, ", ")));
     print_bolts(log, s.bolts);
+    print_liners(log, s.liners);
     log.line(energy_line(s));
     const ContactCounts contacts = simulation.count_contacts();
     log.line(
