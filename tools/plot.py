@@ -122,7 +122,7 @@ def draw_field(axes, blocks, options):
         return []
     axes.add_collection(PolyCollection(pick(blocks["part_polygon"], hatched, blocks), facecolors=FALLEN, edgecolors=ORANGE, linewidths=0.0, hatch="//////"))
     distance = 1e3 * blocks["info"]["detached_distance"]
-    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:g} mm ({np.count_nonzero(hatched)} blocks)")]
+    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:.4g} mm ({np.count_nonzero(hatched)} blocks)")]
 
 
 def draw_classes(axes, blocks, options):

@@ -2,6 +2,7 @@
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from hdem_io import ResultError
 from plot_history import scaled_unit
@@ -20,6 +21,7 @@ JOINTS = {
 }
 NEEDS = {"pore_pressure": "Only cases with [water] do"}
 WATER = "#0072b2"
+OUTLINED = [withStroke(linewidth=3.0, foreground="white")]
 RED, PRESSED, PULLED = "#d55e00", "#222222", "#0072b2"
 
 
@@ -28,7 +30,7 @@ def draw_water_table(axes, blocks):
     line = blocks["water_table"]
     if not len(line):
         return []
-    axes.add_collection(LineCollection([line], colors=WATER, linewidths=1.6, linestyles="--", zorder=3.6))
+    axes.add_collection(LineCollection([line], colors=WATER, linewidths=1.6, linestyles="--", zorder=3.6, path_effects=OUTLINED))
     middle = 0.5 * (line[len(line) // 2 - 1] + line[len(line) // 2])
     axes.plot(*middle, marker="v", color=WATER, markeredgecolor="white", markeredgewidth=0.6, markersize=7, zorder=3.7, clip_on=True)
     return [Line2D([], [], color=WATER, linewidth=1.6, linestyle="--", label="water table")]

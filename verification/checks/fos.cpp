@@ -261,6 +261,24 @@ void check_rock(Report& report)
     report.require({"time on two threads [s]", "two minutes", 120.0, seconds}, at_most());
 }
 
+/// The shipped slope in coarser rock: dry, with its water table, and that turned.
+void check_slope(Report& report)
+{
+    const std::string file = "../slope/slope.toml";
+    const Overrides coarse{set("joint_set[0].spacing", 6.0), set("joint_set[1].spacing", 7.0)};
+    const FosAnswer wet = find_factor(file, coarse);
+    const FosAnswer dry = find_factor(file, coarse + Overrides{{"water.table", "[[0.0, 0.0], [95.0, 0.0]]"}});
+    report.require({"slope of 85 blocks, wet: F", "hdem, when the case was made", 1.147, wet.value()}, relative(0.01));
+    report.require({"slope of 85 blocks, dry: F", "hdem, when the case was made", 1.2746, dry.value()}, relative(0.01));
+    report.require({"wet: F", "limit analysis", wet.bound.factor, wet.value()}, at_most());
+    report.require({"dry: F", "limit analysis", dry.bound.factor, dry.value()}, at_most());
+    report.require({"wet: bound by limit analysis", "below that of the dry slope", dry.bound.factor, wet.bound.factor}, at_most());
+    double same = 0.0;
+    for (const int threads : {2, 3})
+        same += same_trials(wet.factor, find_factor(file, coarse, threads).factor) ? 1.0 : 0.0;
+    report.require({"runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
+}
+
 /// Angle of a slope at which a block slides.
 void check_critical(Report& report)
 {
@@ -288,6 +306,7 @@ std::vector<Check> fos_checks()
             {"fos.F6", "roof wedge in a horizontal stress", check_wedge},
             {"fos.laws", "strength reduction of all joint laws", check_laws},
             {"fos.critical", "slope at which a slab slides", check_critical},
+            {"fos.slope", "jointed slope with and without a water table", check_slope},
             {"fos.rock", "F3 with 417 blocks behind the plane", check_rock, Check::Length::is_long}};
 }
 }  // namespace hdem::verification
