@@ -290,8 +290,9 @@ class RunCheck : public CaseCheck
                 exclude(path, object, owners[j], owners[k]);
         if (!block && !between && !bolt && !liner && !point && !problems_.has(path + ".block") &&
             !problems_.has(path + ".between") && !problems_.has(path + ".point"))
-            problems_.add(path, object, "block, between, point", "none is given",
-                          "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], bolt = \"NAME\", liner = \"NAME\" or point = [x, y].");
+            problems_.add(
+                path, object, "block, between, point", "none is given",
+                "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], bolt = \"NAME\", liner = \"NAME\" or point = [x, y].");
         if (block && !problems_.has(path + ".block"))
             check_block_reference(path + ".block", object, history.block);
         if (between && !problems_.has(path + ".between") &&
@@ -307,8 +308,7 @@ class RunCheck : public CaseCheck
             problems_.warn(path + ".point", object, "point", "there is no water: the pressure is 0 everywhere", "Add [water].");
         Names seen;
         for (const std::string& quantity : history.quantities)
-            if (block + between + bolt + liner + point == 1 &&
-                std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
+            if (block + between + bolt + liner + point == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity),
                               fmt::format("belongs to {}", owner_of(quantity)), "Choose from " + quoted_list(fitting) + ".");
             else if (!seen.insert(quantity).second)

@@ -242,7 +242,8 @@ SectionSpec history_section()
                             "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
                             "4 ruptured, 5 lost). From `thrust` on they belong to `liner`: the greatest anywhere in it; nodes with "
                             "a hinge; "
-                            "length that has come off the rock. `pore_pressure` (of the water in joints, from table, field or cracks) belongs to `point`. "
+                            "length that has come off the rock. `pore_pressure` (of the water in joints, from table, field or "
+                            "cracks) belongs to `point`. "
                             "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
                             "contacts, by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",
