@@ -261,6 +261,25 @@ void check_rock(Report& report)
     report.require({"time on two threads [s]", "two minutes", 120.0, seconds}, at_most());
 }
 
+/// A load that is counted from the start of the last stage acts on in the trials as at its end, also where the run is past the load's own cycles.
+void check_loads(Report& report)
+{
+    const double g = 9.81, driving = 0.5 * g, bearing = g * std::cos(std::numbers::pi / 6.0) * tan_deg(40.0);
+    const auto factor = [](const std::string& when)
+    {
+        return find_factor("slab.toml", {{"stage", "[{name = \"first\", cycles = 50000}, {name = \"stand\", cycles = 30000}]"},
+                                         {"load", "[{blocks = [\"slab\"], acceleration = [-1.0, 0.0], " + when + "}]"}})
+            .value();
+    };
+    const std::string grown = "ramp_cycles = [0, 2000], since = \"stand\", until_cycle = 40000";
+    report.require(
+        {"F with a load that has grown: " + grown, "g cos β tan φ / (g sin β + a)", bearing / (driving + 1.0), factor(grown)},
+        relative(0.01));
+    const std::string half = "ramp_cycles = [0, 60000], since = \"stand\"";
+    report.require({"F with half of a load: " + half, "g cos β tan φ / (g sin β + a / 2)", bearing / (driving + 0.5), factor(half)},
+                   relative(0.01));
+}
+
 /// The shipped slope in coarser rock: dry, with its water table, and that turned.
 void check_slope(Report& report)
 {
@@ -306,6 +325,7 @@ std::vector<Check> fos_checks()
             {"fos.F6", "roof wedge in a horizontal stress", check_wedge},
             {"fos.laws", "strength reduction of all joint laws", check_laws},
             {"fos.critical", "slope at which a slab slides", check_critical},
+            {"fos.loads", "loads that have grown, or still grow, at the end of the last stage", check_loads},
             {"fos.slope", "jointed slope with and without a water table", check_slope},
             {"fos.rock", "F3 with 417 blocks behind the plane", check_rock, Check::Length::is_long}};
 }
