@@ -3,6 +3,7 @@
 #include "core/check.h"
 #include "core/contact/contact_report.h"
 #include "core/motion/equilibrium.h"
+#include "core/water/pore_pressure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,22 @@ struct KnownOfPair
     Column column;
     double (*value)(const Model&, const PairSample&);
 };
+
+struct KnownOfPoint
+{
+    const char* quantity;
+    Column column;
+    double (*value)(const Model&, const State&, const Vec2&);
+};
+
+const std::vector<KnownOfPoint>& known_of_point()
+{
+    static const std::vector<KnownOfPoint> all = {
+        {"pore_pressure", {"pore_pressure", "Pa"}, [](const Model& m, const State& s, const Vec2& at) {
+             return m.water.given ? pressure_at(m.water, s.stage, at) : 0.0;
+         }}};
+    return all;
+}
 
 const std::vector<KnownOfBlock>& known_of_block()
 {
@@ -211,6 +228,12 @@ void HistorySampler::select_of_bolt(const Model& model, const HistoryDef& def)
                                              "\" (not known for a bolt). See [[history]] in io/case_format.md."});
 }
 
+const std::vector<std::string>& point_history_quantities()
+{
+    static const std::vector<std::string> all = names_of(known_of_point());
+    return all;
+}
+
 HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
     : name_(def.name),
       every_(std::max<std::int64_t>(def.every, 1))
@@ -235,16 +258,23 @@ HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
         return at;
     };
     const bool pair = def.between.size() == 2;
-    first_user_ = model.user_number[find(pair ? def.between[0] : def.block)];
+    if (def.point)
+        place_ = *def.point - model.origin;
+    else
+        first_user_ = model.user_number[find(pair ? def.between[0] : def.block)];
     second_user_ = pair ? model.user_number[find(def.between[1])] : no_index;
     for (const std::string& quantity : def.quantities)
     {
-        const bool known = pair ? select(known_of_pair(), quantity, columns_, of_pair_)
-                                : select(known_of_block(), quantity, columns_, of_block_);
+        const bool known = def.point ? select(known_of_point(), quantity, columns_, of_point_)
+                           : pair    ? select(known_of_pair(), quantity, columns_, of_pair_)
+                                     : select(known_of_block(), quantity, columns_, of_block_);
         if (!known)
             throw InputError(Problem{.key = "history",
                                      .text = object + "quantity \"" + quantity + "\" (not known for " +
-                                             (pair ? "contacts" : "a block") + "). See [[history]] in io/case_format.md."});
+                                             (def.point ? "a point"
+                                              : pair    ? "contacts"
+                                                        : "a block") +
+                                             "). See [[history]] in io/case_format.md."});
     }
 }
 
@@ -326,6 +356,8 @@ void HistorySampler::sample(const Model& model, const State& state, std::span<do
         values[i] = of_bolt_[i](model.support.bolts[bolt_], state.support.bolts[bolt_]);
     for (std::size_t i = 0; i < of_liner_.size(); ++i)
         values[i] = of_liner_[i](model.support.liners[liner_], state.support.liners[liner_]);
+    for (std::size_t i = 0; i < of_point_.size(); ++i)
+        values[i] = of_point_[i](model, state, place_);
     if (of_pair_.empty())
         return;
     find_contacts(model, state);

@@ -1,5 +1,5 @@
 #pragma once
-/// [[history]]: quantities of one block, of the contacts between two, of a bolt, or of a liner, as numbers.
+/// [[history]]: quantities of one block, of the contacts between two, of a bolt, of a liner, or at a place, as numbers.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -15,6 +15,7 @@ const std::vector<std::string>& block_history_quantities();
 const std::vector<std::string>& contact_history_quantities();
 const std::vector<std::string>& bolt_history_quantities();
 const std::vector<std::string>& liner_history_quantities();
+const std::vector<std::string>& point_history_quantities();
 
 /// One sampled number.
 struct Column
@@ -71,6 +72,7 @@ class HistorySampler
   private:
     using BlockQuantity = double (*)(const Model&, const State&, Index);
     using PairQuantity = double (*)(const Model&, const PairSample&);
+    using PointQuantity = double (*)(const Model&, const State&, const Vec2&);
 
     using BoltQuantity = double (*)(const Bolt&, const BoltRecord&);
     using LinerQuantity = double (*)(const Liner&, const LinerRecord&);
@@ -94,6 +96,8 @@ class HistorySampler
     Index bolt_ = no_index;
     std::vector<LinerQuantity> of_liner_;
     Index liner_ = no_index;
+    std::vector<PointQuantity> of_point_;
+    Vec2 place_ = {0.0, 0.0};             ///< of_point_, local coordinates [m]
     std::vector<Index> contacts_;         ///< of the pair
     std::int64_t broad_phase_runs_ = -1;  ///< when contacts_ was found
     Vec2 normal_ = {0.0, 0.0};            ///< last known, zero before

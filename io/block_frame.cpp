@@ -4,7 +4,9 @@
 #include "io/frame_writer.h"
 #include "io/vtkhdf.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hdem
 {
@@ -127,6 +129,34 @@ void write_outlines(Hdf5Writer& file, const Model& model, const Blocks& blocks)
     file.write("/hdem/outline_excavation", excavation);
 }
 
+/// The water table of the stage, from one end of the model to the other; nothing where pressures do not come from one.
+void write_water_table(Hdf5Writer& file, const Model& model, const State& state, const VtkCells& cells)
+{
+    const Water& water = model.water;
+    const Index table = water.given && water.field.triangle.empty() ? water.table_of_stage[state.stage] : no_index;
+    if (table == no_index || cells.points.empty())
+        return;
+    const Vec2 along(water.up.y(), -water.up.x());
+    double low = std::numeric_limits<double>::max(), high = -low;
+    for (std::size_t i = 0; i + 2 < cells.points.size(); i += 3)
+    {
+        const double across = (Vec2(cells.points[i], cells.points[i + 1]) - model.origin).dot(along);
+        low = std::min(low, across);
+        high = std::max(high, across);
+    }
+    std::vector<double> places{low, high}, line;
+    for (const Vec2& p : water.tables[table].points)
+        if (p.x() > low && p.x() < high)
+            places.push_back(p.x());
+    std::ranges::sort(places);
+    for (const double across : places)
+    {
+        const Vec2 p = model.origin + across * along + water.tables[table].height(across) * water.up;
+        line.insert(line.end(), {p.x(), p.y()});
+    }
+    file.write("/hdem/water_table", line, {places.size(), 2});
+}
+
 void write_names(Hdf5Writer& file, const Model& model)
 {
     std::vector<std::string> names;
@@ -170,6 +200,7 @@ void write_block_frame(const std::filesystem::path& name, const Model& model, co
     write_bodies(file, model, state.blocks);
     write_names(file, model);
     write_outlines(file, model, state.blocks);
+    write_water_table(file, model, state, parts.cells);
     file.commit({}, Flush::later);
 }
 }  // namespace hdem

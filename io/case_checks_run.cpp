@@ -1,6 +1,7 @@
 #include "core/stage/rules.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
+#include "io/stage_end_text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -171,6 +172,51 @@ class RunCheck : public CaseCheck
                    "Let the stage last longer, or give fewer.");
     }
 
+    /// Of one end of a stage, its names.
+    void check_end(const StageEndDef& end, const std::string& key, const std::string& object)
+    {
+        const auto refuse = [&](const std::string& why, const std::string& remedy)
+        { problems_.add(key, object, fmt::format("until = \"{}\"", printable(end.text)), why, remedy); };
+        if (const ReadStageEnd read = read_stage_end(end.text); !read.why.empty())
+            return refuse(read.why, read.remedy);
+        for (const std::string& name : end.blocks)
+            check_block_reference(key, object, name);
+        if (end.quantity != EndQuantity::history)
+            return;
+        Names names;
+        for (const HistoryDef& history : def_.histories)
+            names.insert(history.name);
+        check_reference(key, object, end.history, "history", names);
+        const auto history = std::ranges::find(def_.histories, end.history, &HistoryDef::name);
+        if (history == def_.histories.end())
+            return;
+        const auto& fitting = fitting_quantities(*history);
+        if (std::ranges::count(fitting, end.column + "_x") > 0)
+            refuse(fmt::format("{} has two columns", end.column), fmt::format("Write {0}_x or {0}_y.", end.column));
+        else if (std::ranges::count(fitting, end.column) == 0)
+            refuse("this history has no such column", "Choose from " + quoted_list(fitting) + ".");
+    }
+
+    void check_until(const StageDef& stage, const std::string& path, const std::string& object)
+    {
+        if (given(path + ".until") && !stage.until_converged && stage.ends.empty() && !problems_.has(path + ".until"))
+            problems_.add(path + ".until", object, "until = []", "names no end", "Name at least one, e.g. \"converged\".");
+        for (const StageEndDef& end : stage.ends)
+            check_end(end, path + ".until", object);
+        if (stage.until_converged || stage.ends.empty())
+            return;
+        if (given(path + ".solver") && stage.solver == RestSolver::statics)
+            problems_.warn(path + ".solver", object, "solver", "has no effect: the stage does not look for rest",
+                           "Add \"converged\" to until, or remove this key.");
+    }
+
+    [[nodiscard]] const std::vector<std::string>& fitting_quantities(const HistoryDef& history) const
+    {
+        if (!history.bolt.empty() || !history.liner.empty())
+            return history.bolt.empty() ? liner_quantities() : bolt_quantities();
+        return history.point ? point_quantities() : (history.between.empty() ? block_quantities() : contact_quantities());
+    }
+
     void check_stages()
     {
         if (def_.stages.empty() && !problems_.has("stage"))
@@ -192,7 +238,8 @@ class RunCheck : public CaseCheck
                               "Give exactly one of them.");
             if (given(path + ".max_cycles") && ends && !given(path + ".until"))
                 problems_.add(path + ".max_cycles", object, "max_cycles", "limits a stage with until",
-                              "Use cycles, or add until = \"converged\".");
+                              "Use cycles, or add until, e.g. until = \"converged\".");
+            check_until(stage, path, object);
             check_relaxation(stage, path, object);
             check_set_cycles(stage, path, object);
             for (const std::string& name : stage.excavate)
@@ -222,10 +269,11 @@ class RunCheck : public CaseCheck
     {
         const auto has = [&](const std::vector<std::string>& all)
         { return std::find(all.begin(), all.end(), quantity) != all.end(); };
-        return has(block_quantities()) ? "block"
-                                       : (has(bolt_quantities())    ? "bolt"
-                                          : has(liner_quantities()) ? "liner"
-                                                                    : "between, the contacts of two blocks");
+        if (has(block_quantities()))
+            return "block";
+        if (has(point_quantities()))
+            return "point, a place";
+        return has(bolt_quantities()) ? "bolt" : (has(liner_quantities()) ? "liner" : "between, the contacts of two blocks");
     }
 
     void check_history(const HistoryDef& history, const std::string& path)
@@ -234,15 +282,17 @@ class RunCheck : public CaseCheck
         const bool block = given(path + ".block");
         const bool between = given(path + ".between");
         const bool bolt = given(path + ".bolt");
-        exclude(path, object, "block", "between");
-        exclude(path, object, "block", "bolt");
-        exclude(path, object, "between", "bolt");
         const bool liner = given(path + ".liner");
-        for (const char* other : {"block", "between", "bolt"})
-            exclude(path, object, other, "liner");
-        if (!block && !between && !bolt && !liner && !problems_.has(path + ".block") && !problems_.has(path + ".between"))
-            problems_.add(path, object, "block, between", "none is given",
-                          "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], bolt = \"NAME\", or liner = \"NAME\".");
+        const bool point = given(path + ".point");
+        const char* const owners[] = {"block", "between", "bolt", "liner", "point"};
+        for (std::size_t k = 0; k < std::size(owners); ++k)
+            for (std::size_t j = 0; j < k; ++j)
+                exclude(path, object, owners[j], owners[k]);
+        if (!block && !between && !bolt && !liner && !point && !problems_.has(path + ".block") &&
+            !problems_.has(path + ".between") && !problems_.has(path + ".point"))
+            problems_.add(
+                path, object, "block, between, point", "none is given",
+                "Give block = \"NAME\", between = [\"NAME\", \"NAME\"], bolt = \"NAME\", liner = \"NAME\" or point = [x, y].");
         if (block && !problems_.has(path + ".block"))
             check_block_reference(path + ".block", object, history.block);
         if (between && !problems_.has(path + ".between") &&
@@ -253,11 +303,12 @@ class RunCheck : public CaseCheck
 
         if (given(path + ".quantities") && history.quantities.empty())
             problems_.add(path + ".quantities", object, "quantities = []", "names nothing to sample", "Name at least one.");
-        const auto& fitting = block ? block_quantities()
-                                    : (bolt ? bolt_quantities() : (liner ? liner_quantities() : contact_quantities()));
+        const auto& fitting = fitting_quantities(history);
+        if (point && !def_.water.given)
+            problems_.warn(path + ".point", object, "point", "there is no water: the pressure is 0 everywhere", "Add [water].");
         Names seen;
         for (const std::string& quantity : history.quantities)
-            if (block + between + bolt + liner == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
+            if (block + between + bolt + liner + point == 1 && std::find(fitting.begin(), fitting.end(), quantity) == fitting.end())
                 problems_.add(path + ".quantities", object, fmt::format("quantities = \"{}\"", quantity),
                               fmt::format("belongs to {}", owner_of(quantity)), "Choose from " + quoted_list(fitting) + ".");
             else if (!seen.insert(quantity).second)

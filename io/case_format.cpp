@@ -2,6 +2,7 @@
 
 #include "io/case_problems.h"
 #include "io/case_schema.h"
+#include "io/stage_end_text.h"
 
 #include <fmt/format.h>
 
@@ -264,6 +265,8 @@ std::string type_column(const KeySpec& key)
     case ValueType::polygon:
     case ValueType::line:
         return "list of [x, y]";
+    case ValueType::text_or_texts:
+        return "text or list of texts";
     case ValueType::boolean_or_texts:
         return "true, false or list";
     case ValueType::number_or_text:
@@ -318,6 +321,6 @@ std::string case_format_markdown()
                        "```\n\n## All keys\n\nEquations are those of the publication that README.md cites.\n\n";
     for (const SectionSpec& section : case_schema())
         page += section_page(section);
-    return page + std::string(semantics);
+    return page + std::string(stage_end_page()) + std::string(semantics);
 }
 }  // namespace hdem

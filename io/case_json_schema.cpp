@@ -76,6 +76,8 @@ Json value_schema(const KeySpec& key)
         schema["minItems"] = key.type == ValueType::line ? 2 : 3;
         return schema;
     }
+    case ValueType::text_or_texts:
+        return {{"anyOf", Json::array({text_schema(key), list_of(text_schema(key))})}};
     case ValueType::boolean_or_texts:
         return {{"anyOf", Json::array({Json{{"type", "boolean"}}, list_of(text_schema(key))})}};
     case ValueType::number_or_text:

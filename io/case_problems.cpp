@@ -216,6 +216,8 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
         return check_points(key, value, 3, "vertices, a polygon");
     case ValueType::line:
         return check_points(key, value, 2, "points, a line");
+    case ValueType::text_or_texts:
+        return value.text() != nullptr ? check_text(key, value) : check_items(key, value, check_item_text);
     case ValueType::boolean_or_texts:
         return value.boolean() != nullptr ? Complaints{} : check_items(key, value, check_item_text);
     case ValueType::number_or_text:
@@ -258,6 +260,8 @@ std::string describe_type(const KeySpec& key)
     case ValueType::polygon:
     case ValueType::line:
         return "a list of points [x, y]" + in;
+    case ValueType::text_or_texts:
+        return "text in quotes or a list of texts";
     case ValueType::boolean_or_texts:
         return "true, false or a list from " + choices;
     case ValueType::number_or_text:

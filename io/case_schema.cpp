@@ -29,6 +29,11 @@ const std::vector<std::string>& liner_quantities()
     return liner_history_quantities();
 }
 
+const std::vector<std::string>& point_quantities()
+{
+    return point_history_quantities();
+}
+
 const std::vector<SectionSpec>& case_schema()
 {
     static const std::vector<SectionSpec> all = {

@@ -28,6 +28,7 @@ enum class ValueType
     stress,            ///< [xx, yy, xy]
     polygon,           ///< [[x, y], [x, y], [x, y], ...]
     line,              ///< [[x, y], [x, y], ...], not closed
+    text_or_texts,     ///< a text or a list of texts
     boolean_or_texts,  ///< true, false or a list of choices
     number_or_text,    ///< a number or one of the choices
     pair_or_text       ///< two numbers or one of the choices
@@ -101,4 +102,5 @@ const std::vector<std::string>& block_quantities();
 const std::vector<std::string>& contact_quantities();
 const std::vector<std::string>& bolt_quantities();
 const std::vector<std::string>& liner_quantities();
+const std::vector<std::string>& point_quantities();
 }  // namespace hdem

@@ -1,5 +1,6 @@
 #include "io/case_fields.h"
 #include "io/case_sections.h"
+#include "io/stage_end_text.h"
 
 namespace hdem
 {
@@ -74,22 +75,23 @@ SectionSpec convergence_section()
 
 SectionSpec stage_section()
 {
-    KeySpec until = spec({.name = "until",
-                          .effect = "`\"converged\"`: run until [convergence] holds, at most max_cycles. Under the default damping "
-                                    "the step is then as long as what moves, or is "
-                                    "about to touch, can bear (where time.step is given: only while standing rock is slow), and "
-                                    "blocks at rest are left "
-                                    "out until what they carry changes.",
-                          .example = "\"converged\"",
-                          .choices = {"converged"},
-                          .default_note = "cycles or duration is given instead"},
-                         ValueType::text);
+    KeySpec until = spec(
+        {.name = "until",
+         .effect = "One end or a list of ends; the first that is met ends the stage, after max_cycles at the latest. "
+                   "`\"converged\"`: [convergence] holds. Under the default damping "
+                   "the step is then as long as what moves, or is "
+                   "about to touch, can bear (where time.step is given: only while standing rock is slow), and "
+                   "blocks at rest are left "
+                   "out until what they carry changes. Others: [ends of a stage](#ends-of-a-stage).",
+         .example = "[\"converged\", \"displacement:block1 > 0.1\"]",
+         .default_note = "cycles or duration is given instead"},
+        ValueType::text_or_texts);
     return {
         "stage",
         SectionKind::array,
         "stage",
         "What happens, one stage after another in the order of the file. At its start a stage first removes, then fixes, then "
-        "frees blocks. It ends after `cycles`, after `duration`, or when converged: give exactly one.",
+        "frees blocks. It ends after `cycles`, after `duration`, or by `until`: give exactly one.",
         {field<&StageDef::name>(
              {.name = "name", .effect = "For the screen and the histories.", .default_note = "\"stage1\", \"stage2\", ..."}),
          field<&StageDef::cycles>({.name = "cycles",
@@ -104,7 +106,21 @@ SectionSpec stage_section()
                                      .range = {.low = 0, .high = 1e12, .low_included = false},
                                      .default_note = "cycles or until is given instead"}),
          with_assign(std::move(until),
-                     [](void* object, const TomlNode&, const KeySpec&) { static_cast<StageDef*>(object)->until_converged = true; }),
+                     [](void* object, const TomlNode& value, const KeySpec&)
+                     {
+                         auto& stage = *static_cast<StageDef*>(object);
+                         const auto add = [&](const std::string& text)
+                         {
+                             if (text == "converged")
+                                 stage.until_converged = true;
+                             else
+                                 stage.ends.push_back(read_stage_end(text).end);
+                         };
+                         if (value.text() != nullptr)
+                             return add(*value.text());
+                         for (const TomlNode& item : *value.items())
+                             add(*item.text());
+                     }),
          field<&StageDef::max_cycles>({.name = "max_cycles",
                                        .effect = "With until: give up after this many; the program then ends with exit code 4.",
                                        .range = count}),
@@ -187,20 +203,21 @@ SectionSpec history_section()
 {
     std::vector<std::string> quantities = block_quantities();
     quantities.insert(quantities.end(), contact_quantities().begin(), contact_quantities().end());
+    quantities.insert(quantities.end(), point_quantities().begin(), point_quantities().end());
     quantities.insert(quantities.end(), bolt_quantities().begin(), bolt_quantities().end());
     quantities.insert(quantities.end(), liner_quantities().begin(), liner_quantities().end());
     return {"history",
             SectionKind::array,
             "history",
-            "Quantities of one block (`block`), of the contacts between two (`between`) of a bolt (`bolt`) or of a liner "
-            "(`liner`), sampled into "
+            "Quantities of one block (`block`), of the contacts between two (`between`), of a bolt (`bolt`), of a liner "
+            "(`liner`) or at a place (`point`), sampled into "
             "results.h5.",
             {field<&HistoryDef::name>(
                  {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
              field<&HistoryDef::block>({.name = "block",
                                         .effect = "Name of the block.",
                                         .example = "\"block1\"",
-                                        .default_note = "between is given instead"}),
+                                        .default_note = "between or point is given instead"}),
              field<&HistoryDef::between>({.name = "between",
                                           .effect = "Names of the two blocks; forces act on the second.",
                                           .example = "[\"ground\", \"block1\"]",
@@ -213,13 +230,20 @@ SectionSpec history_section()
                                         .effect = "Name of the liner.",
                                         .example = "\"shotcrete\"",
                                         .default_note = "block, between or bolt is given instead"}),
+             field<&HistoryDef::point>({.name = "point",
+                                        .unit = "m",
+                                        .effect = "A place that does not move with the rock.",
+                                        .example = "[10.0, 4.0]",
+                                        .range = coordinate,
+                                        .default_note = "block or between is given instead"}),
              field<&HistoryDef::quantities>(
                  {.name = "quantities",
                   .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
                             "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
                             "4 ruptured, 5 lost). From `thrust` on they belong to `liner`: the greatest anywhere in it; nodes with "
                             "a hinge; "
-                            "length that has come off the rock. "
+                            "length that has come off the rock. `pore_pressure` (of the water in joints, from table, field or "
+                            "cracks) belongs to `point`. "
                             "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
                             "contacts, by their length; 0 where a joint has no memory.",
                   .example = "[\"velocity\"]",

@@ -119,7 +119,13 @@ void exchange_run(Archive& archive, State& state)
     archive.template value<std::uint8_t>("/state", "statics_due", state.statics_due);
     archive.template value<std::uint8_t>("/state", "statics_taken", state.statics_taken);
     archive.template rows<std::int64_t>("/state/stages_done", any_extent, state.stages_done,
-                                        [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest); });
+                                        [](StageOutcome& s) { return std::tie(s.cycles, s.at_rest, s.ended_by); });
+    archive.template rows<double>("/state/stages_ended", state.stages_done.size(), state.stages_done,
+                                  [](StageOutcome& s) { return std::tie(s.value, s.time); });
+    archive.template rows<std::int64_t>("/state/ends", any_extent, state.ends,
+                                        [](EndWatch& w) { return std::tie(w.since_cycle, w.joints); });
+    archive.template rows<double>("/state/ends_values", state.ends.size(), state.ends,
+                                  [](EndWatch& w) { return std::tie(w.since_time, w.low, w.high, w.axis_x, w.axis_y); });
     const auto block_of_stage = [](StageBlock& b) { return std::tie(b.stage, b.block); };
     archive.template rows<std::int32_t>("/state/not_at_rest", any_extent, state.not_at_rest, block_of_stage);
     archive.template rows<std::int32_t>("/state/statics", any_extent, state.statics,

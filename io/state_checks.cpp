@@ -54,6 +54,20 @@ std::optional<Damage> damage_of_stages(const Model& model, const State& state)
             return Damage{"/state/statics", "not static solutions of stages, ascending"};
         last = s.stage;
     }
+    if (state.ends.size() != model.stages[static_cast<std::size_t>(state.stage)].ends.size())
+        return Damage{"/state/ends", "not the ends of the stage"};
+    const auto is_watch = [&](const EndWatch& w)
+    {
+        return w.since_cycle <= state.cycle && w.since_time <= state.time && std::isfinite(w.low) && std::isfinite(w.high) &&
+               std::isfinite(w.axis_x) && std::isfinite(w.axis_y);
+    };
+    if (!std::ranges::all_of(state.ends, is_watch))
+        return Damage{"/state/ends", "not what a look leaves behind"};
+    for (std::size_t i = 0; i < state.stages_done.size(); ++i)
+        if (const StageOutcome& s = state.stages_done[i]; s.ended_by < ended_by::nothing_more ||
+                                                          s.ended_by >= static_cast<std::int64_t>(model.stages[i].ends.size()) ||
+                                                          !std::isfinite(s.value) || !(s.time >= 0.0 && s.time <= state.time))
+            return Damage{"/state/stages_done", "not ends of stages"};
     return std::nullopt;
 }
 

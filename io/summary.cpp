@@ -148,6 +148,10 @@ std::string summary_text(const RunSummary& s)
                           {"cycles", stage.cycles},
                           {"until_converged", stage.sought_rest},
                           {"converged", stage.at_rest},
+                          {"ended_by", stage.ended_by},
+                          {"end_value", stage.end_value ? Json(*stage.end_value) : Json()},
+                          {"end_time", stage.end_time},
+                          {"to_come", stage.to_come},
                           {"not_at_rest", stage.not_at_rest},
                           {"static_solution", statics_json(stage.statics)}});
     Json bolts = Json::array();

@@ -22,6 +22,12 @@ struct StageSummary
     std::vector<std::string> not_at_rest;  ///< names of blocks that were not supported when it ended without rest
     double wall_seconds = 0.0;             ///< since the start or restart [s]
     std::optional<StaticResult> statics;   ///< key static_solution
+    bool sought_end = false;               ///< it was to end by another end that the case gives
+    bool met_end = true;                   ///< it has come to an end that the case gives
+    std::string ended_by;  ///< "cycles", "duration", "max_cycles", "converged", "at rest", or the end as the case says it
+    std::optional<double> end_value;   ///< of the quantity of this end
+    double end_time = 0.0;             ///< of the run [s]
+    std::vector<std::string> to_come;  ///< what still changed when it ended
 };
 
 /// Wall time of one stage of the cycles, over the threads.

@@ -280,6 +280,8 @@ void Simulation::begin_stage(Index stage)
     state_.stage_begin_cycle = state_.cycle;
     change_properties();
     state_.quiet_since = -1.0;
+    state_.ends.assign(def.ends.size(), {});
+    ends_.reset();
     state_.is_calm = false;
     state_.flies_ahead = false;
     state_.rest_changed = true;  // who was left out takes part again
@@ -363,9 +365,16 @@ void Simulation::hold_lost_blocks()
         renew_contacts();
 }
 
-void Simulation::note_outcome(bool at_rest, const std::vector<Index>& not_at_rest)
+std::optional<EndMet> Simulation::look_at_ends(bool is_settled)
 {
-    state_.stages_done.push_back({.cycles = state_.cycle - state_.stage_begin_cycle, .at_rest = at_rest});
+    if (!ends_)
+        ends_.emplace(model_, state_.stage);
+    return ends_->look(model_, state_, is_settled);
+}
+
+void Simulation::note_outcome(const StageOutcome& outcome, const std::vector<Index>& not_at_rest)
+{
+    state_.stages_done.push_back(outcome);
     for (const Index block : not_at_rest)
         state_.not_at_rest.push_back({.stage = state_.stage, .block = block});
 }

@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
+#include "core/stage/stage_ends.h"
 #include "parallel/cycle.h"
 #include "parallel/static_solver.h"
 
@@ -52,8 +53,11 @@ class Simulation
     void finish_by_statics();
     /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.
     [[nodiscard]] const std::optional<StaticOutcome>& statics() const { return statics_; }
+    /// The end of the present stage that is met now, of those that its case gives. Each look is remembered.
+    /// @param is_settled  ends that rock comes to when it settles count
+    [[nodiscard]] std::optional<EndMet> look_at_ends(bool is_settled);
     /// How the present stage ended, and the user's numbers of blocks that were not at rest, ascending; before the next one begins.
-    void note_outcome(bool at_rest, const std::vector<Index>& not_at_rest);
+    void note_outcome(const StageOutcome& outcome, const std::vector<Index>& not_at_rest);
 
     /// Throws RunError in the cycle in which springs begin to act that are too stiff for the step.
     void advance(std::int64_t cycles);
@@ -90,7 +94,8 @@ class Simulation
 
     Model model_;
     State state_;
-    StageLaws joints_before_;  ///< the running stage
+    StageLaws joints_before_;        ///< the running stage
+    std::optional<StageEnds> ends_;  ///< of the running stage, once they have been looked at
     CycleRunner runner_;
     int threads_ = 1;
     std::optional<StaticOutcome> statics_;

@@ -79,25 +79,31 @@ class StageRunner
         def_ = &simulation_.model().stages[state.stage];
         begin_ = state.stage_begin_cycle;
         end_ = last_cycle(*def_, begin_, simulation_.model().time_step);
-        StageResult result{.name = def_->name, .first_cycle = begin_, .sought_rest = ends_at_rest(*def_)};
+        StageResult result{
+            .name = def_->name, .first_cycle = begin_, .sought_rest = ends_at_rest(*def_), .sought_end = !def_->ends.empty()};
         result.statics = static_result(simulation_.model(), state, state.stage);
-        result.at_rest = is_at_rest();
-        while (state.cycle < end_ && !result.at_rest && !broken_off_)
+        End end = find_end();
+        while (state.cycle < end_ && !end.is_met && !broken_off_)
         {
             if (!state.statics_due)  // else the run was broken off below
-                result.at_rest = advance();
-            if (!result.at_rest && state.cycle % finish_every == 0)
+                end = advance();
+            if (!end.is_met && state.cycle % finish_every == 0)
                 simulation_.finish_by_statics();
-            show(simulation_, observers_, state.cycle == end_ || result.at_rest);
+            show(simulation_, observers_, state.cycle == end_ || end.is_met);
             broken_off_ = keeper_ != nullptr && !keeper_->keep(simulation_);
         }
+        result.ended_by = end.by;
+        result.value = end.value;
+        result.at_rest = end.by == ended_by::rest || end.by == ended_by::nothing_more;
         result.cycles = state.cycle - begin_;
+        result.time = state.time;
         result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (broken_off_)
             return result;
+        result.to_come = changes_to_come(simulation_.model(), state);
         if (result.cycles >= least_cycles_checked || def_ == &simulation_.model().stages.back())
             simulation_.check_state();
-        if (result.sought_rest && !result.at_rest)
+        if (result.sought_rest && !result.met_end())
             result.not_at_rest = moving_blocks();
         for (Observer* const observer : observers_)
             observer->end_stage(simulation_.model(), state);
@@ -118,8 +124,15 @@ class StageRunner
     }
 
   private:
-    /// To the next cycle that somebody wants to see. Is the rock at rest there?
-    bool advance()
+    struct End
+    {
+        bool is_met = false;
+        std::int64_t by = ended_by::limit;
+        double value = 0.0;
+    };
+
+    /// To the next cycle that somebody wants to see. Does the stage end there?
+    End advance()
     {
         const State& state = simulation_.state();
         const std::int64_t now = state.cycle;
@@ -130,17 +143,35 @@ class StageRunner
             simulation_.check_state();
         if (ends_at_rest(*def_) && (looks || state.cycle == end_))
             simulation_.hold_lost_blocks();
-        return is_at_rest();
+        return find_end();
     }
 
-    /// Looks at the rock if this is a cycle for it. The criterion every_block must have held for some time.
-    bool is_at_rest()
+    /// Looks at the rock if this is a cycle for it. What a case asks for comes before rest.
+    End find_end()
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
         const std::int64_t cycle = simulation_.state().cycle;
-        if (!ends_at_rest(*def_) || cycle == begin_ || cycle % criteria.check_every != 0 || is_load_to_change())
-            return false;
-        return simulation_.check_rest() && cycle - begin_ >= criteria.least_cycles;
+        if ((!ends_at_rest(*def_) && def_->ends.empty()) || cycle == begin_ || cycle % criteria.check_every != 0)
+            return {};
+        const bool is_steady = !is_load_to_change();
+        const bool is_late = cycle - begin_ >= criteria.least_cycles;
+        if (!def_->ends.empty())
+            if (const auto met = simulation_.look_at_ends(is_steady && is_late))
+                return {true, met->end, met->value};
+        // The criterion every_block must have held for some time: each check is remembered.
+        const bool rests = is_steady && (ends_at_rest(*def_) || waits_for_motion()) && simulation_.check_rest();
+        if (!rests || !is_late)
+            return {};
+        return {true, ends_at_rest(*def_) ? ended_by::rest : ended_by::nothing_more};
+    }
+
+    /// Do all ends of the stage need something to move that forces move? Then rest is an end too: nothing can happen any more.
+    [[nodiscard]] bool waits_for_motion() const
+    {
+        const Model& model = simulation_.model();
+        const auto needs_motion = [](const StageEndDef& end) { return !end.is_settling() && !end.is_by_clock(); };
+        return std::ranges::all_of(def_->ends, needs_motion) && !model.is_driven && !do_loads_drive(model, simulation_.state()) &&
+               !do_walls_move(model, simulation_.state());
     }
 
     /// Does a load or a side change later in this stage, or do excavated blocks still act? The rock is at rest only after that.
@@ -164,7 +195,7 @@ class StageRunner
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
         std::int64_t next = std::min(end_, next_multiple(now, check_every));
-        if (ends_at_rest(*def_))
+        if (ends_at_rest(*def_) || !def_->ends.empty())
             next = std::min(next, next_multiple(now, criteria.check_every));
         for (const Observer* const observer : observers_)
             next = std::min(next, observer->next_cycle(now));
@@ -186,21 +217,41 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
 {
     std::vector<StageResult> results;
     std::int64_t begin = 0;
+    State then;  // as the stage ended, as far as cycles and stages go
+    then.stage_begun = true;
     for (std::size_t i = 0; i < state.stages_done.size(); ++i)
     {
         const StageOutcome& outcome = state.stages_done[i];
         const auto stage = static_cast<Index>(i);
         const StageDef& def = model.stages[i];
+        then.stage = stage;
+        then.stage_begin_cycle = begin;
+        then.cycle = begin + outcome.cycles;
         results.push_back({.name = def.name,
                            .first_cycle = begin,
                            .cycles = outcome.cycles,
                            .sought_rest = ends_at_rest(def),
+                           .sought_end = !def.ends.empty(),
                            .at_rest = outcome.at_rest,
+                           .ended_by = outcome.ended_by,
+                           .value = outcome.value,
+                           .time = outcome.time,
+                           .to_come = changes_to_come(model, then),
                            .not_at_rest = blocks_of_stage(state.not_at_rest, stage),
                            .statics = static_result(model, state, stage)});
         begin += outcome.cycles;
+        then.stages_done.push_back(outcome);
     }
     return results;
+}
+
+StageOutcome outcome_of(const StageResult& result)
+{
+    return {.cycles = result.cycles,
+            .at_rest = result.at_rest,
+            .ended_by = result.ended_by,
+            .value = result.value,
+            .time = result.time};
 }
 }  // namespace
 
@@ -234,7 +285,7 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
             results.push_back(runner.leave());
         }
         if (i + 1 < stages && !runner.broken_off())
-            simulation.note_outcome(results.back().at_rest, results.back().not_at_rest);
+            simulation.note_outcome(outcome_of(results.back()), results.back().not_at_rest);
     }
     return results;
 }

@@ -34,7 +34,14 @@ struct StageResult
     std::int64_t first_cycle = 0;
     std::int64_t cycles = 0;
     bool sought_rest = false;  ///< it was to end when the rock is at rest
+    bool sought_end = false;   ///< or by another end that the case gives
     bool at_rest = false;
+    std::int64_t ended_by = ended_by::limit;  ///< which end was met
+    double value = 0.0;                       ///< of the quantity of this end
+    double time = 0.0;                        ///< of the run, at its end [s]
+    std::vector<std::string> to_come;         ///< what still changed when it ended
+    /// Has it come to an end that its case gives?
+    [[nodiscard]] bool met_end() const { return (!sought_rest && !sought_end) || ended_by != ended_by::limit; }
     std::vector<Index> not_at_rest;  ///< blocks not supported when the stage ended without rest: the user's numbers, ascending
     double wall_seconds = 0.0;       ///< since the start or restart, with what is done when it begins
     std::optional<StaticResult> statics;

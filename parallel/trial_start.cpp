@@ -1,4 +1,5 @@
 #include "core/stage/rules.h"
+#include "core/state/stage_cycles.h"
 #include "parallel/strength_trial.h"
 
 #include <algorithm>
@@ -12,15 +13,34 @@ namespace
 constexpr std::int64_t check_state_every = 1000;
 constexpr std::int64_t most_cycles_of_elastic_state = 1'000'000;
 
-/// Loads that act now go on, others are over.
-void hold_loads(std::vector<Load>& loads, std::int64_t cycle)
+/// The value that it has in this state, for ever.
+void hold_factor(Factor& factor, double time_step, const State& state)
 {
-    std::erase_if(loads, [&](const Load& load) { return !(load.from <= cycle && cycle < load.until); });
-    for (Load& load : loads)
+    if (!factor.varies())
+        return;
+    const double value = factor.at(cycles_since(factor.since, state), time_step);
+    factor = {.rows = {{0.0, value}}};
+}
+
+/// Loads and sides that act in this state go on as they are in it, other loads are over. Trials begin the stage anew: what is counted from its
+/// start would begin anew with it.
+void hold_loads(Model& model, const State& state)
+{
+    std::erase_if(model.loads,
+                  [&](const Load& load)
+                  {
+                      const std::int64_t since = cycles_since(load.factor.since, state);
+                      return since < 0 || !(load.from <= since && since < load.until);
+                  });
+    for (Load& load : model.loads)
     {
         load.from = always_from;
         load.until = always_until;
+        load.interval = {};
+        hold_factor(load.factor, model.time_step, state);
     }
+    for (Boundary& boundary : model.boundaries)
+        hold_factor(boundary.factor, model.time_step, state);
 }
 
 /// Laws in force in the state's stage.
@@ -69,7 +89,7 @@ Model trial_model(const Moment& start, const StrengthReduction& reduction)
     Model model = start.model;
     const Index stage = start.state.stage;
     set_rules(model, stage);
-    hold_loads(model.loads, start.state.cycle);
+    hold_loads(model, start.state);
     JointTable table = model.joints;
     const StageLaws laws = present_laws(model, stage);
     table.laws = laws.laws;
@@ -134,7 +154,7 @@ Moment elastic_stage(const Moment& before, const State& last, int threads)
     model.stages[stage].fix = changes.fix;
     model.stages[stage].free = changes.free;
     model.stages[stage].relax_cycles = changes.relax_cycles;
-    hold_loads(model.loads, last.cycle);
+    hold_loads(model, last);
     JointTable table = model.joints;
     const StageLaws laws = present_laws(model, stage);
     table.laws = laws.laws;

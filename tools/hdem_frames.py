@@ -85,6 +85,7 @@ def read_blocks(file):
         blocks["outline"] = _positions(opened, "hdem/outline_segments", (ANY, 2, 2))
         blocks["outline_excavation"] = opened.array("hdem/outline_excavation", "i4", (len(blocks["outline"]),))
         _indices(opened, "hdem/outline_excavation", blocks["outline_excavation"], -1, len(excavation_names))
+        blocks["water_table"] = _positions(opened, "hdem/water_table", (ANY, 2)) if opened.has("hdem/water_table") else np.empty((0, 2))
         blocks["info"] = _head(opened, {"detached_distance": "f8"})
         outer = opened.array("hdem/outer_edge", "u1", (len(points),)).astype(bool)
         blocks |= _shapes(opened, points, offsets, outer, np.searchsorted(blocks["id"], ids), count)

@@ -25,7 +25,7 @@ from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E
 from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
 from plot_factor import draw_factor    # noqa: E402
 from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
-from plot_rock import JOINTS, draw_crosses, draw_joints    # noqa: E402
+from plot_rock import JOINTS, draw_crosses, draw_joints, draw_water_table    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
@@ -64,6 +64,7 @@ def parse(arguments):
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
     parser.add_argument("--bolts", action="store_true", help="draw the bolts of the last frame, coloured by their axial force")
     parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings at the end of the run with this along them")
+    parser.add_argument("--numbers", action="store_true", help="with --joints: write values beside them, the greatest of each part of the picture")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
     parser.add_argument("--factor", action="store_true", help="draw displacement against the factor of the trials of hdem fos instead")
@@ -73,6 +74,8 @@ def parse(arguments):
     options = parser.parse_args(arguments)
     if options.factor and (options.history or options.result.suffix == ".hdf"):
         parser.error("argument --factor: needs the folder of hdem fos, and no --history")
+    if options.numbers and not options.joints:
+        parser.error("argument --numbers: needs --joints")
     if options.frame != "last" and not options.frame.isdigit():
         parser.error("argument --frame: a number, or last")
     for name, low in (("width", 20.0), ("dpi", 10.0)):
@@ -120,7 +123,7 @@ def draw_field(axes, blocks, options):
         return []
     axes.add_collection(PolyCollection(pick(blocks["part_polygon"], hatched, blocks), facecolors=FALLEN, edgecolors=ORANGE, linewidths=0.0, hatch="//////"))
     distance = 1e3 * blocks["info"]["detached_distance"]
-    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:g} mm ({np.count_nonzero(hatched)} blocks)")]
+    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:.4g} mm ({np.count_nonzero(hatched)} blocks)")]
 
 
 def draw_classes(axes, blocks, options):
@@ -247,7 +250,7 @@ def draw_frame(run, options):
     contacts = run.contacts(options.frame) if over else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
-    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners))
+    rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners)) + int(len(blocks["water_table"]) > 0)
     figure, axes = figure_for(view, options, field, rows)
     handles = draw_field(axes, blocks, options) if field else draw_classes(axes, blocks, options)
     line = float(np.clip(14.0 / math.sqrt(max(visible(blocks, view), 1)), 0.04, 0.6))
@@ -257,13 +260,14 @@ def draw_frame(run, options):
     if options.contacts:
         handles += draw_contacts(axes, blocks, contacts, options.width)
     if options.joints:
-        handles += draw_joints(axes, contacts, options.joints, options.width)
+        handles += draw_joints(axes, contacts, options.joints, options.width, view, options.numbers)
     if options.bolts:
         handles += draw_bolts(axes, options)
     if options.liners:
         handles += draw_liners(axes, options, view)
     if options.crosses:
         handles += draw_crosses(axes, blocks, view)
+    handles += draw_water_table(axes, blocks)
     axes.set_xlim(view[0], view[2])
     axes.set_ylim(view[1], view[3])
     axes.set_aspect("equal")

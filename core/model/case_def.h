@@ -4,6 +4,7 @@
 /// users, in io/case_schema (which writes io/case_format.md).
 
 #include "core/joint/user_law.h"
+#include "core/model/stage_end.h"
 #include "core/model/trace_cells.h"
 #include "core/types.h"
 
@@ -471,6 +472,7 @@ struct StageDef
     std::optional<std::int64_t> cycles;  ///< run this many
     std::optional<double> duration;      ///< or this long [s]
     bool until_converged = false;        ///< or until converged, at most max_cycles
+    std::vector<StageEndDef> ends;       ///< or until one of these; the first that is met ends the stage
     std::int64_t max_cycles = 1'000'000;
     RestSolver solver = RestSolver::dynamics;
     std::int64_t relax_cycles = 0;         ///< over which the forces of excavated blocks are taken off; 0: at once
@@ -513,6 +515,7 @@ struct HistoryDef
 {
     std::string name;
     std::string block;  ///< block quantities: displacement, position, velocity, rotation, angular_velocity, force, kinetic_energy
+    std::optional<Vec2> point;  ///< or a place: pore_pressure [m]
     std::vector<std::string>
         between;  ///< or contact quantities between two named blocks: normal_force, shear_force, overlap, shear_displacement, contact_length, impulse_points
     std::string bolt;   ///< or quantities of a bolt: axial_force, across_force, greatest_force, elongation

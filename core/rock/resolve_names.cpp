@@ -148,6 +148,9 @@ class Resolver
             find(name, key + ".fix");
         for (const std::string& name : stage.free)
             find(name, key + ".free");
+        for (const StageEndDef& end : stage.ends)
+            for (const std::string& name : end.blocks)
+                find(name, key + ".until");
     }
 
     void check_history(const HistoryDef& history, const std::string& key)

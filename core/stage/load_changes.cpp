@@ -117,6 +117,49 @@ bool are_times_to_come(const Model& model, const State& state)
            std::ranges::any_of(model.boundaries, [&](const Boundary& boundary) { return has_rows_to_come(boundary.factor); });
 }
 
+std::vector<std::string> changes_to_come(const Model& model, const State& state)
+{
+    std::vector<std::string> found;
+    const auto stage = static_cast<std::size_t>(state.stage);
+    const StageDef& def = model.stages[stage];
+    const bool is_last = stage + 1 == model.stages.size();
+    const auto add = [&](const std::string& what, std::int64_t until)
+    {
+        if (until > state.cycle)
+            found.push_back(what + " until cycle " + std::to_string(until));
+    };
+    const auto add_factor = [&](const std::string& what, const Factor& factor)
+    {
+        if (!factor.varies())
+            return;
+        if (cycles_since(factor.since, state) >= 0)
+            add(what + " changes", later(zero_of(factor, state), factor.last_cycle(model.time_step)));
+        else if (is_last)
+            found.push_back(what + " waits for a stage that has not begun");
+    };
+    for (std::size_t i = 0; i < model.loads.size(); ++i)
+    {
+        const Load& load = model.loads[i];
+        const std::string name = "load " + std::to_string(i + 1);
+        if (const std::int64_t since = cycles_since(load.factor.since, state); load.from < load.until && since >= load.until)
+            continue;
+        else if (since >= 0 && since < load.from)
+        {
+            if (is_last)
+                found.push_back(name + " begins in cycle " + std::to_string(later(zero_of(load.factor, state), load.from)));
+        }
+        else
+            add_factor(name, load.factor);
+    }
+    for (const Boundary& boundary : model.boundaries)
+        if (boundary.acts(state.stage))
+            add_factor("boundary \"" + boundary.name + "\"", boundary.factor);
+    if (stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty())
+        add("set_cycles: joints change", state.stage_begin_cycle + def.set_cycles);
+    add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);
+    return found;
+}
+
 bool do_tractions_change(const Model& model, const State& state)
 {
     Changes changes(model, state);

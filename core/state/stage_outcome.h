@@ -7,11 +7,34 @@
 
 namespace hdem
 {
+/// What ended a stage: the number of one of StageDef::ends, or one of these.
+namespace ended_by
+{
+inline constexpr std::int64_t limit = -1;         ///< its cycles, duration or max_cycles were over
+inline constexpr std::int64_t rest = -2;          ///< it had converged
+inline constexpr std::int64_t nothing_more = -3;  ///< at rest before the end it waited for: nothing can happen any more
+}  // namespace ended_by
+
 /// How a stage ended.
 struct StageOutcome
 {
     std::int64_t cycles = 0;
     bool at_rest = false;
+    std::int64_t ended_by = ended_by::limit;
+    double value = 0.0;  ///< of the quantity of the end that was met
+    double time = 0.0;   ///< of the run, at the end [s]
+};
+
+/// What is remembered of an end of the running stage from one look to the next.
+struct EndWatch
+{
+    std::int64_t since_cycle = -1;  ///< it has held since then; < 0: it does not
+    double since_time = 0.0;        ///< likewise [s]
+    double low = 0.0;               ///< of all values since then
+    double high = 0.0;
+    double axis_x = 0.0;  ///< of a history between two blocks [-]
+    double axis_y = 0.0;
+    std::int64_t joints = 0;  ///< digest of which joints are open, closed and broken
 };
 
 /// A block that a stage names.

@@ -41,6 +41,7 @@ struct State
     Index stage = 0;                        ///< running, or next to begin
     bool stage_begun = false;               ///< `stage` runs, or has just come to its end
     std::vector<StageOutcome> stages_done;  ///< one for each stage before `stage`
+    std::vector<EndWatch> ends;             ///< one for each end of the running stage
     std::vector<StageBlock> not_at_rest;    ///< blocks not supported when one of these stages ended without rest, ascending
     std::vector<StaticSolution> statics;    ///< found when a stage began, the running one included; ascending by stage
     std::vector<StageBlock> came_loose;     ///< blocks that came away in these solutions, ascending

@@ -163,6 +163,13 @@ std::vector<double> bends(const Water& water, const Pressure& pressure, const Fa
 }
 }  // namespace
 
+double pressure_at(const Water& water, Index stage, const Vec2& at)
+{
+    const Pressure pressure(water, stage);
+    const auto on_crack = pressure.on_crack(at, at);
+    return std::max(on_crack ? on_crack->front() : pressure.at(at), 0.0);
+}
+
 PressureSum pressure_along(const Water& water, Index stage, const FaceStretch& face)
 {
     PressureSum sum;

@@ -36,6 +36,9 @@ struct FaceStretch
     return pressure_along(water, stage, FaceStretch{.from = from, .to = to, .drawn_from = from, .drawn_to = to});
 }
 
+/// Pressure of the water in a joint at a place [Pa], local coordinates; where blocks are drawn for the line of a crack.
+[[nodiscard]] double pressure_at(const Water& water, Index stage, const Vec2& at);
+
 /// Triangles of the field, by Delaunay. @return false where all points lie on a line
 [[nodiscard]] bool make_triangles(PressureField& field);
 }  // namespace hdem

@@ -117,6 +117,14 @@ class DryOpenings
     std::vector<Index> parts_;
 };
 
+/// Cracks press on a block until it has gone far.
+bool do_cracks_act(const Model& model, const State& state, Index block)
+{
+    const BlockMotion& motion = state.blocks.motion[block];
+    const Vec2 way = Vec2(motion.x, motion.y) - model.water.drawn[model.user_number[block]];
+    return !model.water.cracks.empty() && way.norm() <= cracks_follow * model.size(block);
+}
+
 class WaterForces
 {
   public:
@@ -133,9 +141,7 @@ class WaterForces
         sum_ = {};
         block_ = block;
         drawn_ = model_.water.drawn[model_.user_number[block]];
-        const BlockMotion& motion = state_.blocks.motion[block];
-        cracks_act_ = !model_.water.cracks.empty() &&
-                      (Vec2(motion.x, motion.y) - drawn_).norm() <= cracks_follow * model_.size(block);
+        cracks_act_ = do_cracks_act(model_, state_, block);
         const Shapes& shapes = model_.shapes;
         for (Index part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part)
             for (Index v = shapes.vertex_begin[part]; v < shapes.vertex_begin[part + 1]; ++v)
@@ -259,6 +265,23 @@ std::array<double, 2> water_share(const Model& model, Index stage, Index law, co
         return {0.0, 0.0};
     const PressureSum p = pressure_along(model.water, stage, from, to);
     return {p.force - p.moment / length, p.moment / length};
+}
+
+double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to)
+{
+    if (!model.water.given || model.water.wet_law[state.contacts.law[contact]] == 0)
+        return 0.0;
+    const Index block = state.contacts.ref[contact];
+    const Vec2 drawn = model.water.drawn[model.user_number[block]];
+    const FaceStretch face{.from = from,
+                           .to = to,
+                           .drawn_from = drawn + to_body(state.blocks.motion[block], from),
+                           .drawn_to = drawn + to_body(state.blocks.motion[block], to),
+                           .table_acts = true,
+                           .cracks_act = do_cracks_act(model, state, block)};
+    const double length = (to - from).norm();
+    return length > 0.0 ? pressure_along(model.water, state.stage, face).force / length
+                        : pressure_at(model.water, state.stage, from);
 }
 
 void release_water(const std::vector<Triple>& before, State& state)

@@ -28,6 +28,9 @@ inline constexpr std::int64_t water_every = 500;
 /// @param from, to  the contact's points, local coordinates [m]
 [[nodiscard]] std::array<double, 2> water_share(const Model& model, Index stage, Index law, const Vec2& from, const Vec2& to);
 
+/// Mean pressure of the water in a joint, on the stretch from `from` to `to` on which its blocks face each other [Pa]; local coordinates [m].
+[[nodiscard]] double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to);
+
 /// What the water of the stage before gave, and that of the stage that begins does not: to the forces that the stage takes off over its relax_cycles.
 void release_water(const std::vector<Triple>& before, State& state);
 }  // namespace hdem

@@ -83,6 +83,10 @@ std::string first_of(const std::vector<std::string>& names)
 std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
 {
     std::vector<std::string> warnings;
+    if (!s.stages.empty() && !s.stages.back().to_come.empty())
+        warnings.push_back(
+            fmt::format("the run ended in cycle {}, but {}. Let the last stage last longer, or let these end earlier.", s.cycles,
+                        fmt::join(s.stages.back().to_come, "; ")));
     if (!s.lost_blocks.empty())
         warnings.push_back(
             fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
@@ -94,6 +98,35 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
                         "Give a smaller time.step or time.stable_fraction.",
                         watch.residual, watch.cycle, watch.share));
     return warnings;
+}
+
+/// What ended a stage, in words.
+std::string end_of(const StageResult& stage, const StageDef& def)
+{
+    if (stage.ended_by >= 0)
+        return def.ends[static_cast<std::size_t>(stage.ended_by)].text;
+    if (stage.ended_by == ended_by::rest)
+        return "converged";
+    if (stage.ended_by == ended_by::nothing_more)
+        return "at rest";
+    return def.cycles ? "cycles" : (def.duration ? "duration" : "max_cycles");
+}
+
+StageSummary summary_of(const StageResult& stage, const StageDef& def, const Model& model)
+{
+    return {.name = stage.name,
+            .cycles = stage.cycles,
+            .sought_rest = stage.sought_rest,
+            .at_rest = stage.at_rest,
+            .not_at_rest = names_of(model, stage.not_at_rest),
+            .wall_seconds = stage.wall_seconds,
+            .statics = stage.statics,
+            .sought_end = stage.sought_end,
+            .met_end = stage.met_end(),
+            .ended_by = end_of(stage, def),
+            .end_value = stage.ended_by >= 0 ? std::optional<double>(stage.value) : std::nullopt,
+            .end_time = stage.time,
+            .to_come = stage.to_come};
 }
 
 double peak_megabytes()
@@ -182,17 +215,11 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.smallest_block_mass = smallest_free_mass(model, state);
     s.cycles = state.cycle;
     s.time = state.time;
-    s.converged = std::ranges::all_of(stages, [](const StageResult& stage) { return stage.at_rest || !stage.sought_rest; });
+    s.converged = std::ranges::all_of(stages, &StageResult::met_end);
     if (state.excavation_cycle >= 0)
         s.cycles_after_excavation = state.cycle - state.excavation_cycle;
-    for (const StageResult& stage : stages)
-        s.stages.push_back({.name = stage.name,
-                            .cycles = stage.cycles,
-                            .sought_rest = stage.sought_rest,
-                            .at_rest = stage.at_rest,
-                            .not_at_rest = names_of(model, stage.not_at_rest),
-                            .wall_seconds = stage.wall_seconds,
-                            .statics = stage.statics});
+    for (std::size_t i = 0; i < stages.size(); ++i)
+        s.stages.push_back(summary_of(stages[i], model.stages[i], model));
     s.kinetic_energy = now.kinetic_energy;
     s.kinetic_energy_limit = now.kinetic_energy_at(model.convergence.mean_speed);
     s.unbalanced_force_ratio = now.unbalanced_force_ratio();
@@ -306,15 +333,56 @@ void print_liners(Log& log, const std::vector<LinerSummary>& liners)
         else
             log.line(fmt::format("  {:<16} not installed", l.name));
 }
+
+/// One word for the run.
+std::string outcome_word(const RunSummary& s)
+{
+    const auto any = [&](bool StageSummary::*is) { return std::ranges::any_of(s.stages, is); };
+    const bool rests = std::ranges::all_of(s.stages, [](const StageSummary& stage) { return !stage.sought_rest || stage.at_rest; });
+    if (!s.converged)
+        return any(&StageSummary::sought_end) ? "NOT at its ends" : "NOT converged";
+    return any(&StageSummary::sought_rest) && rests ? "converged" : "done";
+}
+
+/// How each stage ended. With many of them only the first and the last.
+std::vector<std::string> stage_table(const RunSummary& s, const Model& model)
+{
+    constexpr std::size_t most = 12;
+    std::vector<std::string> lines{fmt::format("{:<16} {:>9} {:>10}  ended by", "stage", "cycles", "time [s]")};
+    for (std::size_t i = 0; i < s.stages.size(); ++i)
+    {
+        const StageSummary& stage = s.stages[i];
+        if (s.stages.size() > most && i >= most / 2 && i + most / 2 < s.stages.size())
+        {
+            if (i == most / 2)
+                lines.push_back(fmt::format("... {} more", s.stages.size() - most));
+            continue;
+        }
+        std::string end = stage.ended_by;
+        if (stage.end_value)
+            end += fmt::format(" ({:.5g})", *stage.end_value);
+        if (!stage.met_end)
+            end += ": none of its ends was met";
+        const bool is_over = i + 1 == s.stages.size() && stage.at_rest && stage.to_come.empty() && !model.is_driven &&
+                             model.convergence.blocks == ConvergenceBlocks::all;
+        if (stage.ended_by == "at rest" || is_over)
+            end += ": no load changes, nothing more can happen";
+        if (!stage.to_come.empty())
+            end += fmt::format("; then {}", fmt::join(stage.to_come, "; "));
+        lines.push_back(fmt::format("{:<16} {:>9} {:>10.4g}  {}", printable(stage.name), stage.cycles, stage.end_time, end));
+    }
+    return lines;
+}
 }  // namespace
 
 void print_closing(Log& log, const RunSummary& s, const Session& session, const Simulation& simulation, const fs::path& folder)
 {
     log.line("");
-    const bool aimed = std::ranges::any_of(s.stages, &StageSummary::sought_rest);
-    log.line(fmt::format(
-        "{} after {} cycles ({:.4g} s){}", !aimed ? "done" : (s.converged ? "converged" : "NOT converged"), s.cycles, s.time,
-        s.cycles_after_excavation ? fmt::format(", {} of them after the excavation", *s.cycles_after_excavation) : ""));
+    log.line(
+        fmt::format("{} after {} cycles ({:.4g} s){}", outcome_word(s), s.cycles, s.time,
+                    s.cycles_after_excavation ? fmt::format(", {} of them after the excavation", *s.cycles_after_excavation) : ""));
+    for (const std::string& line : stage_table(s, simulation.model()))
+        log.line(line);
     for (const StageSummary& stage : s.stages)
         if (!stage.not_at_rest.empty())
             log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks: {}", stage.name, stage.not_at_rest.size(),

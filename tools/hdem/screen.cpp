@@ -146,7 +146,10 @@ void RowObserver::begin_stage(const Model& model, const State& state)
     log_.line(ends_at_rest(stage)
                   ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
                                 simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
-                  : fmt::format("stage \"{}\": {} cycles", stage.name, most));
+              : stage.ends.empty() ? fmt::format("stage \"{}\": {} cycles", stage.name, most)
+                                   : fmt::format("stage \"{}\": at most {} cycles", stage.name, most));
+    for (const StageEndDef& end : stage.ends)
+        log_.line(fmt::format("until     {}", printable(end.text)));
     for (const std::string& note : step_notes(model, resolve_rules(model, state).step))
         log_.line(note);
     if (simulation_.statics() && state.cycle == state.stage_begin_cycle)

@@ -39,6 +39,7 @@ std::vector<Check> recycling_checks();
 std::vector<Check> robust_checks();
 std::vector<Check> insitu_checks();
 std::vector<Check> joint_checks();
+std::vector<Check> stage_end_checks();
 std::vector<Check> water_checks();
 std::vector<Check> fos_checks();
 std::vector<Check> support_checks();

@@ -261,6 +261,43 @@ void check_rock(Report& report)
     report.require({"time on two threads [s]", "two minutes", 120.0, seconds}, at_most());
 }
 
+/// A load that is counted from the start of the last stage acts on in the trials as at its end, also where the run is past the load's own cycles.
+void check_loads(Report& report)
+{
+    const double g = 9.81, driving = 0.5 * g, bearing = g * std::cos(std::numbers::pi / 6.0) * tan_deg(40.0);
+    const auto factor = [](const std::string& when)
+    {
+        return find_factor("slab.toml", {{"stage", "[{name = \"first\", cycles = 50000}, {name = \"stand\", cycles = 30000}]"},
+                                         {"load", "[{blocks = [\"slab\"], acceleration = [-1.0, 0.0], " + when + "}]"}})
+            .value();
+    };
+    const std::string grown = "ramp_cycles = [0, 2000], since = \"stand\", until_cycle = 40000";
+    report.require(
+        {"F with a load that has grown: " + grown, "g cos β tan φ / (g sin β + a)", bearing / (driving + 1.0), factor(grown)},
+        relative(0.01));
+    const std::string half = "ramp_cycles = [0, 60000], since = \"stand\"";
+    report.require({"F with half of a load: " + half, "g cos β tan φ / (g sin β + a / 2)", bearing / (driving + 0.5), factor(half)},
+                   relative(0.01));
+}
+
+/// The shipped slope in coarser rock: dry, with its water table, and that turned.
+void check_slope(Report& report)
+{
+    const std::string file = "../slope/slope.toml";
+    const Overrides coarse{set("joint_set[0].spacing", 6.0), set("joint_set[1].spacing", 7.0)};
+    const FosAnswer wet = find_factor(file, coarse);
+    const FosAnswer dry = find_factor(file, coarse + Overrides{{"water.table", "[[0.0, 0.0], [95.0, 0.0]]"}});
+    report.require({"slope of 85 blocks, wet: F", "hdem, when the case was made", 1.147, wet.value()}, relative(0.01));
+    report.require({"slope of 85 blocks, dry: F", "hdem, when the case was made", 1.2746, dry.value()}, relative(0.01));
+    report.require({"wet: F", "limit analysis", wet.bound.factor, wet.value()}, at_most());
+    report.require({"dry: F", "limit analysis", dry.bound.factor, dry.value()}, at_most());
+    report.require({"wet: bound by limit analysis", "below that of the dry slope", dry.bound.factor, wet.bound.factor}, at_most());
+    double same = 0.0;
+    for (const int threads : {2, 3})
+        same += same_trials(wet.factor, find_factor(file, coarse, threads).factor) ? 1.0 : 0.0;
+    report.require({"runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
+}
+
 /// Angle of a slope at which a block slides.
 void check_critical(Report& report)
 {
@@ -288,6 +325,8 @@ std::vector<Check> fos_checks()
             {"fos.F6", "roof wedge in a horizontal stress", check_wedge},
             {"fos.laws", "strength reduction of all joint laws", check_laws},
             {"fos.critical", "slope at which a slab slides", check_critical},
+            {"fos.loads", "loads that have grown, or still grow, at the end of the last stage", check_loads},
+            {"fos.slope", "jointed slope with and without a water table", check_slope},
             {"fos.rock", "F3 with 417 blocks behind the plane", check_rock, Check::Length::is_long}};
 }
 }  // namespace hdem::verification

@@ -58,7 +58,7 @@ fs::path sound_checkpoint(const fs::path& folder)
     Simulation simulation(loaded.setup.model, loaded.setup.state);
     simulation.begin_stage(0);
     simulation.advance(100);
-    simulation.note_outcome(false, {2});
+    simulation.note_outcome({.cycles = simulation.state().cycle}, {2});
     simulation.begin_stage(1);
     simulation.advance(20);
     RunRecord record;
@@ -93,15 +93,34 @@ bool goes_on(const fs::path& file)
     return false;
 }
 
-const Hdf5Mutator::Targets targets = {
-    .datasets = {"/blocks/user_number",        "/blocks/motion",        "/blocks/rebuilt_at",      "/blocks/force",
-                 "/blocks/joint_use",          "/blocks/contact_kinds", "/blocks/inverse_inertia", "/blocks/present",
-                 "/blocks/reference_position", "/contacts/features",    "/contacts/swapped",       "/contacts/stale",
-                 "/contacts/regime",           "/contacts/edges",       "/contacts/seen",          "/contacts/length",
-                 "/contacts/point_0",          "/state/stages_done",    "/state/not_at_rest",      "/state/statics",
-                 "/state/statics_residual",    "/state/came_loose",     "/run/history_axes",       "/case/text"},
-    .attributes = {"/state@cycle", "/state@time", "/state@stage", "/state@stage_begun", "/state@stage_begin_cycle", "/state@method",
-                   "/state@damping", "/state@excavation_cycle", "/state@contacts_outdated"}};
+const Hdf5Mutator::Targets targets = {.datasets = {"/blocks/user_number",
+                                                   "/blocks/motion",
+                                                   "/blocks/rebuilt_at",
+                                                   "/blocks/force",
+                                                   "/blocks/joint_use",
+                                                   "/blocks/contact_kinds",
+                                                   "/blocks/inverse_inertia",
+                                                   "/blocks/present",
+                                                   "/blocks/reference_position",
+                                                   "/contacts/features",
+                                                   "/contacts/swapped",
+                                                   "/contacts/stale",
+                                                   "/contacts/regime",
+                                                   "/contacts/edges",
+                                                   "/contacts/seen",
+                                                   "/contacts/length",
+                                                   "/contacts/point_0",
+                                                   "/state/stages_done",
+                                                   "/state/stages_ended",
+                                                   "/state/not_at_rest",
+                                                   "/state/statics",
+                                                   "/state/statics_residual",
+                                                   "/state/came_loose",
+                                                   "/run/history_axes",
+                                                   "/case/text"},
+                                      .attributes = {"/state@cycle", "/state@time", "/state@stage", "/state@stage_begun",
+                                                     "/state@stage_begin_cycle", "/state@method", "/state@damping",
+                                                     "/state@excavation_cycle", "/state@contacts_outdated"}};
 
 TEST(CheckpointReader, AcceptsTheSoundFileOfTheMutationTests)
 {
@@ -196,7 +215,7 @@ TEST(CheckpointReader, RefusesAnotherVersionAndAnotherModel)
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 2.77 (this hdem"));
     change("version", {3, 0});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 3.0 (this hdem"));
-    change("version", {2, 3});
+    change("version", {2, 4});
     EXPECT_EQ(refusal_of(file), "accepted");
     change("model_hash", {5});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("Go on with the hdem that wrote it"));

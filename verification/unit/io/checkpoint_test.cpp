@@ -2,6 +2,7 @@
 #include "core/rock/build_model.h"
 #include "core/state/state_hash.h"
 #include "io/checkpoint.h"
+#include "io/stage_end_text.h"
 #include "parallel/stages.h"
 #include "verification/scenes/scenes.h"
 #include "verification/unit/sample_joints.h"
@@ -30,7 +31,9 @@ class SaveAt : public Keeper
     {
         if (simulation.state().cycle != cycle_)
             return true;
-        write_checkpoint(folder_, {}, simulation.model(), simulation.state());
+        RunRecord record;
+        record.history_axes.resize(simulation.model().histories.size(), Vec2(0.0, 0.0));
+        write_checkpoint(folder_, record, simulation.model(), simulation.state());
         return go_on_;
     }
 
@@ -59,6 +62,8 @@ Ended run(Simulation& simulation, Keeper* keeper)
     {
         ended.stage_cycles.insert(ended.stage_cycles.end(), {stage.first_cycle, stage.cycles, stage.at_rest});
         ended.told.push_back(fmt::format("not at rest: {}", fmt::join(stage.not_at_rest, " ")));
+        ended.told.push_back(fmt::format("ended by {}, {:a}, at {:a}; then {}", stage.ended_by, stage.value, stage.time,
+                                         fmt::join(stage.to_come, " ")));
         if (stage.statics)
             ended.told.push_back(fmt::format("{} after {}, {:a}; loose: {}", stage.statics->outcome, stage.statics->iterations,
                                              stage.statics->residual, fmt::join(stage.statics->loose, " ")));
@@ -127,6 +132,37 @@ TEST_P(Checkpoint, GivesTheUnbrokenRunToTheLastBitFromAnyCycle)
     {
         run_until(scene, cycle, folder.path());
         for (const int threads : {1, 3})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+}
+
+TEST(Checkpoint, EndsStagesInTheSameCycle)
+{
+    const ScratchFolder folder("checkpoint_ends");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.histories = {{.name = "pair", .between = {"b20", "b21"}, .quantities = {"shear_displacement"}}};
+    const auto end = [](const char* text) { return read_stage_end(text).end; };
+    scene.convergence.mean_speed = 1e-2;
+    scene.loads = {{.blocks = {"*"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 350.0)}}};
+    scene.stages = {{.name = "quiet", .ends = {end("quiet for 150 cycles"), end("displacement > 5")}, .max_cycles = 2000},
+                    {.name = "dig", .ends = {end("displacement > 1e-3 for 30 cycles")}, .max_cycles = 2000, .excavate = {"tunnel"}},
+                    {.name = "band",
+                     .ends = {end("history:pair.shear_displacement within 1e-3 for 120 cycles"), end("time > 100")},
+                     .max_cycles = 2000}};
+    const Ended unbroken = run_unbroken(scene);
+    ASSERT_EQ(unbroken.stage_cycles.size(), 9u);
+    EXPECT_GT(unbroken.stage_cycles[1], 500) << "350 cycles of the ramp and 150 of quiet";
+    EXPECT_LT(unbroken.stage_cycles[1], 2000);
+    EXPECT_LT(unbroken.stage_cycles[4], 2000);
+    EXPECT_LT(unbroken.stage_cycles[7], 2000);
+    std::mt19937 random(1);
+    std::vector<std::int64_t> cycles = {unbroken.stage_cycles[1] - 10, unbroken.stage_cycles[1], unbroken.cycle - 20};
+    while (cycles.size() < 15)
+        cycles.push_back(std::uniform_int_distribution<std::int64_t>(1, unbroken.cycle)(random) / 5 * 5);
+    for (const std::int64_t cycle : cycles)
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 2, 3})
             EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
     }
 }

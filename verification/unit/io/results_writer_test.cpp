@@ -116,6 +116,13 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     HistoryDef of_liner{.name = "liner", .quantities = liner_history_quantities()};
     of_liner.liner = "liner";
     run.model.histories.push_back(of_liner);
+    run.model.water = {.given = true,
+                       .unit_weight = 9810.0,
+                       .tables = {{.points = {{0.0, 0.5}}}},
+                       .table_of_stage = std::vector<Index>(run.model.stages.size(), 0),
+                       .wet_law = std::vector<std::uint8_t>(run.model.joints.laws.size(), 1),
+                       .drawn = std::vector<Vec2>(run.model.user_number.size(), Vec2(0.0, 0.0))};
+    run.model.histories.push_back({.name = "gauge", .point = Vec2(0.0, 0.0), .quantities = point_history_quantities()});
     RunRecorder recorder(folder.path(), run.model, some_provenance());
     recorder.observe(run.model, run.state);
     show(run, recorder, 20);

@@ -1,3 +1,5 @@
+#include "core/contact/contact_report.h"
+#include "core/history_sampler.h"
 #include "core/water/water_forces.h"
 #include "verification/unit/core/boundary/sides.h"
 
@@ -163,6 +165,78 @@ TEST(WaterForces, OfACrackStayWithItsFaces)
 }
 
 /// Water stands in rock under stress: springs bear the effective part, and nothing moves.
+TEST(WaterForces, AreReportedAsPressuresOfJointsAndPlaces)
+{
+    CaseDef scene = rock_below_water();
+    scene.histories = {{.name = "gauge", .point = Vec2(3.0, 2.5), .quantities = {"pore_pressure"}}};
+    scene.stages[1].water_level = 2.5;
+    scene.stages[1].excavate.clear();
+    CaseRun run(scene);
+    HistorySampler gauge(run.model(), scene.histories[0]);
+    double value = 0.0;
+    gauge.sample(run.model(), run.state(), {&value, 1});
+    EXPECT_NEAR(value, weight_of_water * 17.5, 1e-6);
+    const auto look = [&](double level)
+    {
+        int wet = 0;
+        for (Index i = 0; i < run.state().contacts.size(); ++i)
+        {
+            const ContactReport c = report_contact(run.state(), i);
+            const double low = std::min(c.point[0].y(), c.point[1].y()) + run.model().origin.y();
+            const double high = std::max(c.point[0].y(), c.point[1].y()) + run.model().origin.y();
+            const double p = mean_joint_pressure(run.model(), run.state(), i, c.point[0], c.point[1]);
+            const double under = std::min(high, level);  // the wet part of an upright joint
+            const double expected = low >= level        ? 0.0
+                                    : high - low < 1e-9 ? level - low
+                                                        : (level - 0.5 * (low + under)) * (under - low) / (high - low);
+            EXPECT_NEAR(p, weight_of_water * expected, 1e-3) << low << " to " << high;
+            wet += p > 0.0 ? 1 : 0;
+        }
+        return wet;
+    };
+    const int all = look(20.0);
+    EXPECT_EQ(all, run.state().contacts.size());
+    run.simulation.begin_stage(1);
+    const int below = look(2.5);
+    EXPECT_GT(below, 0);
+    EXPECT_LT(below, all);
+    gauge.sample(run.model(), run.state(), {&value, 1});
+    EXPECT_EQ(value, 0.0) << "on the water table";
+
+    scene.water.joints = {"other"};
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints.back().name = "other";
+    CaseRun dry(scene);
+    for (Index i = 0; i < dry.state().contacts.size(); ++i)
+    {
+        const ContactReport c = report_contact(dry.state(), i);
+        EXPECT_EQ(mean_joint_pressure(dry.model(), dry.state(), i, c.point[0], c.point[1]), 0.0);
+    }
+}
+
+TEST(WaterForces, OfACrackAreReportedOnItsLine)
+{
+    CaseDef scene = rock_below_water();
+    scene.water.level.reset();
+    scene.water_cracks.push_back({.crack = {{3, 6}, {3, 4}}, .outlet = {{3, 4}, {5, 4}}, .level = 5.5});
+    const CaseRun run(scene);
+    int found = 0;
+    for (Index i = 0; i < run.state().contacts.size(); ++i)
+    {
+        const ContactReport c = report_contact(run.state(), i);
+        const Vec2 middle = 0.5 * (c.point[0] + c.point[1]) + run.model().origin;
+        const double p = mean_joint_pressure(run.model(), run.state(), i, c.point[0], c.point[1]);
+        const double on_crack = (middle - Vec2(3.0, 4.5)).norm() < 1e-3 ? 1.0 : 0.0;          // from 0.5 to 1.5 m deep
+        const double on_outlet = (middle - Vec2(4.5, 4.0)).norm() < 1e-3 ? 0.25 * 1.5 : 0.0;  // of 1.5 m, seeping out over 2 m
+        if (on_crack + on_outlet > 0.0)
+        {
+            EXPECT_NEAR(p, weight_of_water * (on_crack + on_outlet), 1.0) << middle.transpose();
+            ++found;
+        }
+    }
+    EXPECT_EQ(found, 2);
+}
+
 TEST(WaterForces, LeaveStressedRockWhereItIsDrawn)
 {
     CaseDef scene = square_pattern(6.0, 6.0);

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+"""The program tells how stages ended, in its closing lines, summary.json and exit code; water is drawn where there is some.
+
+    stage_ends_test.py HDEM    the program
+"""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HDEM = Path(sys.argv[1]).resolve()
+CASE = """
+[[block]]
+name = "ground"
+polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]
+fixed = true
+[[block]]
+name = "top"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e8
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+"""
+
+
+class StageEnds(unittest.TestCase):
+    def run_case(self, more, code=0):
+        with tempfile.TemporaryDirectory(prefix="hdem_stage_ends_") as folder:
+            case = Path(folder) / "case.toml"
+            case.write_text(CASE + more, encoding="utf-8")
+            done = subprocess.run([HDEM, "run", case, "-o", Path(folder) / "out"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+            return done.stdout, json.loads((Path(folder) / "out/summary.json").read_text(encoding="utf-8"))
+
+    def test_the_end_that_was_met_is_named(self):
+        text, summary = self.run_case('[[load]]\nblocks = ["top"]\nforce = [1e5, 0]\nramp_cycles = [0, 100000]\n'
+                                      '[[stage]]\nuntil = ["displacement:top > 0.01", "time > 50"]\n')
+        stage = summary["stages"][0]
+        self.assertEqual(stage["ended_by"], "displacement:top > 0.01")
+        self.assertGreaterEqual(stage["end_value"], 0.01)
+        self.assertEqual(stage["to_come"], ["load 1 changes until cycle 100000"])
+        self.assertIn("displacement:top > 0.01 (0.0", text)
+        self.assertIn("load 1 changes until cycle 100000", " ".join(summary["warnings"]))
+
+    def test_an_end_that_is_not_met_is_told(self):
+        text, summary = self.run_case('[[stage]]\nuntil = "time > 1e6"\nmax_cycles = 50\n', code=4)
+        self.assertIn("NOT at its ends", text)
+        self.assertIn("none of its ends was met", text)
+        self.assertEqual(summary["stages"][0]["ended_by"], "max_cycles")
+
+    def test_rest_is_an_end_where_nothing_can_happen(self):
+        text, summary = self.run_case('[[stage]]\nuntil = "displacement:top > 0.5"\n')
+        self.assertEqual(summary["stages"][0]["ended_by"], "at rest")
+        self.assertIn("nothing more can happen", text)
+
+    def test_stages_of_cycles_that_are_too_short_for_a_ramp_are_told(self):
+        text, summary = self.run_case('[[load]]\nblocks = ["top"]\nforce = [1, 0]\nramp_cycles = [0, 80]\n[[stage]]\ncycles = 50\n')
+        self.assertEqual(summary["stages"][0]["ended_by"], "cycles")
+        self.assertIn("the run ended in cycle 50, but load 1 changes until cycle 80", text)
+
+    def test_water_is_drawn(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_water_") as folder:
+            case, out = Path(folder) / "case.toml", Path(folder) / "out"
+            for water, has in (("[water]\nlevel = 0.5\n", True), ("", False)):
+                case.write_text(CASE + water + "[[stage]]\ncycles = 100\n", encoding="utf-8")
+                subprocess.run([HDEM, "run", case, "-o", out, "--overwrite"], capture_output=True, check=True)
+                for more in ([], ["--joints", "pore_pressure", "--numbers"]):
+                    done = subprocess.run([HDEM, "plot", out, "-o", out / "p.svg", *more], capture_output=True, text=True, check=False)
+                    self.assertEqual(done.returncode == 0, has or not more, done.stderr)
+                    if done.returncode == 0:
+                        picture = (out / "p.svg").read_text(encoding="utf-8")
+                        self.assertEqual("water table" in picture, has)
+                        self.assertEqual(">4.9" in picture, bool(more))    # kPa at the foot: 1000 kg/m3, 9.81 m/s2, 0.5 m
+                    else:
+                        self.assertIn("Only cases with [water] do", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
