@@ -29,7 +29,7 @@ LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by
 # what else the page takes from summary.json, and its kind
 SUMMARY = {"stages": list, "warnings": list, "converged": bool, "max_displacement": float, "wall_seconds": float, "cycles": float,
            "contact_point_updates_per_second": float}
-STAGE = {"name": str, "cycles": float, "until_converged": bool, "converged": bool, "ended_by": str}
+STAGE = {"name": str, "cycles": float, "until_converged": bool, "converged": bool}
 BALANCE = {1: "put in", -1: "taken out", 0: "stored at the end"}
 
 
@@ -102,7 +102,7 @@ def head(run, summary, last):
 
 def stages(summary):
     rows = "".join(f'<tr><td>{escape(stage["name"])}</td><td class="n">{number(stage["cycles"])}</td>'
-                   f'<td>{escape(stage["ended_by"])}</td>'
+                   f'<td>{escape(str(stage.get("ended_by", "")))}</td>'
                    f'<td>{("yes" if stage["converged"] else "no") if stage["until_converged"] else "–"}</td></tr>' for stage in summary["stages"])
     return f'<div class="wide"><table><thead><tr><th>stage</th><th class="n">cycles</th><th>ended by</th><th>converged</th></tr></thead><tbody>{rows}</tbody></table></div>'
 
