@@ -193,7 +193,7 @@ class TheEnd(unittest.TestCase):
 
     def test_the_table_of_times_has_every_stage(self):
         timing = self.summary["timing"]
-        self.assertEqual(list(timing), ["broad", "narrow", "force", "impulse", "update", "wait", "output", "other"])
+        self.assertEqual(list(timing), ["broad", "narrow", "force", "impulse", "update", "wait", "unused", "output", "other"])
         for name, row in timing.items():
             self.assertTrue(0.0 <= row["min"] <= row["mean"] <= row["max"], name)
             self.assertRegex(self.log, rf"(?m)^{name} +{row['min']:.3f} +{row['mean']:.3f} +{row['max']:.3f} +{100 * row['share']:.1f} %$")
