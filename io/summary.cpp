@@ -35,6 +35,18 @@ Json timing_json(const RunSummary& s)
     return json;
 }
 
+Json thread_json(const ThreadSummary& use)
+{
+    Json share = Json::object();
+    for (std::size_t n = 0; n < use.share.size(); ++n)
+        if (use.share[n] > 0.0)
+            share[std::to_string(n)] = use.share[n];
+    Json changes = Json::array();
+    for (const ThreadSummary::Change& change : use.changes)
+        changes.push_back({{"cycle", change.cycle}, {"threads", change.threads}});
+    return {{"rule", use.fixed ? "fixed" : "auto"}, {"share_of_cycles", share}, {"changes", changes}, {"trials", use.trials}};
+}
+
 /// null where none was tried.
 Json statics_json(const std::optional<StaticResult>& statics)
 {
@@ -175,6 +187,7 @@ std::string summary_text(const RunSummary& s)
         {"title", s.title},
         {"method", s.method},
         {"threads", s.threads},
+        {"thread_use", thread_json(s.thread_use)},
         {"version", s.version},
         {"git_commit", s.git_commit},
         {"blocks", s.blocks},

@@ -40,6 +40,20 @@ struct StageTiming
     double share = 0.0;  ///< of the mean in the time of all cycles and their output
 };
 
+/// How many threads cycles ran on, since the start or the last restart; key thread_use.
+struct ThreadSummary
+{
+    struct Change
+    {
+        std::int64_t cycle = 0;
+        int threads = 1;
+    };
+    bool fixed = true;            ///< key rule: "fixed" or "auto"
+    std::vector<double> share;    ///< of the cycles, by the number of threads; key share_of_cycles, without zeros
+    std::vector<Change> changes;  ///< first cycle and number, from then on chosen ones; the first thousand
+    std::int64_t trials = 0;      ///< of other numbers
+};
+
 /// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
 /// A bolt at the end. Forces are those of one bolt, energies those of a metre of thickness.
 struct BoltSummary
@@ -87,7 +101,8 @@ struct RunSummary
     std::string case_name;  ///< key "case": name of the case file
     std::string title;
     std::string method;  ///< force, impulse or hybrid
-    int threads = 1;
+    int threads = 1;     ///< at most
+    ThreadSummary thread_use;
     std::string version;  ///< of hdem
     std::string git_commit;
     std::int64_t blocks = 0;  ///< at the end, without excavated ones

@@ -1,7 +1,7 @@
 #include "parallel/contact_rebuild.h"
 
 #include "core/detection/contact_tracking.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 #include <utility>

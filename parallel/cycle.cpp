@@ -14,8 +14,8 @@
 #include "core/state/block_sorting.h"
 #include "core/support/bolt_forces.h"
 #include "core/support/liner_forces.h"
-#include "parallel/openmp.h"
 #include "parallel/step_update.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 
@@ -137,36 +137,67 @@ bool CycleRunner::found_deep_overlap() const
     return std::ranges::any_of(partition_.contacts, [](const ContactPart& part) { return part.tally.deep > 0; });
 }
 
+bool CycleRunner::is_prepared(const Model& model, const State& state, const StageRules& rules) const
+{
+    return prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) && rules.contact.law == rules_.contact.law &&
+           rules.rest.leaves_out == rules_.rest.leaves_out && rules.has_loads == rules_.has_loads &&
+           rules.has_support == rules_.has_support && rules.tractions_change == rules_.tractions_change &&
+           rules.moves_walls == rules_.moves_walls;
+}
+
 Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, int threads)
 {
+    ThreadChoice fixed{ThreadRule(threads)};
+    return run(model, state, cycles, fixed);
+}
+
+Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, ThreadChoice& threads)
+{
     const StageRules rules = find_rules_(model, state);
-    const bool same = prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) &&
-                      rules.contact.law == rules_.contact.law && rules.rest.leaves_out == rules_.rest.leaves_out &&
-                      rules.has_loads == rules_.has_loads && rules.has_support == rules_.has_support &&
-                      rules.tractions_change == rules_.tractions_change && rules.moves_walls == rules_.moves_walls;
+    const bool same = is_prepared(model, state, rules);
     rules_ = rules;
     if (!same)
         prepare(model, state);
-    const int useful = static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread));
-    const std::int64_t begin = state.cycle;
+    threads.limit(static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread)));
+    samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads.rule().most)));
     // A bound on the share of their margins that blocks have used up since the contacts were found; it only decides when to look closely.
-    const double used = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
-    samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
-    with_team(std::min(threads, useful),
-              [&](const Team& team)
-              {
-                  StageSamples& samples = samples_of(team);
-                  const ScopedTime time(samples.all);
-                  double way = used;
-                  bool stable = true;
-                  for (std::int64_t i = 0; i < cycles && stable && !state.contacts_outdated; ++i)
+    double way = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
+    const std::int64_t end = state.cycle + cycles;
+    for (bool goes_on = true; goes_on && state.cycle < end && !state.contacts_outdated;)
+    {
+        const std::int64_t first = state.cycle;
+        const std::int64_t last = first + threads.piece(end - first);
+        const StageSamples& samples = samples_.front();
+        const double used = way;
+        const double before = samples.in_cycles();
+        with_team(threads.threads(),
+                  [&](const Team& team)
                   {
-                      const std::int64_t weight = i % timed_every == 0 ? std::min(timed_every, cycles - i) : 0;
-                      StageClock clock(samples.sampled, static_cast<double>(weight));
-                      stable = cycle(model, state, team, begin + i, way, clock);
-                  }
-              });
+                      double mine = used;
+                      const bool stable = run_piece(model, state, first, last, team, mine);
+                      if (team.is_first())
+                      {
+                          goes_on = stable;
+                          way = mine;
+                      }
+                  });
+        threads.took(state.cycle - first, state.cycle, samples.in_cycles() - before);
+    }
     return find_unstable_contact();
+}
+
+bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, double& way)
+{
+    StageSamples& samples = samples_of(team);
+    const ScopedTime time(samples.all);
+    bool stable = true;
+    for (std::int64_t now = first; now < end && stable && !state.contacts_outdated; ++now)
+    {
+        const std::int64_t weight = (now - first) % timed_every == 0 ? std::min(timed_every, end - now) : 0;
+        StageClock clock(samples.sampled, static_cast<double>(weight));
+        stable = cycle(model, state, team, now, way, clock);
+    }
+    return stable;
 }
 
 bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)

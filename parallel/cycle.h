@@ -10,6 +10,7 @@
 #include "parallel/contact_rebuild.h"
 #include "parallel/partition.h"
 #include "parallel/stage_times.h"
+#include "parallel/thread_choice.h"
 
 #include <vector>
 
@@ -31,6 +32,8 @@ class CycleRunner
     /// @return  a contact whose springs have begun to act in the last cycle and are too stiff for the step (core/motion/step_check.h): the run must not go on;
     ///          no_index without one
     /// @pre contacts are not outdated
+    [[nodiscard]] Index run(const Model& model, State& state, std::int64_t cycles, ThreadChoice& threads);
+    /// On a fixed number of threads.
     [[nodiscard]] Index run(const Model& model, State& state, std::int64_t cycles, int threads);
 
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
@@ -51,6 +54,11 @@ class CycleRunner
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
+    [[nodiscard]] bool is_prepared(const Model& model, const State& state, const StageRules& rules) const;
+    /// Up to `end`, unless the last of the cycles is to be looked at.
+    /// @param way  see cycle(); the first member's is that of all
+    /// @return  whether cycles go on
+    bool run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, double& way);
     /// @return  whether the step is small enough for the springs that have begun to act
     bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
     void close_cycle(const Model& model, State& state);

@@ -9,7 +9,7 @@
 #include "core/support/bolt_forces.h"
 #include "parallel/cycle.h"
 #include "parallel/impulse_sweeps.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 

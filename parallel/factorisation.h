@@ -2,7 +2,7 @@
 /// Direct solution of A x = b for the symmetric part of a matrix of 3 x 3 blocks, on a team of threads.
 
 #include "core/statics/multifrontal.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 
 #include "core/statics/krylov.h"
 #include "core/statics/number_buffer.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <functional>
 

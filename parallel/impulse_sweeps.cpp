@@ -5,7 +5,7 @@
 #include "core/contact/impulse_law.h"
 #include "core/contact/position_correction.h"
 #include "core/motion/integrator.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// Sums over contacts or blocks that do not depend on the number of threads.
 
 #include "core/types.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 #include <vector>

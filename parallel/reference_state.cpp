@@ -31,7 +31,8 @@ std::vector<Index> blocks_that_gave_way(const Moment& last, bool found_rest, dou
     return found;
 }
 
-Reference find_reference(const Moment& last, const std::vector<Index>& gave_way, const std::optional<Moment>& before, int threads)
+Reference find_reference(const Moment& last, const std::vector<Index>& gave_way, const std::optional<Moment>& before,
+                         const ThreadRule& threads)
 {
     if (gave_way.empty() || !before)
         return {elastic_state(last, threads)};

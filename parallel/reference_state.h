@@ -37,5 +37,5 @@ struct Reference
 /// beginning under that strength: what F asks is where these blocks stood, not where they lie.
 /// @param before  the last stage; not needed where nothing gave way
 [[nodiscard]] Reference find_reference(const Moment& last, const std::vector<Index>& gave_way, const std::optional<Moment>& before,
-                                       int threads);
+                                       const ThreadRule& threads);
 }  // namespace hdem

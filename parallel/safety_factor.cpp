@@ -24,7 +24,7 @@ class Trials
         const StandsAt stands = [this](double factor, int threads, const std::stop_token& stop)
         { return trial(factor, threads, stop).end == TrialEnd::stable; };
         const AfterPair after = [&](const Bracket&) { take_counting(all); };
-        return search_bracket(rule, setting_.threads, stands, after);
+        return search_bracket(rule, setting_.threads.most, stands, after);
     }
 
     /// Where the trial at this factor has ended, if it was run.
@@ -43,7 +43,8 @@ class Trials
             const std::stop_callback first(stop, [&] { either.request_stop(); });
             const std::stop_callback second(setting_.stop, [&] { either.request_stop(); });
             std::optional<Moment> end;
-            found = run_trial(start_, trial_rule(start_.model, setting_.def, search_, factor), threads, either.get_token(), &end);
+            found = run_trial(start_, trial_rule(start_.model, setting_.def, search_, factor), setting_.threads.for_share(threads),
+                              either.get_token(), &end);
             if (either.stop_requested())
             {
                 if (setting_.stop.stop_requested() && !stop.stop_requested())

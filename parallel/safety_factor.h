@@ -43,7 +43,7 @@ struct FactorSetting
 {
     FactorOfSafetyDef def;
     std::optional<double> bound;  ///< F by limit analysis, from above
-    int threads = 1;
+    ThreadRule threads = 1;       ///< of all trials at once
     TrialStore* store = nullptr;
     /// A trial that counts has ended.
     std::function<void(const FactorTrial&)> show = {};

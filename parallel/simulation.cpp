@@ -24,9 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace hdem
 {
@@ -41,16 +38,8 @@ void remove_block(Index block, Blocks& blocks)
     blocks.motion[block].vx = blocks.motion[block].vy = blocks.motion[block].w = 0.0;
 }
 }  // namespace
-int default_threads()
-{
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
 
-Simulation::Simulation(Model model, State state, int threads)
+Simulation::Simulation(Model model, State state, const ThreadRule& threads)
     : model_(std::move(model)),
       state_(std::move(state)),
       threads_(threads)
@@ -327,7 +316,7 @@ void Simulation::solve_statics()
     StaticRule rule = static_rule(model_);
     rule.is_to_stop = is_to_stop_;
     state_.statics_due = true;
-    statics_ = hdem::solve_statics(model_, state_, threads_, rule);
+    statics_ = hdem::solve_statics(model_, state_, threads_.threads(), rule);
     state_.statics_due = false;
     if (!statics_->is_taken())
         return;
@@ -348,7 +337,7 @@ void Simulation::finish_by_statics()
     if (statics_->is_taken() && !statics_->loose.empty())
     {
         state_ = std::move(before);  // what slides slowly is not stopped on its way
-        runner_.renew_contacts(model_, state_, threads_);
+        runner_.renew_contacts(model_, state_, threads_.threads());
     }
 }
 
@@ -411,7 +400,7 @@ void Simulation::renew_contacts()
 {
     if (is_order_decayed(model_, state_))
         sort_blocks(model_, state_);
-    runner_.renew_contacts(model_, state_, threads_);
+    runner_.renew_contacts(model_, state_, threads_.threads());
 }
 
 void Simulation::check_state()

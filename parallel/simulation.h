@@ -22,18 +22,17 @@ struct ContactCounts
 
 struct BoundaryChange;
 
-/// Threads to use when the user names no number: OMP_NUM_THREADS, else the processors this process may run on.
-[[nodiscard]] int default_threads();
-
 class Simulation
 {
   public:
     /// The state is the first one of a run, or one that a checkpoint gave back together with its model.
-    Simulation(Model model, State state, int threads = 1);
+    Simulation(Model model, State state, const ThreadRule& threads = 1);
 
     [[nodiscard]] const Model& model() const { return model_; }
     [[nodiscard]] const State& state() const { return state_; }
-    [[nodiscard]] int threads() const { return threads_; }
+    /// At most.
+    [[nodiscard]] int threads() const { return threads_.rule().most; }
+    [[nodiscard]] const ThreadChoice& thread_choice() const { return threads_; }
 
     /// Problems that need contacts to be seen: a step above the stable limit.
     [[nodiscard]] std::vector<Problem> find_problems();
@@ -97,7 +96,7 @@ class Simulation
     StageLaws joints_before_;        ///< the running stage
     std::optional<StageEnds> ends_;  ///< of the running stage, once they have been looked at
     CycleRunner runner_;
-    int threads_ = 1;
+    ThreadChoice threads_;
     std::optional<StaticOutcome> statics_;
     std::function<bool()> is_to_stop_;
 };

@@ -25,6 +25,7 @@ struct StageTimes
     std::array<double, static_cast<std::size_t>(CycleStage::count)> seconds{};
 
     [[nodiscard]] double& of(CycleStage stage) { return seconds[static_cast<std::size_t>(stage)]; }
+    [[nodiscard]] double of(CycleStage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
     [[nodiscard]] double total() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
 };
 
@@ -34,6 +35,9 @@ struct alignas(64) StageSamples
 {
     StageTimes sampled;  ///< broad: all of it
     double all = 0.0;    ///< [s]
+
+    /// Without searches for contacts.
+    [[nodiscard]] double in_cycles() const { return all - sampled.of(CycleStage::broad); }
 
     /// Adds up to `all`, as soon as a cycle has been sampled.
     [[nodiscard]] StageTimes shared_out() const

@@ -1,6 +1,6 @@
 #include "parallel/step_update.h"
 
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 namespace hdem
 {

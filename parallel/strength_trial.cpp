@@ -27,7 +27,7 @@ double creep_time(const Model& model, double way, double tolerance, double facto
 class TrialRun
 {
   public:
-    TrialRun(const Moment& start, const TrialRule& rule, int threads)
+    TrialRun(const Moment& start, const TrialRule& rule, const ThreadRule& threads)
         : rule_(rule),
           simulation_(trial_model(start, rule.reduction), start.state, threads)
     {
@@ -162,7 +162,8 @@ const char* name_of(TrialEnd end)
     return end == TrialEnd::stable ? "stable" : (end == TrialEnd::failed ? "failed" : "undecided");
 }
 
-Trial run_trial(const Moment& start, const TrialRule& rule, int threads, const std::stop_token& stop, std::optional<Moment>* end)
+Trial run_trial(const Moment& start, const TrialRule& rule, const ThreadRule& threads, const std::stop_token& stop,
+                std::optional<Moment>* end)
 {
     TrialRun run(start, rule, threads);
     Trial trial = run.run(stop);

@@ -53,16 +53,16 @@ struct Moment
 
 /// From `start` to the verdict. When asked to stop, the trial is undecided at once.
 /// @param end  receives the moment of the verdict, where it is not null
-[[nodiscard]] Trial run_trial(const Moment& start, const TrialRule& rule, int threads, const std::stop_token& stop = {},
-                              std::optional<Moment>* end = nullptr);
+[[nodiscard]] Trial run_trial(const Moment& start, const TrialRule& rule, const ThreadRule& threads,
+                              const std::stop_token& stop = {}, std::optional<Moment>* end = nullptr);
 
 /// The state of rest of `start` under strength times great_strength: what each trial begins from. Throws RunError where there is none.
 inline constexpr double great_strength = 1e3;
-[[nodiscard]] Moment elastic_state(const Moment& start, int threads);
+[[nodiscard]] Moment elastic_state(const Moment& start, const ThreadRule& threads);
 
 /// The last stage of the model, run under that strength from the moment before it, with all that it excavates, fixes and frees.
 /// @param last  state in which the stage ended under its own strength: the loads that acted there act
-[[nodiscard]] Moment elastic_stage(const Moment& before, const State& last, int threads);
+[[nodiscard]] Moment elastic_stage(const Moment& before, const State& last, const ThreadRule& threads);
 
 /// The same state with joints `times` as stiff: forces stay, the strain of each spring is divided by it.
 [[nodiscard]] Moment stiffened_state(Moment moment, double times);

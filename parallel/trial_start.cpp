@@ -135,7 +135,7 @@ Moment with_laws(const Simulation& simulation, Index stage, const StageLaws& law
 }
 }  // namespace
 
-Moment elastic_state(const Moment& start, int threads)
+Moment elastic_state(const Moment& start, const ThreadRule& threads)
 {
     const Index stage = start.state.stage;
     Simulation simulation(trial_model(start, {.factor = 1.0 / great_strength}), start.state, threads);
@@ -144,7 +144,7 @@ Moment elastic_state(const Moment& start, int threads)
     return with_laws(simulation, stage, present_laws(start.model, stage));
 }
 
-Moment elastic_stage(const Moment& before, const State& last, int threads)
+Moment elastic_stage(const Moment& before, const State& last, const ThreadRule& threads)
 {
     const Index stage = static_cast<Index>(before.model.stages.size()) - 1;
     Model model = before.model;

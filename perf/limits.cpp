@@ -1,7 +1,7 @@
 #include "perf/limits.h"
 
 #include "core/simd.h"
-#include "parallel/openmp.h"
+#include "parallel/team.h"
 
 #include <algorithm>
 #include <chrono>

@@ -25,7 +25,8 @@ _hdem()
         --method) mapfile -t COMPREPLY < <(compgen -W "force impulse hybrid" -- "$word"); return ;;
         --colour) mapfile -t COMPREPLY < <(compgen -W "displacement displacement_x displacement_y rotation velocity stress stress_xx stress_yy stress_xy regime material none" -- "$word"); return ;;
         --frame) mapfile -t COMPREPLY < <(compgen -W "last" -- "$word"); return ;;
-        --max-wall | --threads | --set | --vary | --fails | --tolerance | --window | --range | --history | --title | --width | --dpi) return ;;
+        --threads) mapfile -t COMPREPLY < <(compgen -W "auto" -- "$word"); return ;;
+        --max-wall | --set | --vary | --fails | --tolerance | --window | --range | --history | --title | --width | --dpi) return ;;
     esac
     if [[ $word == -* || -z $command ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_hdem_words "$command")" -- "$word")

@@ -51,7 +51,7 @@ class Critical
           condition_(std::move(condition)),
           log_(log),
           file_(folder / "trials.json", question),
-          threads_(options.threads.value_or(default_threads()))
+          threads_(thread_rule(options.threads))
     {
     }
 
@@ -66,7 +66,7 @@ class Critical
                                vary_.key, vary_.low, vary_.high, stands[0] ? "stands" : "fails", options_.fails));
         const CriticalRange range = stands[0] ? CriticalRange{vary_.low, vary_.high} : CriticalRange{vary_.high, vary_.low};
         return search_between(
-            range, options_.tolerance.value_or((vary_.high - vary_.low) / 200.0), threads_,
+            range, options_.tolerance.value_or((vary_.high - vary_.low) / 200.0), threads_.most,
             [this](double x, int threads, const std::stop_token& stop) { return stands_at(x, threads, stop); },
             [this](const Bracket&) { show(true); });
     }
@@ -94,7 +94,7 @@ class Critical
     std::array<bool, 2> look_at_ends()
     {
         std::array<bool, 2> stands{};
-        if (threads_ < 2)
+        if (threads_.most < 2)
             for (const int i : {0, 1})
                 stands[i] = stands_at(i == 0 ? vary_.low : vary_.high, 1, {});
         else
@@ -105,14 +105,14 @@ class Critical
                 {
                     try
                     {
-                        stands[1] = stands_at(vary_.high, threads_ / 2, {});
+                        stands[1] = stands_at(vary_.high, threads_.most / 2, {});
                     }
                     catch (...)
                     {
                         error = std::current_exception();
                     }
                 });
-            stands[0] = stands_at(vary_.low, threads_ - threads_ / 2, {});
+            stands[0] = stands_at(vary_.low, threads_.most - threads_.most / 2, {});
             other.join();
             if (error)
                 std::rethrow_exception(error);
@@ -136,7 +136,7 @@ class Critical
                 overrides.push_back(parse_override(text));
             overrides.push_back({vary_.key, fmt::format("{:.17g}", x)});
             LoadedCase loaded = load_case(options_.case_file, overrides);
-            Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
+            Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads_.for_share(threads));
             if (const std::vector<Problem> problems = simulation.find_problems(); !problems.empty())
                 throw InputError(loaded.file.source.located(problems));
             for (const std::string& name : condition_.blocks)
@@ -189,7 +189,7 @@ class Critical
     FailureCondition condition_;
     Log& log_;
     TrialFile file_;
-    int threads_;
+    ThreadRule threads_;
     SignalWatch signals_;
     std::mutex mutex_;
     std::map<double, Run> ended_;

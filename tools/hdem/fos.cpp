@@ -166,7 +166,7 @@ class Fos
           log_(*run.log),
           folder_(run.start.folder),
           file_(run.start.folder / "trials.json", question.all()),
-          threads_(run.simulation->threads())
+          threads_(run.simulation->thread_choice().rule())
     {
     }
 
@@ -236,7 +236,7 @@ class Fos
     Log& log_;
     fs::path folder_;
     FactorTrialFile file_;
-    int threads_;
+    ThreadRule threads_;
 };
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include "core/version.h"
 #include "io/case_format.h"
 #include "io/describe_file.h"
-#include "parallel/simulation.h"
+#include "parallel/team.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
 #include "tools/hdem/script.h"
@@ -17,6 +17,22 @@ namespace hdem
 {
 namespace
 {
+void add_threads(CLI::App& command, std::optional<int>& threads)
+{
+    const CLI::Range numbers(1, 4096);
+    command
+        .add_option_function<std::string>(
+            "--threads",
+            [&threads](const std::string& text) { threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text)); },
+            "Number of threads, or auto: as many as are fastest, looked for again and again; default: auto")
+        ->check(
+            [numbers](std::string text) {
+                return text == "auto" || numbers(text).empty()
+                           ? ""
+                           : "--threads " + text + ": give a whole number from 1 to 4096, or auto";
+            });
+}
+
 void add_run(CLI::App& app, RunOptions& options)
 {
     CLI::App* run = app.add_subcommand("run", "Run a case to its end and write results into a folder");
@@ -32,7 +48,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->check([](const std::string& seconds) { return std::stod(seconds) > 0.0 ? "" : "give a time above zero, e.g. 47h"; });
     run->add_option("--method", options.method, "Contact method instead of the case's: force, impulse or hybrid")
         ->check(CLI::IsMember({"force", "impulse", "hybrid"}));
-    run->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    add_threads(*run, options.threads);
     run->add_option("--set", options.overrides,
                     "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
     run->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
@@ -51,7 +67,7 @@ void add_fos(CLI::App& app, FosOptions& options)
     fos->add_option("case", run.case_file, "Case file (TOML); its table [factor_of_safety] says how")->required();
     fos->add_option("-o,--output", run.folder, "Folder of the results; default: the case file's name without its ending");
     fos->add_flag("--overwrite", run.overwrite, "Begin anew in a folder that has trials or a run that was cut short");
-    fos->add_option("--threads", run.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    add_threads(*fos, run.threads);
     fos->add_option("--set", run.overrides, "key.path=value instead of the case file's; repeatable");
     fos->add_flag("-q,--quiet", run.quiet, "Nothing on the screen but errors; run.log has it all");
 }
@@ -72,7 +88,7 @@ void add_critical(CLI::App& app, CriticalOptions& options)
         ->check(CLI::PositiveNumber);
     critical->add_option("-o,--output", options.folder, "Folder of the results; default: the case's name with _critical");
     critical->add_flag("--overwrite", options.overwrite, "Forget the trials that the folder holds");
-    critical->add_option("--threads", options.threads, "Number of threads")->check(CLI::Range(1, 4096));
+    add_threads(*critical, options.threads);
     critical->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");
     critical->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
 }

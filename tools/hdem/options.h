@@ -1,6 +1,9 @@
 #pragma once
 /// What the command line of `hdem` may say.
 
+#include "parallel/team.h"
+#include "parallel/thread_choice.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +19,12 @@ enum ExitCode : int
     exit_no_convergence = 4,
     exit_wall_time = 5  ///< --max-wall was over; 130 and 143: interrupted by SIGINT and SIGTERM
 };
+
+/// Option --threads: a number, or nothing for auto.
+[[nodiscard]] inline ThreadRule thread_rule(const std::optional<int>& number)
+{
+    return number ? ThreadRule(*number) : ThreadRule(default_threads(), ThreadRule::Kind::measured);
+}
 
 struct RunOptions
 {

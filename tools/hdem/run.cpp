@@ -63,8 +63,7 @@ FinishedRun run_case(const RunOptions& options, Observer* also)
     RunStart& start = run.start;
     const fs::path& folder = start.folder;
     Setup& setup = start.loaded.setup;
-    run.simulation = std::make_unique<Simulation>(std::move(setup.model), std::move(setup.state),
-                                                  options.threads.value_or(default_threads()));
+    run.simulation = std::make_unique<Simulation>(std::move(setup.model), std::move(setup.state), thread_rule(options.threads));
     Simulation& simulation = *run.simulation;
     const std::vector<Problem> problems = start.restarted ? std::vector<Problem>{} : simulation.find_problems();
     if (!problems.empty())

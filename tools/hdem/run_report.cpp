@@ -67,7 +67,8 @@ std::string origin_of_threads(const RunOptions& options)
 {
     if (options.threads)
         return "--threads";
-    return std::getenv("OMP_NUM_THREADS") != nullptr ? "OMP_NUM_THREADS" : "the processors at hand";
+    return std::string("auto: as many as are fastest, up to ") +
+           (std::getenv("OMP_NUM_THREADS") != nullptr ? "OMP_NUM_THREADS" : "the processors at hand");
 }
 
 /// The first ones, and how many more.
@@ -175,7 +176,8 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
     log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
                          simulation.count_contacts().closed()));
     log.line(fmt::format("method    {}; threshold scale {:.4g}", name_of(state.method), model.threshold_scale));
-    log.line(fmt::format("threads   {} ({})", simulation.threads(), origin_of_threads(options)));
+    log.line(fmt::format("threads   {}{} ({})", !options.threads && simulation.threads() > 1 ? "1 to " : "", simulation.threads(),
+                         origin_of_threads(options)));
     const bool is_shortened = model.time_step == model.default_time_step && model.time_step < model.paper_time_step;
     log.line(fmt::format("time step {:.4g} s{}; Eq. (32) {:.4g} s, stable limit of the present contacts {:.4g} s", model.time_step,
                          is_shortened ? " (shorter for sides above 4 m)" : "", model.paper_time_step, simulation.critical_step()));
@@ -205,6 +207,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.title = model.title;
     s.method = name_of(state.method);
     s.threads = simulation.threads();
+    s.thread_use = summarise_threads(simulation.thread_choice());
     s.version = version().number;
     s.git_commit = version().commit;
     s.blocks = present_blocks(state);
@@ -408,6 +411,7 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                              std::max(static_cast<double>(state.contacts.size()) * static_cast<double>(state.cycle), 1.0)));
     for (const std::string& line : timing_table(s.timing))
         log.line(line);
+    log.line(thread_line(s.thread_use));
     const double seconds = std::max(session.seconds, 1e-9);
     log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
                          "at most {:.0f} MB",

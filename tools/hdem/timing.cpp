@@ -1,6 +1,7 @@
 #include "tools/hdem/timing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -35,9 +36,51 @@ std::vector<StageTiming> summarise_times(std::span<const StageTimes> threads, do
         }
         rows.push_back(row(stage_names[stage], of_threads, seconds));
     }
+    if (!threads.empty())
+    {
+        std::vector<double> unused;
+        for (std::size_t i = 0; i < threads.size(); ++i)
+        {
+            unused.push_back(std::max(0.0, threads.front().total() - threads[i].total()));
+            rest[i] -= unused.back();
+        }
+        rows.push_back(row("unused", unused, seconds));
+    }
     rows.push_back(row("output", {output}, seconds));
     rows.push_back(row("other", rest, seconds));
     return rows;
+}
+
+ThreadSummary summarise_threads(const ThreadChoice& choice)
+{
+    const ThreadUse& use = choice.use();
+    ThreadSummary summary{.fixed = choice.rule().is_fixed(), .trials = use.trials};
+    const auto all = static_cast<double>(
+        std::max<std::int64_t>(1, std::accumulate(use.cycles.begin(), use.cycles.end(), std::int64_t{0})));
+    for (const std::int64_t cycles : use.cycles)
+        summary.share.push_back(static_cast<double>(cycles) / all);
+    for (const ThreadUse::Change& change : use.changes)
+        summary.changes.push_back({.cycle = change.cycle, .threads = change.threads});
+    return summary;
+}
+
+std::string thread_line(const ThreadSummary& use)
+{
+    std::vector<std::string> shares, changes;
+    for (std::size_t n = 0; n < use.share.size(); ++n)
+        if (use.share[n] > 0.0)
+            shares.push_back(fmt::format("{:.3g} % on {}", 100.0 * use.share[n], n));
+    if (shares.empty())
+        return "threads   no cycles";
+    constexpr std::size_t shown = 8;
+    for (std::size_t i = 0; i < std::min(shown, use.changes.size()); ++i)
+        changes.push_back(fmt::format("{} from cycle {}", use.changes[i].threads, use.changes[i].cycle));
+    return fmt::format(
+        "threads   cycles: {}{}", fmt::join(shares, ", "),
+        use.fixed ? ""
+                  : fmt::format("; chosen {}{}; {} trials of others", fmt::join(changes, ", "),
+                                use.changes.size() > shown ? fmt::format(" and {} more changes", use.changes.size() - shown) : "",
+                                use.trials));
 }
 
 std::vector<std::string> timing_table(std::span<const StageTiming> timing)

@@ -58,8 +58,14 @@ class TimedKeeper : public Keeper
     double& seconds_;
 };
 
-/// Rows of the table: the stages of a cycle, output, and other, which is the rest of `seconds`: the means add up to it.
+/// Rows of the table: the stages of a cycle, unused, in which cycles ran without the thread, output, and other, which is the rest of `seconds`: the means
+/// add up to it.
 [[nodiscard]] std::vector<StageTiming> summarise_times(std::span<const StageTimes> threads, double output, double seconds);
+
+/// Which numbers of threads cycles ran on.
+[[nodiscard]] ThreadSummary summarise_threads(const ThreadChoice& choice);
+
+[[nodiscard]] std::string thread_line(const ThreadSummary& use);
 
 [[nodiscard]] std::vector<std::string> timing_table(std::span<const StageTiming> timing);
 }  // namespace hdem

@@ -164,9 +164,24 @@ def ledger(run):
             f"<tbody>{rows}</tbody></table></div>" + run_figures.ledger_curves(run))
 
 
+def thread_rows(summary):
+    """How many threads cycles ran on; nothing in folders of older versions."""
+    use = summary.get("thread_use", {"rule": "fixed"})
+    try:
+        if use["rule"] == "fixed":
+            return []
+        shares = ", ".join(f"{100 * float(share):.3g} % on {int(threads)}" for threads, share in use["share_of_cycles"].items())
+        changes = ", ".join(f'{int(change["threads"])} from cycle {int(change["cycle"])}' for change in use["changes"][:8])
+        more = f' and {len(use["changes"]) - 8} more changes' if len(use["changes"]) > 8 else ""
+        return [("threads of the cycles", shares, ""), ("chosen", changes + more, "")]
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise ResultError(f"summary.json: thread_use = {str(use)[:50]} is not what a run writes. Remove the file, or run the case again.") from error
+
+
 def timing(summary, where, log):
-    rows = [("threads", int(where["threads"]), ""), ("processor", where["cpu"], "")]
+    rows = [("threads, at most", int(where["threads"]), ""), ("processor", where["cpu"], "")]
     if summary:
+        rows += thread_rows(summary)
         seconds = max(summary["wall_seconds"], 1e-9)
         rows += [("wall time", duration(seconds), ""), ("speed", float(f'{summary["cycles"] / seconds:.4g}'), "cycles/s"),
                  ("contact-point updates", float(f'{1e-6 * summary["contact_point_updates_per_second"]:.4g}'), "million/s")]

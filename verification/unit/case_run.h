@@ -75,13 +75,14 @@ inline double mechanical_energy(const Model& model, const State& state)
 class CaseRun
 {
   public:
-    explicit CaseRun(const CaseDef& def, int threads = 1) : CaseRun(build_model(def), threads) {}
+    explicit CaseRun(const CaseDef& def, const ThreadRule& threads = 1) : CaseRun(build_model(def), threads) {}
     /// For starts that no case file can say.
     CaseRun(const CaseDef& def, const std::function<void(const Model&, State&)>& change)
         : CaseRun(changed(build_model(def), change))
     {
     }
-    explicit CaseRun(Setup setup, int threads = 1) : simulation(std::move(setup.model), std::move(setup.state), threads)
+    explicit CaseRun(Setup setup, const ThreadRule& threads = 1)
+        : simulation(std::move(setup.model), std::move(setup.state), threads)
     {
         simulation.begin_stage(0);
     }

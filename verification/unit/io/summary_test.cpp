@@ -20,6 +20,7 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
                       {.name = "excavated", .cycles = 32709, .sought_rest = true, .at_rest = true}};
     summary.stages[1].statics = StaticResult{.outcome = "balanced", .iterations = 22, .residual = 2e-9, .loose = {"b12"}};
     summary.state_hash = 0xabc;
+    summary.thread_use = {.fixed = false, .share = {0.0, 0.25, 0.75}, .changes = {{0, 2}, {7000, 1}}, .trials = 12};
     write_summary(folder / "summary.json", summary);
     const auto json = nlohmann::json::parse(test::text_in(folder / "summary.json"));
     for (const char* key : {"case",
@@ -55,6 +56,11 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     EXPECT_EQ(json["stages"][1]["converged"], true);
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
     EXPECT_TRUE(json["stages"][0]["static_solution"].is_null());
+    const auto& use = json["thread_use"];
+    EXPECT_EQ(use["rule"], "auto");
+    EXPECT_EQ(use["share_of_cycles"], (nlohmann::json{{"1", 0.25}, {"2", 0.75}}));
+    EXPECT_EQ(use["changes"][1], (nlohmann::json{{"cycle", 7000}, {"threads", 1}}));
+    EXPECT_EQ(use["trials"], 12);
     const auto& statics = json["stages"][1]["static_solution"];
     EXPECT_EQ(statics["outcome"], "balanced");
     EXPECT_EQ(statics["iterations"], 22);

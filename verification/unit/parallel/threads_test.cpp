@@ -1,4 +1,6 @@
+#include "io/checkpoint.h"
 #include "verification/unit/case_run.h"
+#include "verification/unit/small_run.h"
 
 #include <algorithm>
 
@@ -80,6 +82,67 @@ TEST_P(Threads, GiveTheSameImpulsesInTheOrderOfColours)
 TEST_P(Threads, MayBeMoreThanThereAreBlocks)
 {
     expect_hash_of_one_thread(scenes::stack(2), 1000);
+}
+
+ThreadRule shuffled(std::uint32_t seed)
+{
+    ThreadRule rule{3, ThreadRule::Kind::shuffled};
+    rule.seed = seed;
+    return rule;
+}
+
+/// Every few cycles another number; the run is cut by a checkpoint and goes on with other numbers.
+void expect_same_with_changing_threads(const CaseDef& scene, std::int64_t cycles)
+{
+    CaseRun one(scene, 1);
+    one.advance(cycles);
+    for (const std::uint32_t seed : {1U, 2U})
+    {
+        const test::ScratchFolder folder("shuffled");
+        const std::int64_t cut = cycles / 2 + 7 * seed;
+        CaseRun first(scene, shuffled(seed));
+        first.advance(cut);
+        EXPECT_GE(first.simulation.thread_choice().use().changes.size(), 3U);
+        write_checkpoint(folder.path(), {}, first.model(), first.state());
+        Setup setup = build_model(scene);
+        State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+        Simulation second(std::move(setup.model), std::move(state), shuffled(seed + 10));
+        second.advance(cycles - cut);
+        EXPECT_EQ(state_hash(second.model(), second.state()), one.hash()) << name_of(scene.contact.method) << ", seed " << seed;
+    }
+}
+
+TEST(ChangingThreads, GiveTheSameRockAndTheSameExcavationByEveryMethod)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+    {
+        CaseDef scene = scenes::joints(30.0, 30.0, 1.0, 3.0);
+        scene.contact.method = method;
+        scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {15.0, 15.0}, .diameter = 6.0}};
+        scene.stages = {{.name = "dig", .cycles = 10, .excavate = {"tunnel"}}};
+        expect_same_with_changing_threads(scene, method == Method::force ? 400 : 100);  // many barriers a cycle
+    }
+}
+
+/// Impulse points enough for all threads to share the colours.
+TEST(ChangingThreads, GiveTheSameWallByEveryMethod)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+    {
+        CaseDef scene = scenes::wall(30, 30);
+        scene.contact.method = method;
+        expect_same_with_changing_threads(scene, method == Method::force ? 300 : 80);
+    }
+}
+
+/// Steps that vary, blocks that are left out.
+TEST(ChangingThreads, GiveTheSameFallOfLooseBlocks)
+{
+    CaseDef scene = scenes::joints(30.0, 30.0, 1.0, 3.0);
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {15.0, 15.0}, .diameter = 6.0}};
+    scene.stages = {{.name = "dig", .until_converged = true, .max_cycles = 100'000, .excavate = {"tunnel"}}};
+    scene.convergence.loose_distance = 1e-4;
+    expect_same_with_changing_threads(scene, 1500);
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(2, 3, 4, 8));

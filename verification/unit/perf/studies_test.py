@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Quick checks of perf/scaling and perf/peers with a stand-in for hdem_perf, and of hdem_scene.
+"""Quick checks of perf/scaling, perf/peers and perf/beside_others with a stand-in for their program, and of hdem_scene.
 
     studies_test.py PERF HDEM_SCENE    the folder of the scripts, the program
 
@@ -70,6 +70,31 @@ class Studies(unittest.TestCase):
         self.assertEqual(self.run_script("peers", "--processes", 4)[0], 2, "a median of four")
         stand_in.write(self.folder / "hdem_perf", rows)
         self.assertIn("has no Box2D", self.run_script("peers", "--scenes", "wall", "--blocks", 1000)[1])
+
+    def beside(self, hash_of_auto):
+        """perf/beside_others with a stand-in for hdem that takes 3 s, and 2 s with threads that adapt."""
+        program = self.folder / "hdem_perf"
+        program.write_text("#!/usr/bin/python3\n"
+                           "import json, pathlib, sys\n"
+                           "auto = sys.argv[sys.argv.index('--threads') + 1] == 'auto'\n"
+                           "folder = pathlib.Path(sys.argv[sys.argv.index('-o') + 1])\n"
+                           "folder.mkdir()\n"
+                           f"summary = {{'timing': {{'force': {{'mean': 2.0 if auto else 3.0}}}}, 'state_hash': {hash_of_auto!r} if auto else 'a'}}\n"
+                           "(folder / 'summary.json').write_text(json.dumps(summary))\n", encoding="utf-8")
+        program.chmod(0o755)
+        return self.run_script("beside_others", "two", "busy_1", "alone", "--rounds", 1, "--blocks", 541, 10000)
+
+    def test_beside_others_prints_ratios_of_rounds(self):
+        code, said = self.beside("a")
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r"(?s)two runs at once: 1 rounds.*auto / 1 +0\.667 ")
+        self.assertRegex(said, r"(?s)one run beside 1 busy.*auto beside / 1 beside +0\.667 ")
+        self.assertEqual(said.count("auto / best fixed"), 2)
+
+    def test_beside_others_refuses_states_that_differ(self):
+        code, said = self.beside("b")
+        self.assertEqual(code, 1)
+        self.assertIn("states differ: ['a', 'b']", said)
 
     def test_scene_for_other_programs(self):
         file = self.folder / "wall.json"

@@ -89,6 +89,11 @@ class Determinism(unittest.TestCase):
             many = summary("--method", method, "--threads", threads)
             self.assertEqual(many["state_hash"], one["state_hash"], f"{threads} threads")
             self.assertEqual(many["energy"], one["energy"], f"{threads} threads")
+        changing = summary("--method", method)
+        self.assertEqual(changing["state_hash"], one["state_hash"], "as many threads as are fastest")
+        if len(os.sched_getaffinity(0)) > 1:
+            self.assertEqual(changing["thread_use"]["rule"], "auto")
+            self.assertGreater(changing["thread_use"]["trials"], 0)
         written = summary("--method", method, "--threads", "2", "--set", "output.frame_every=500", "--set", "output.row_every=70")
         self.assertEqual(written["state_hash"], one["state_hash"], "with frames and rows")
 

@@ -73,6 +73,23 @@ class TheStart(unittest.TestCase):
         self.assertRegex(said, rf"(?m)^warning: threads = {processors + 1} \(more than the {processors} processors at hand.* Give --threads {processors}\.$")
         self.assertNotIn("warning: ", self.said("--threads", str(processors)))
 
+    def test_the_threads_adapt_unless_a_number_is_given(self):
+        processors = len(os.sched_getaffinity(0))
+        for arguments in ((), ("--threads", "auto")):
+            said = self.said(*arguments)
+            if processors > 1:
+                self.assertIn(f"threads   1 to {processors} (auto: as many as are fastest, up to the processors at hand)", said)
+            self.assertRegex(said, r"(?m)^threads   cycles: 100 % on 1; chosen 1 from cycle 0; 0 trials of others$", "so few contacts are work for one")
+        said = self.said("--threads", "2")
+        self.assertIn("threads   2 (--threads)", said)
+        self.assertRegex(said, r"(?m)^threads   cycles: 100 % on 1$")
+
+    def test_a_number_of_threads_is_a_number_or_auto(self):
+        for wrong in ("0", "4097", "2.5", "all", "-1", "2x"):
+            done = subprocess.run([HDEM, "run", "small.toml", f"--threads={wrong}"], check=False, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"--threads {wrong}: give a whole number from 1 to 4096, or auto", done.stderr)
+
     def test_stages_where_loose_blocks_take_longer_steps_say_so(self):
         note = r"note: the 0\.0001 s given are kept while a block that has moved less than 0\.02 m in this stage is faster than 0\.\d+ m/s\. Else steps"
         case = CASE.replace(CASE[CASE.index("[[load]]"):CASE.index("[[stage]]")], "")
@@ -176,7 +193,7 @@ class TheEnd(unittest.TestCase):
 
     def test_the_table_of_times_has_every_stage(self):
         timing = self.summary["timing"]
-        self.assertEqual(list(timing), ["broad", "narrow", "force", "impulse", "update", "wait", "output", "other"])
+        self.assertEqual(list(timing), ["broad", "narrow", "force", "impulse", "update", "wait", "unused", "output", "other"])
         for name, row in timing.items():
             self.assertTrue(0.0 <= row["min"] <= row["mean"] <= row["max"], name)
             self.assertRegex(self.log, rf"(?m)^{name} +{row['min']:.3f} +{row['mean']:.3f} +{row['max']:.3f} +{100 * row['share']:.1f} %$")
