@@ -40,10 +40,16 @@ function lines(view) {
     if (joint !== "none") each((value) => swatch("line red", `Widest: ${JOINTS[joint].label.toLowerCase()} ${value}`), JOINTS[joint].unit, (pane) => contactReference(pane.run, pane.shown, joint));
     if (layers.crosses) each((value) => swatch("cross", `Longest: principal stress ${value}; blue: tension`), "Pa", (pane) => stressReference(pane.run, pane.shown));
     if (layers.bolts && panes.some((pane) => pane.shown >= 0 && pane.entry.bolts)) found.push(swatch("bolt", `Bolts: 0 to ${withUnit(boltReference(view.runs), "N", 3)}`));
-    if (view.needsContacts && panes.some((pane) => pane.shown >= 0 && !pane.entry.contacts)) found.push(element("p", { className: "note", textContent: "The page has no contacts of this frame." }));
+    if ((layers.forces || joint !== "none") && panes.some((pane) => pane.shown >= 0 && !pane.entry.contacts)) found.push(element("p", { className: "note", textContent: "The page has no contacts of this frame." }));
     return found;
 }
 
+// Made anew only when it says something else: that costs more than a frame of blocks.
 export function fillLegend(root, view) {
-    root.replaceChildren(...[...(CLASSES[view.field] ? classes(view) : bar(view)), ...lines(view)].filter(Boolean));
+    const { field, range, map, layers, joint, panes } = view;
+    const ofFrames = panes.map((pane) => pane.shown >= 0 && [pane.entry.begin, pane.entry.detached > 0, !!pane.entry.contacts, !!pane.entry.bolts]);
+    const key = JSON.stringify([field, range, map, layers, joint, ofFrames]);
+    if (root.dataset.key === key) return;
+    root.dataset.key = key;
+    root.replaceChildren(...[...(CLASSES[field] ? classes(view) : bar(view)), ...lines(view)].filter(Boolean));
 }

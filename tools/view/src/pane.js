@@ -68,7 +68,7 @@ export class Pane {
     // Shows a frame once it is there, unless another one has been asked for by then.
     async show(number) {
         this.wanted = number;
-        const [frame, contacts] = await Promise.all([this.run.frame(number), this.view.needsContacts ? this.run.contacts(number) : null]);
+        const [frame, contacts] = await Promise.all([this.run.frame(number), this.run.contacts(number)]);
         if (this.wanted !== number) return false;
         Object.assign(this, { frame, contacts, shown: number });
         this.update();

@@ -59,11 +59,18 @@ export class Scene {
 
     // After `pose` and `colour` have changed.
     upload(ground) {
-        const { gl, rows } = this;
-        gl.bindTexture(gl.TEXTURE_2D, this.poseTexture);
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, rows, gl.RGBA, gl.FLOAT, this.allPoses);
+        this.posesDue = true;
         this.recolour(ground);
         this.findBounds();
+    }
+
+    // Only when blocks are drawn: a sheet needs none of them as long as nothing moves.
+    uploadPoses() {
+        const { gl, rows } = this;
+        if (!this.posesDue) return;
+        this.posesDue = false;
+        gl.bindTexture(gl.TEXTURE_2D, this.poseTexture);
+        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, rows, gl.RGBA, gl.FLOAT, this.allPoses);
     }
 
     // After `colour` has changed.
@@ -125,6 +132,8 @@ export class Scene {
 
     drawBlocks(program, shape, first, mode, uniforms, parts) {
         const { gl } = this;
+        if (!parts.length) return;
+        this.uploadPoses();
         gl.useProgram(program.program);
         twgl.setBuffersAndAttributes(gl, program, shape.vertices);
         twgl.setUniforms(program, { ...uniforms, u_pose: this.poseTexture, u_colour: this.colourTexture });

@@ -19,10 +19,6 @@ export class View {
         this.readTheme();
     }
 
-    get needsContacts() {
-        return true; // for the pointer, the list of a block and the lines
-    }
-
     readTheme() {
         const style = getComputedStyle(document.documentElement);
         this.ground = rgb(style.getPropertyValue("--canvas").trim());
