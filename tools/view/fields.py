@@ -37,9 +37,7 @@ def range_of(name, values, detached):
     if not len(values):
         return [0.0, 0.0]
     low, high = float(values.min()), float(values.max())
-    magnitude = np.abs(values)
-    place = int(0.98 * (len(magnitude) - 1))
-    usual = float(np.partition(magnitude, place)[place])
+    usual = float(np.percentile(np.abs(values), 98))
     if max(-low, high) > 5.0 * usual > 0.0:
         low, high = max(low, -usual), min(high, usual)
     return [float(f"{low:.7g}"), float(f"{high:.7g}")]

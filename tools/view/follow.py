@@ -19,7 +19,6 @@ SHARE = 0.25    # of the time that it may take, so that large models do not spen
 
 def follow(folder, output):
     """Until the pipe ends. The exit code: 1 when the last page could not be written."""
-    os.nice(5)
     pack, seen, goes_on, problem, next_time = RunPack(), None, True, None, 0.0
     while goes_on:
         goes_on = not has_ended(LOOK)

@@ -84,7 +84,8 @@ export function digits(value, count = 4) {
     return text.replace("-", "−").replace("e-", "e−");
 }
 
+// Nothing is written in the greatest unit.
 export function withUnit(value, unit, count = 4) {
-    const [factor, name] = scaledUnit(unit, Math.abs(value));
+    const [factor, name] = scaledUnit(unit, value === 0 ? Infinity : Math.abs(value));
     return `${digits(value / factor, count)} ${name}`.trim();
 }

@@ -59,7 +59,7 @@ export class Histories {
         const chart = new uPlot({
             width: this.root.clientWidth, height: 150, scales: { x: { time: false }, y: { distr: log ? 3 : 1 } },
             axes: [{ ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${+tick.toPrecision(4)}`) },
-                   { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : Math.abs(tick) >= 1e4 || (tick && Math.abs(tick) < 1e-3) ? tick.toExponential(0) : `${+tick.toPrecision(4)}`)) }],
+                   { ...axis, ...(log ? { grid: { show: false }, ticks: { show: false } } : {}), size: 52, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : Math.abs(tick) >= 1e4 || (tick && Math.abs(tick) < 1e-3) ? tick.toExponential(0) : `${+tick.toPrecision(4)}`)) }],
             series: [{ label: "s", value: (_, time) => (time === null || time === undefined ? "–" : time.toPrecision(5)) }, ...series],
             legend: { live: false }, cursor: { sync: { key: "hdem" }, drag: { x: true, y: false }, points: { size: 5 } }, hooks: { draw: [(u) => this.drawMark(u)] },
         }, data, holder);

@@ -5,7 +5,7 @@ import * as twgl from "twgl.js";
 import { GONE, HATCHED, HATCHED_MOVED, PLAIN, PLAIN_MOVED } from "./colours.js";
 import { NUMBERS, SHEET } from "./shaders.js";
 
-const WIDER = 1.25;
+const BORDER = 0.125; // of the screen's width and height, on each side: whole pixels, so that both have the same ones
 const SEEN = 0.35; // pixels: a block that has moved less is where it was
 const MOST_MOVED = 20000; // blocks, from which on a new sheet is cheaper
 const REST = 160; // ms without a move
@@ -24,7 +24,7 @@ export class Sheet {
     }
 
     resize() {
-        const { gl, scene } = this, width = Math.ceil(WIDER * scene.canvas.width), height = Math.ceil(WIDER * scene.canvas.height);
+        const { gl, scene } = this, [width, height] = [scene.canvas.width, scene.canvas.height].map((size) => size + 2 * Math.ceil(BORDER * size));
         if (this.width === width && this.height === height) return;
         Object.assign(this, { width, height, camera: null });
         const plain = [{ internalFormat: gl.R32UI, format: gl.RED_INTEGER, type: gl.UNSIGNED_INT, minMag: gl.NEAREST, wrap: gl.CLAMP_TO_EDGE, auto: false }];
