@@ -31,7 +31,7 @@ class RunPack:
         self.shapes, self.references, self.rows = Shapes(), References(), ContactRows()
         self.frames, self.names, self.outlines = [], [], []
         self.run = None
-        self._fixed_facts = {}
+        self._fixed_facts, self._poses_at_hand = {}, {}    # the latter: of frames that were read in this update
         self.is_over = False    # known from elsewhere than the files
 
     def update(self, run):
@@ -51,6 +51,7 @@ class RunPack:
         if not self.frames:
             raise ResultError(f"{run.folder}: has no whole frame yet. Try again in a moment.")
         self._choose_contacts()
+        self._poses_at_hand.clear()
 
     def _file(self, kind, number):
         return self.run.folder / "frames" / f"{kind}_{number:06d}.hdf"
@@ -75,6 +76,7 @@ class RunPack:
         entry["ranges"] = {name: range_of(name, values, detached) for name, values in all_fields(blocks).items()}
         if "bolts" in blocks:
             entry["bolts"] = self._bolts(blocks["bolts"], blocks["bolt_force"])
+        self._poses_at_hand[frame.number] = self._poses(blocks, slots, reference)
         self.frames.append(entry)
 
     def _block_chunk(self, blocks, slots):
@@ -142,7 +144,7 @@ class RunPack:
         contacts = read_contacts(file)
         if len(contacts["blocks"]) and not np.all(self._known(contacts["blocks"])):
             raise ResultError(f"{file}: contacts name blocks that no frame has: the two files are of different runs, or damaged. Run the case again.")
-        rows, order = self.rows.rows_of(contacts, self.shapes.slot_of_id, self._poses(frame), self.shapes.radius)
+        rows, order = self.rows.rows_of(contacts, self.shapes.slot_of_id, self._poses_of(frame), self.shapes.radius)
         chunk = Chunk()
         chunk.add("row", "u4", rows)
         for name in QUANTITIES:
@@ -156,14 +158,18 @@ class RunPack:
         inside = (ids >= 0) & (ids < len(self.shapes.slot_of_id))
         return inside & (self.shapes.slot_of_id[np.where(inside, ids, 0)] >= 0)
 
-    def _poses(self, frame):
+    def _poses(self, blocks, slots, reference):
         """x, y, angle of all blocks that the frame has, as in its file."""
-        blocks = read_block_arrays(self._file("blocks", frame["number"]))
-        slots = self.shapes.slots(blocks)
         poses = np.full((len(self.shapes.id), 3), np.nan)
         poses[slots, :2] = blocks["position"]
-        poses[slots, 2] = self.references.sets[frame["reference"]][slots, 2] + blocks["rotation"]
+        poses[slots, 2] = self.references.sets[reference][slots, 2] + blocks["rotation"]
         return poses
+
+    def _poses_of(self, frame):
+        if frame["number"] not in self._poses_at_hand:
+            blocks = read_block_arrays(self._file("blocks", frame["number"]))
+            return self._poses(blocks, self.shapes.slots(blocks), frame["reference"])
+        return self._poses_at_hand[frame["number"]]
 
     def static_chunk(self):
         shapes, chunk = self.shapes, Chunk()

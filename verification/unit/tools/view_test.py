@@ -237,7 +237,7 @@ class PageOfASmallRun(unittest.TestCase):
 class PageOfARunThatGoesOn(unittest.TestCase):
     def start(self, folder):
         case = folder / "long.toml"
-        case.write_text(small_case.CASE.replace("row_every = 100", "row_every = 1000000\nframe_every = 50000").replace("cycles = 1500", "cycles = 2000000000")
+        case.write_text(small_case.CASE.replace("row_every = 100", "row_every = 1000000\nframe_every = 400000").replace("cycles = 1500", "cycles = 2000000000")
                         .replace("every = 10\n", "every = 1000000\n"), encoding="utf-8")
         process = subprocess.Popen([HDEM, "run", case, "-o", folder / "out", "--quiet", "--live", "--threads", "1"], stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.wait)
@@ -262,8 +262,9 @@ class PageOfARunThatGoesOn(unittest.TestCase):
 
     def test_follows_it_and_ends_with_it(self):
         for how, state in ((signal.SIGINT, "interrupted"), (signal.SIGKILL, "interrupted")):
-            with self.subTest(how), tempfile.TemporaryDirectory(prefix="hdem_live_test_") as scratch:
-                folder = Path(scratch)
+            with self.subTest(how):
+                folder = Path(tempfile.mkdtemp(prefix="hdem_live_test_"))
+                self.addCleanup(shutil.rmtree, folder)    # after the run was killed
                 process, page = self.start(folder), folder / "out/view.html"
                 seen = self.whole_pages(page, 120.0, 3)
                 self.assertEqual(len(seen), 3, seen)
