@@ -5,7 +5,7 @@ SAME_PLACE = 1.0 / 500.0    # of the block's radius: ends of a contact that move
 REACH = 4.0    # ends of a contact farther than this many radii from the first block's centroid stand at its limit
 STEP = REACH / 32767.0
 MOST_OF_ONE_PAIR = 256    # contacts between the parts of two blocks
-QUANTITIES = ["normal_force", "shear_force", "slip", "plastic_slip", "opening", "damage", "broken"]    # where the frame has them
+QUANTITIES = ["normal_force", "shear_force", "slip", "plastic_slip", "opening", "damage", "broken", "pore_pressure"]    # where the frame has them
 
 
 class ContactRows:

@@ -3,7 +3,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from argparse import Namespace
 from pathlib import Path
 
 import numpy as np
@@ -58,9 +57,9 @@ def pictures(run, options):
     plot.plt.rcParams.update(plot.STYLE)
     size = None
     for frame, colours in zip(run.frames, colour_ranges(run, options.colour)):
-        drawn = plot.draw_frame(run, Namespace(
-            result=run.folder, colour=options.colour, frame=str(frame.number), excavation=False, window=options.window, range=colours, contacts=False, joints=None,
-            crosses=False, bolts=False, history=None, factor=False, title=None, width=25.4 * options.width / DPI, dpi=DPI))
+        how = plot.parse([str(run.folder), "--colour", options.colour, "--frame", str(frame.number), "--dpi", f"{DPI:g}", "--width", f"{25.4 * options.width / DPI:.6f}"])
+        how.range, how.window = colours, options.window
+        drawn = plot.draw_frame(run, how)
         if size is None:    # that of the first one: a legend that comes later must not change it
             room = drawn.get_size_inches() + (0.0, 0.3)
             size = tuple(2 * round(float(side) * DPI / 2.0) for side in room)

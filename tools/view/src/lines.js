@@ -69,6 +69,7 @@ export const JOINTS = {
     opening: { label: "Opening by dilation", unit: "m" },
     damage: { label: "Damage", unit: "" },
     broken: { label: "Broken", unit: "" },
+    pore_pressure: { label: "Water pressure", unit: "Pa" },
 };
 
 export function jointValues(contacts, name) {
