@@ -57,39 +57,63 @@ def _indices(opened, path, values, low, high):
 def read_blocks(file):
     """One block frame as a dict of arrays, one entry per block; `polygon` and `part_...` lists see Run.blocks."""
     with open_checked(file, "hdem-blocks", "hdem", FORMAT_MAJOR) as opened:
-        cells = _cells(opened, BLOCK_CELLS)
-        names, material_names, excavation_names = (opened.texts(f"hdem/{what}names") for what in ("", "material_", "excavation_"))
-        ids = cells["id"]
-        _indices(opened, "VTKHDF/CellData/id", ids, 0, len(names))
-        _indices(opened, "VTKHDF/CellData/material", cells["material"], 0, len(material_names))
-        _indices(opened, "VTKHDF/CellData/regime", cells["regime"], 0, REGIMES)
-        if np.any(np.diff(ids) < 0):
-            opened.fail("VTKHDF/CellData/id", "not in ascending order")
-        first = np.unique(ids, return_index=True)[1]    # a block's first part
-        count = len(first)
-        if not np.array_equal(opened.array("hdem/block_id", "i4", (count,)), ids[first]):
-            opened.fail("hdem/block_id", "not the blocks of the cells")
-        points = _positions(opened, "VTKHDF/Points", (ANY, 3))[:, :2]
-        offsets = opened.array("VTKHDF/Offsets", "i8", (len(ids) + 1,))
-        _indices(opened, "VTKHDF/Offsets", offsets, 0, len(points) + 1)
-        if offsets[0] != 0 or offsets[-1] != len(points) or np.any(np.diff(offsets) < 3):
-            opened.fail("VTKHDF/Offsets", "not the ends of polygons of all points")
-        blocks = {name: data[first] for name, data in cells.items()}
-        for name in ("displacement", "velocity"):
-            blocks[name] = blocks[name][:, :2]
+        names = opened.texts("hdem/names")
+        blocks = _block_arrays(opened, len(names))
         blocks["name"] = np.array(names, dtype=object)[blocks["id"]]
-        blocks["position"] = _positions(opened, "hdem/block_position", (count, 2))
-        blocks["area"] = opened.array("hdem/block_area", "f8", (count,))
-        blocks["mass"] = opened.array("hdem/block_mass", "f8", (count,))
-        blocks["material_names"], blocks["excavation_names"] = material_names, excavation_names
-        blocks["outline"] = _positions(opened, "hdem/outline_segments", (ANY, 2, 2))
-        blocks["outline_excavation"] = opened.array("hdem/outline_excavation", "i4", (len(blocks["outline"]),))
-        _indices(opened, "hdem/outline_excavation", blocks["outline_excavation"], -1, len(excavation_names))
-        blocks["water_table"] = _positions(opened, "hdem/water_table", (ANY, 2)) if opened.has("hdem/water_table") else np.empty((0, 2))
-        blocks["info"] = _head(opened, {"detached_distance": "f8"})
-        outer = opened.array("hdem/outer_edge", "u1", (len(points),)).astype(bool)
-        blocks |= _shapes(opened, points, offsets, outer, np.searchsorted(blocks["id"], ids), count)
+        points, offsets, outer, part_block = (blocks.pop(name) for name in ("points", "offsets", "outer", "part_block"))
+        blocks |= _shapes(opened, points, offsets, outer, part_block, len(blocks["id"]))
         return blocks
+
+
+def read_block_arrays(file):
+    """The same without names and without lists, for those who read many large frames. Cells as arrays: points (n, 2), offsets, outer, part_block."""
+    with open_checked(file, "hdem-blocks", "hdem", FORMAT_MAJOR) as opened:
+        blocks = _block_arrays(opened, np.iinfo("i4").max)
+        if opened.has("hdem/bolt_segments"):
+            blocks["bolts"] = _positions(opened, "hdem/bolt_segments", (ANY, 2, 2))
+            blocks["bolt_force"] = opened.array("hdem/bolt_force", None, (len(blocks["bolts"]),))
+        return blocks
+
+
+def read_names(file):
+    """Of all blocks of the model, by `id`."""
+    with open_checked(file, "hdem-blocks", "hdem", FORMAT_MAJOR) as opened:
+        return opened.texts("hdem/names")
+
+
+def _block_arrays(opened, names):
+    cells = _cells(opened, BLOCK_CELLS)
+    material_names, excavation_names = (opened.texts(f"hdem/{what}_names") for what in ("material", "excavation"))
+    ids = cells["id"]
+    _indices(opened, "VTKHDF/CellData/id", ids, 0, names)
+    _indices(opened, "VTKHDF/CellData/material", cells["material"], 0, len(material_names))
+    _indices(opened, "VTKHDF/CellData/regime", cells["regime"], 0, REGIMES)
+    if np.any(np.diff(ids) < 0):
+        opened.fail("VTKHDF/CellData/id", "not in ascending order")
+    first = np.unique(ids, return_index=True)[1]    # a block's first part
+    count = len(first)
+    if not np.array_equal(opened.array("hdem/block_id", "i4", (count,)), ids[first]):
+        opened.fail("hdem/block_id", "not the blocks of the cells")
+    points = _positions(opened, "VTKHDF/Points", (ANY, 3))[:, :2]
+    offsets = opened.array("VTKHDF/Offsets", "i8", (len(ids) + 1,))
+    _indices(opened, "VTKHDF/Offsets", offsets, 0, len(points) + 1)
+    if offsets[0] != 0 or offsets[-1] != len(points) or np.any(np.diff(offsets) < 3):
+        opened.fail("VTKHDF/Offsets", "not the ends of polygons of all points")
+    blocks = {name: data[first] for name, data in cells.items()}
+    for name in ("displacement", "velocity"):
+        blocks[name] = blocks[name][:, :2]
+    blocks["position"] = _positions(opened, "hdem/block_position", (count, 2))
+    blocks["area"] = opened.array("hdem/block_area", "f8", (count,))
+    blocks["mass"] = opened.array("hdem/block_mass", "f8", (count,))
+    blocks["material_names"], blocks["excavation_names"] = material_names, excavation_names
+    blocks["outline"] = _positions(opened, "hdem/outline_segments", (ANY, 2, 2))
+    blocks["outline_excavation"] = opened.array("hdem/outline_excavation", "i4", (len(blocks["outline"]),))
+    _indices(opened, "hdem/outline_excavation", blocks["outline_excavation"], -1, len(excavation_names))
+    blocks["water_table"] = _positions(opened, "hdem/water_table", (ANY, 2)) if opened.has("hdem/water_table") else np.empty((0, 2))
+    blocks["info"] = _head(opened, {"detached_distance": "f8"})
+    blocks["outer"] = opened.array("hdem/outer_edge", "u1", (len(points),)).astype(bool)
+    blocks |= {"points": points, "offsets": offsets, "part_block": np.searchsorted(blocks["id"], ids)}
+    return blocks
 
 
 def _shapes(opened, points, offsets, outer, part_block, count):

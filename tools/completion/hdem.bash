@@ -4,7 +4,7 @@
 _hdem_words()
 {
     case "$1" in
-        run) echo "-o --output --restart --overwrite --max-wall --method --threads --set -q --quiet -h --help" ;;
+        run) echo "-o --output --restart --overwrite --max-wall --method --threads --set --live -q --quiet -h --help" ;;
         critical) echo "--vary --fails --tolerance -o --output --overwrite --threads --set -q --quiet -h --help" ;;
         fos) echo "-o --output --overwrite --threads --set -q --quiet -h --help" ;;
         check) echo "--set --blocks -h --help" ;;
@@ -12,7 +12,8 @@ _hdem_words()
         schema) echo "--markdown -h --help" ;;
         plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --numbers --bolts --liners --crosses --history --factor --title --width --dpi -h --help" ;;
         report) echo "-o --output -h --help" ;;
-        *) echo "run fos critical check info schema plot report --version -h --help" ;;
+        view) echo "-o --output --contacts --movie --colour --fps --window --width -h --help" ;;
+        *) echo "run fos critical check info schema plot report view --version -h --help" ;;
     esac
 }
 

@@ -51,6 +51,7 @@ void add_run(CLI::App& app, RunOptions& options)
     add_threads(*run, options.threads);
     run->add_option("--set", options.overrides,
                     "key.path=value instead of the case file's, e.g. joint.default.cohesion=2e3; repeatable");
+    run->add_flag("--live", options.live, "Write view.html as the run goes: a page that follows it in a browser (hdem view)");
     run->add_flag("-q,--quiet", options.quiet, "Nothing on the screen but errors; run.log has it all");
     run->callback(
         [&options, file]
@@ -149,6 +150,8 @@ int dispatch(int argc, char** argv)
     CLI::App* plot = add_script(app, "plot",
                                 "Draw a picture of a run: hdem plot RESULT.h5 [-o FILE.png]; --help lists its options");
     CLI::App* report = add_script(app, "report", "Make one HTML page of a run: hdem report FOLDER [-o FILE.html]");
+    CLI::App* view = add_script(app, "view",
+                                "Make one HTML page that plays the frames of a run, or of two: hdem view RUN [RUN] [-o FILE.html]");
     try
     {
         app.parse(argc, argv);
@@ -175,6 +178,8 @@ int dispatch(int argc, char** argv)
         return run_script("plot", "plot.py", plot->remaining());
     if (*report)
         return run_script("report", "run_report.py", report->remaining());
+    if (*view)
+        return run_script("view", "run_view.py", view->remaining());
     return app.got_subcommand("run") ? run_command(run) : check_command(check);
 }
 }  // namespace

@@ -32,6 +32,7 @@ struct RunOptions
     std::string folder;              ///< of the results; "" = named after the case, or that of the checkpoint
     std::string restart;             ///< checkpoint, or folder with one; "" = a new run
     bool overwrite = false;          ///< begin anew where a run was cut short
+    bool live = false;               ///< write a page that follows the run
     std::optional<double> max_wall;  ///< [s]
     std::optional<std::string> method;
     std::optional<int> threads;

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 #include "io/run_recorder.h"
 #include "tools/hdem/finished_run.h"
+#include "tools/hdem/live_page.h"
 #include "tools/hdem/patience.h"
 #include "tools/hdem/run_keeper.h"
 #include "tools/hdem/signals.h"
@@ -54,6 +55,8 @@ void save_last_moment(Log& log, const RunError& error, const Simulation& simulat
 FinishedRun run_case(const RunOptions& options, Observer* also)
 {
     const RunKeeper::Clock::time_point begin = RunKeeper::Clock::now();
+    if (options.live)
+        LivePage::check();
     catch_checkpoint_requests();
     std::optional<Patience> patience(std::in_place, Patience::Settings{.work = "the case is read and its model built",
                                                                        .begin = begin,
@@ -77,6 +80,12 @@ FinishedRun run_case(const RunOptions& options, Observer* also)
     print_banner(log, start, options, simulation);
 
     const std::unique_ptr<RunRecorder> recorder = make_recorder(start, options, simulation);
+    std::optional<LivePage> page;
+    if (options.live)
+    {
+        page.emplace(folder);
+        log.line(fmt::format("a page that follows the run: {}", (folder / "view.html").string()));
+    }
     RowObserver rows(simulation, log);
     Session session{.first_cycle = simulation.state().cycle};
     TimedObserver timed_rows(rows, session.output_seconds);

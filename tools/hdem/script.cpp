@@ -7,23 +7,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 namespace hdem
 {
-namespace
-{
-/// The distribution's, for which python3-h5py and python3-matplotlib are packaged; the first python3 of PATH may be another.
-constexpr const char* python = "/usr/bin/python3";
-
-/// PREFIX/bin/hdem finds PREFIX/share/hdem, installed or in a build folder.
 std::filesystem::path shared_folder()
 {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     return program.parent_path().parent_path() / "share" / "hdem";
 }
-}  // namespace
 
 int run_script(const std::string& command, const std::string& script, const std::vector<std::string>& arguments)
 {

@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+"""The page of `hdem view` in a real browser: keys, clicks, and what is on the screen, by counting pixels.
+
+    view_browser_test.py HDEM TOOLS MODULES [--speed]    the program, the folder of its scripts (not used), the node_modules that its build fetched
+        --speed    instead: a page of 10^5 blocks and 20 frames, how long it takes to open and how many pictures a second it makes
+
+Exit code 77 (skipped) without h5py or matplotlib, Chromium, Node.js or the viewer.
+"""
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import h5py
+    import matplotlib.image    # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+import small_case
+from view_page import ViewPage, count, covered, middle, pixels
+
+HDEM, MODULES = Path(sys.argv[1]).resolve(), Path(sys.argv[3]).resolve()
+SPEED = "--speed" in sys.argv
+NODE, CHROMIUM = (next(filter(None, map(shutil.which, names)), None) for names in (("node", "nodejs"), ("chromium", "chromium-headless-shell")))
+for what, there in (("no Node.js", NODE), ("no Chromium: tools/setup installs it", CHROMIUM), ("playwright-core was not fetched when hdem was built", (MODULES / "playwright-core").is_dir()),
+                    ("hdem was built without the viewer", (HDEM.parent.parent / "share/hdem/view/viewer.html").exists())):
+    if not there:
+        print(f"skipped: {what}")
+        sys.exit(77)
+
+STONE, ORANGE, FALLEN, DARK, RED, GROUND, NIGHT = (227, 216, 189), (213, 94, 0), (247, 207, 174), (22, 25, 29), (204, 51, 17), (238, 240, 243), (15, 18, 20)
+ROCK = """
+title = "Many blocks"
+[domain]
+width = {size}
+height = {size}
+fixed = ["left", "right", "bottom"]
+[[joint_set]]
+dip_deg = 25.0
+spacing = 1.0
+deviation_deg = 2.0
+[[joint_set]]
+dip_deg = 110.0
+spacing = 0.98
+deviation_deg = 2.0
+[generator]
+smallest_block_area = 0.02
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e9
+shear_stiffness = 5e8
+friction_angle_deg = 15.0
+[[excavation]]
+name = "tunnel"
+shape = "horseshoe"
+position = [{middle}, {middle}]
+width = 30.0
+height = 25.0
+[output]
+frame_every = 1
+[[stage]]
+cycles = {first}
+[[stage]]
+excavate = ["tunnel"]
+cycles = {second}
+"""
+
+
+class Browser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_view_browser_test_")
+        cls.root = Path(cls.scratch.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def run_of(self, name, text):
+        """Its folder."""
+        case, folder = self.root / f"{name}.toml", self.root / name
+        case.write_text(text, encoding="utf-8")
+        subprocess.run([HDEM, "run", case, "-o", folder, "--quiet"], check=True)
+        return folder
+
+    def page_of(self, *runs, name="page"):
+        done = subprocess.run([HDEM, "view", *runs, "-o", self.root / f"{name}.html"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.root / f"{name}.html"
+
+    def browse(self, what, page):
+        """What the browser saw. Nothing went wrong in it, and it opened this file only."""
+        done = subprocess.run([NODE, Path(__file__).with_name("view_browser.mjs"), MODULES, CHROMIUM, self.root, what, page], capture_output=True, text=True, check=False, timeout=400)
+        self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+        said = json.loads(done.stdout)
+        self.assertEqual(said["problems"], [])
+        self.assertEqual(set(said["requests"]), {f"file://{page}"})
+        return said
+
+    def picture(self, name):
+        """Without the lines around it."""
+        return pixels(self.root / f"{name}.png")[2:-2, 2:-2]
+
+
+def small_text(gravity=""):
+    return small_case.CASE.replace("row_every = 100", "row_every = 100\nframe_every = 50") + gravity
+
+
+class SmallPages(Browser):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.folder = cls.run_of(cls, "out", small_text())
+        cls.file = cls.page_of(cls(), cls.folder)
+
+    def area(self, picture, scale, *colours):
+        """m² of these colours"""
+        return sum(count(picture, colour) for colour in colours) / scale**2
+
+    def test_keys_change_what_is_seen(self):
+        said = self.browse("keys", self.file)
+        self.assertEqual((said["begin"]["counter"], said["begin"]["field"], said["home"]["counter"]), ("35 / 35", "displacement", "1 / 35"))
+        self.assertEqual([said[name]["place"] for name in ("home", "right", "left", "end")], [0, 2, 1, 34])
+        self.assertIn("settle · cycle 0 ", said["home"]["caption"])
+        self.assertIn("fall · cycle 1\u202f700 · 0.17 s", said["end"]["caption"])
+        scale = said["begin"]["scale"]
+        # Ground 10 m², L 3 m², prop and ball 1 m²; the prop goes.
+        first, last = self.picture("first"), self.picture("last")
+        self.assertAlmostEqual(covered(first, STONE, GROUND) / scale**2, 15.0, delta=0.03)
+        self.assertAlmostEqual(covered(last, STONE, GROUND) / scale**2, 14.0, delta=0.03)
+        self.assertGreater(count(first, GROUND), 0.5 * first.shape[0] * first.shape[1])
+        # The ball is detached: orange where the frame has it.
+        states = self.picture("states")
+        self.assertAlmostEqual(self.area(states, scale, ORANGE), 1.0, delta=0.03)
+        with h5py.File(self.folder / "frames/blocks_000034.hdf") as frame:
+            x, y = frame["hdem/block_position"][-1]
+        column, row = middle(states, ORANGE)
+        self.assertAlmostEqual((column - 0.5 * states.shape[1]) / scale + 4.0, x, delta=0.02)    # the model's middle: x 4, y 0.5
+        self.assertAlmostEqual((0.5 * states.shape[0] - row) / scale + 0.5, y, delta=0.02)
+        hatched = self.picture("hatched")
+        stripes, between = (self.area(hatched, scale, colour) for colour in (ORANGE, FALLEN))
+        self.assertAlmostEqual(stripes + between, 1.0, delta=0.1)
+        self.assertTrue(0.2 < stripes < 0.5, stripes)
+        self.assertIn("Detached: moved more than 50 mm", said["begin"]["legend"])
+        # Layers add and take away what they should.
+        self.assertEqual(said["second"]["field"], "displacement_x")
+        self.assertGreater(count(self.picture("forces"), DARK), count(last, DARK) + 200)
+        self.assertIn("Widest: normal force", said["forces"]["legend"])
+        self.assertGreater(count(self.picture("crosses"), DARK, 40), count(last, DARK, 40) + 50)
+        self.assertIn("principal stress", said["crosses"]["legend"])
+        self.assertEqual(said["joints"]["joint"], "slip")
+        self.assertGreater(count(self.picture("joints"), RED), 20)
+        # The outline of the prop: 4 m, 2.2 pixels wide.
+        self.assertAlmostEqual(count(self.picture("outlined"), DARK, 60), 4.0 * scale * 2.2, delta=0.35 * 4.0 * scale * 2.2)
+        self.assertTrue(said["playing"]["playing"])
+        self.assertFalse(said["stopped"]["playing"])
+        self.assertEqual(said["theme"], "dark")
+        dark = self.picture("dark")
+        self.assertGreater(count(dark, NIGHT), 0.5 * dark.shape[0] * dark.shape[1])
+        self.assertEqual(count(dark, GROUND), 0)
+
+    def test_pointer_finds_moves_and_keeps(self):
+        said = self.browse("pointer", self.file)
+        self.assertTrue(said["tip"].startswith("ball"), said["tip"])
+        self.assertIn("140 mm", said["tip"])    # it falls for 0.15 s: 0.14 m
+        self.assertIn("from l", said["groundTip"])    # the greatest force on the ground
+        self.assertEqual(said["pinned"]["pinned"], said["stillPinned"])
+        for words in ("ball", "detached", "139.9 mm", "1.668 m/s"):
+            self.assertIn(words, said["pinned"]["block"])
+        before, after = said["zoom"]
+        self.assertAlmostEqual(after / before, np.exp(0.64), delta=0.01)
+        (x0, y0), (x1, y1) = said["moved"]
+        self.assertLess(x1, x0)
+        self.assertAlmostEqual(said["fitted"]["scale"], before, delta=1e-6)
+        self.assertEqual((said["escaped"]["pinned"], said["escaped"]["block"]), (-1, ""))
+        # A click in the middle of the history: half of the time; the mark goes there.
+        self.assertAlmostEqual(said["atHalf"]["time"], 0.085, delta=0.004)
+        self.assertLess(said["atHalf"]["mark"], said["markAtEnd"] - 50)
+        self.assertEqual(said["charts"], 2)
+        poses, half = said["magnified"], [17, 0.085]
+        with h5py.File(self.folder / f"frames/blocks_{half[0]:06d}.hdf") as frame:
+            position, moved = frame["hdem/block_position"][-1], frame["VTKHDF/CellData/displacement"][-1]
+        slot = next(i for i in range(4) if poses[4 * i] is not None and abs(poses[4 * i] + 4.0 - 4.5) < 1e-3)
+        self.assertAlmostEqual(poses[4 * slot + 1] + 0.5, position[1] + 9.0 * moved[1], delta=1e-3)
+        self.assertIn("500", said["manual"])
+
+    def test_compares_two_runs(self):
+        moon = self.run_of("moon", small_text("[gravity]\nvector = [0.0, -1.62]\n"))
+        said = self.browse("compare", self.page_of(self.folder, moon, name="two"))
+        self.assertEqual([words.split("fall")[0] for words in said["panes"]], ["out", "moon"])
+        self.assertEqual(said["scales"][0], said["scales"][1])
+        for i in (0, 1):
+            self.assertAlmostEqual(covered(self.picture(f"compare{i}"), STONE, GROUND) / said["scales"][i]**2, 14.0, delta=0.06)
+        self.assertAlmostEqual(*said["times"], delta=1e-9)
+        np.testing.assert_allclose(said["cameras"][0], said["cameras"][1], rtol=1e-9)
+        self.assertTrue(any("moon" in name for name in said["series"]) and any("out" in name for name in said["series"]), said["series"])
+
+    def test_live_page_loads_itself_and_stays_as_it_was(self):
+        page = ViewPage(self.file)
+        live = self.root / "live.html"
+        live.write_text(page.text.replace('"live":null', '"live":{"every":1.0}', 1), encoding="utf-8")
+        said = self.browse("live", live)
+        self.assertIn("Live", said["sign"])
+        self.assertEqual((said["again"]["field"], said["again"]["place"]), ("speed", 0))
+
+
+class ManyBlocks(Browser):
+    def test_sheet_shows_what_blocks_show(self):
+        """Above 20 000 blocks a picture is made in another way; it is the same, but for pixels on edges."""
+        folder = self.run_of("many", ROCK.format(size=150.0, middle=75.0, first=1, second=1))
+        said = self.browse("many", self.page_of(folder))
+        self.assertGreater(said["blocks"], 20000)
+        self.assertTrue(said["hasSheet"])
+        for sheet, exact in (("sheet", "exact"), ("sheet_zoomed", "exact_zoomed"), ("sheet_first", "exact_first")):
+            one, other = self.picture(sheet), self.picture(exact)
+            self.assertGreater(np.ptp(one), 100)
+            differ = np.mean(np.any(np.abs(one - other) > 8, axis=2))
+            self.assertLess(differ, 0.002, sheet)
+        self.assertGreater(np.mean(np.any(self.picture("sheet") != self.picture("sheet_zoomed"), axis=2)), 0.2)
+
+
+class Speed(Browser):
+    def test_opens_in_5_s_and_moves_30_times_a_second(self):
+        folder = self.run_of("large", ROCK.format(size=320.0, middle=160.0, first=10, second=9))
+        file = self.page_of(folder)
+        said = self.browse("speed", file)
+        print(f"{said['blocks']} blocks, {said['frames']} frames, {file.stat().st_size / 1e6:.1f} MB: opens in {said['opened']:.2f} s; pictures a second: "
+              f"{said['pan']:.0f} moved, {said['zoom']:.0f} zoomed, {said['play']:.0f} played")
+        self.assertGreaterEqual(said["blocks"], 100000)
+        self.assertGreaterEqual(said["frames"], 20)
+        self.assertLess(said["opened"], 5.0)
+        for how in ("pan", "zoom", "play"):
+            self.assertGreaterEqual(said[how], 30.0, how)
+
+
+if __name__ == "__main__":
+    suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case) for case in ([Speed] if SPEED else [SmallPages, ManyBlocks]))
+    sys.exit(0 if unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful() else 1)
