@@ -57,7 +57,7 @@ std::vector<std::string> kinds_of(const Model& model)
     std::vector<std::string> kinds{"blocks"};
     if (model.output.contacts)
         kinds.emplace_back("contacts");
-    if (!model.support.empty())
+    if (!model.support.bolts.empty())
         kinds.emplace_back("bolts");
     return kinds;
 }
@@ -124,7 +124,7 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
         frame.stage = model.stages[static_cast<std::size_t>(state.stage)].name;
     if (model.output.contacts)
         write_contact_frame(folder_ / frame_file("contacts", number), model, state);
-    if (!model.support.empty())
+    if (!model.support.bolts.empty())
         write_bolt_frame(folder_ / frame_file("bolts", number), model, state);
     write_block_frame(folder_ / frame_file("blocks", number), model, state);
     frames_.push_back(std::move(frame));

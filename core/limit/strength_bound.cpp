@@ -293,6 +293,11 @@ StrengthBound strength_bound(const Model& model, const State& state, const std::
         bound.why = "more than " + std::to_string(most_blocks) + " blocks";
         return bound;
     }
+    if (std::ranges::any_of(state.support.liners, [](const LinerRecord& liner) { return liner.installed != 0; }))
+    {
+        bound.why = "linings are not part of the linear program";
+        return bound;
+    }
     Program program(model, state, weakened, weakens_bolts);
     bound.rows = program.rows();
     bound.columns = program.columns();
