@@ -325,6 +325,8 @@ class RunCheck : public CaseCheck
                           "Name joints, or write [\"joints\"] for all.");
         Names known = joints_;
         known.insert("joints");
+        if (!def_.bolts.empty())
+            known.insert("bolts");
         for (const std::string& name : def.reduce)
             check_reference(path + ".reduce", object, name, "joint", known);
         if (def.bracket.y() <= def.bracket.x())

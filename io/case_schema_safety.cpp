@@ -35,40 +35,43 @@ SectionSpec factor_of_safety_section()
                                  .choices = {"auto"},
                                  .default_note = "`\"auto\"`"},
                                 ValueType::number_or_text);
-    return {"factor_of_safety",
-            SectionKind::table,
-            "factor_of_safety",
-            about,
-            {field<&FactorOfSafetyDef::reduce>({.name = "reduce",
-                                                .effect = "What is weakened: `\"joints\"` are all, else names of [joint.NAME].",
-                                                .example = "[\"bedding\"]"}),
-             field<&FactorOfSafetyDef::bracket>(
-                 {.name = "bracket",
-                  .effect = "Lowest and highest F to begin with. Where the answer lies outside the search goes on by doubling or "
-                            "halving. The bound by limit analysis, where it is found, comes first.",
-                  .example = "[0.5, 3.0]",
-                  .range = {.low = 0, .high = 1e3, .low_included = false}}),
-             field<&FactorOfSafetyDef::tolerance>(
-                 {.name = "tolerance", .effect = "Width of the last bracket. F is its middle.", .range = {.low = 1e-4, .high = 1}}),
-             with_assign(std::move(displacement), assign_displacement),
-             field<&FactorOfSafetyDef::least_size>(
-                 {.name = "least_size",
-                  .unit = "m²",
-                  .effect = "Smaller blocks may fail without counting. They are taken away when they do, and named.",
-                  .range = non_negative}),
-             field<&FactorOfSafetyDef::begin>(
-                 {.name = "begin",
-                  .effect = "Where blocks gave way in the last stage by their own strength: `\"last_stage\"` runs the stage anew "
-                            "under great strength, and F says where they would have stood; `\"last_state\"` takes the rock as it "
-                            "lies, and F is that of what still stands.",
-                  .choices = {"last_stage", "last_state"}}),
-             field<&FactorOfSafetyDef::peak>(
-                 {.name = "peak",
-                  .effect = "Where slip or breaking takes strength: find the factor with residual strength = peak strength too."}),
-             field<&FactorOfSafetyDef::check_stiffness>(
-                 {.name = "check_stiffness",
-                  .effect = "Look whether the factor is the same with joints that are so many times as stiff; 1: do not look.",
-                  .range = {.low = 1, .high = 10}})},
-            part<&CaseDef::factor_of_safety>};
+    return {
+        "factor_of_safety",
+        SectionKind::table,
+        "factor_of_safety",
+        about,
+        {field<&FactorOfSafetyDef::reduce>(
+             {.name = "reduce",
+              .effect = "What is weakened: `\"joints\"` are all, else names of [joint.NAME]. `\"bolts\"`: what [[bolt]] bear is "
+                        "divided too (yield, shear_strength, bond_strength); else it stays.",
+              .example = "[\"joints\", \"bolts\"]"}),
+         field<&FactorOfSafetyDef::bracket>(
+             {.name = "bracket",
+              .effect = "Lowest and highest F to begin with. Where the answer lies outside the search goes on by doubling or "
+                        "halving. The bound by limit analysis, where it is found, comes first.",
+              .example = "[0.5, 3.0]",
+              .range = {.low = 0, .high = 1e3, .low_included = false}}),
+         field<&FactorOfSafetyDef::tolerance>(
+             {.name = "tolerance", .effect = "Width of the last bracket. F is its middle.", .range = {.low = 1e-4, .high = 1}}),
+         with_assign(std::move(displacement), assign_displacement),
+         field<&FactorOfSafetyDef::least_size>(
+             {.name = "least_size",
+              .unit = "m²",
+              .effect = "Smaller blocks may fail without counting. They are taken away when they do, and named.",
+              .range = non_negative}),
+         field<&FactorOfSafetyDef::begin>(
+             {.name = "begin",
+              .effect = "Where blocks gave way in the last stage by their own strength: `\"last_stage\"` runs the stage anew "
+                        "under great strength, and F says where they would have stood; `\"last_state\"` takes the rock as it "
+                        "lies, and F is that of what still stands.",
+              .choices = {"last_stage", "last_state"}}),
+         field<&FactorOfSafetyDef::peak>(
+             {.name = "peak",
+              .effect = "Where slip or breaking takes strength: find the factor with residual strength = peak strength too."}),
+         field<&FactorOfSafetyDef::check_stiffness>(
+             {.name = "check_stiffness",
+              .effect = "Look whether the factor is the same with joints that are so many times as stiff; 1: do not look.",
+              .range = {.low = 1, .high = 10}})},
+        part<&CaseDef::factor_of_safety>};
 }
 }  // namespace hdem

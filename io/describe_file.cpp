@@ -62,16 +62,16 @@ void describe_format(Page& page, const Hdf5Reader& in, const std::string& object
 
 void describe_frame(Page& page, const Hdf5Reader& in, const std::string& filetype)
 {
-    const bool blocks = filetype == "hdem-blocks";
-    describe_format(page, in, "/hdem", blocks ? "frame of blocks" : "frame of contacts");
+    const std::string kind = filetype.substr(filetype.find('-') + 1);
+    describe_format(page, in, "/hdem", "frame of " + kind);
     page.add("title", in.text("/hdem", "title"));
     page.add("stage", in.text("/hdem", "stage"));
     page.add("cycle", fmt::format("{}", number<std::int64_t>(in, "/hdem", "cycle")));
     page.add("time", fmt::format("{:.6g} s", number<double>(in, "/hdem", "time")));
-    if (blocks)
+    if (kind == "blocks")
         page.add("blocks", fmt::format("{} ({} convex parts)", rows(in, "/hdem/block_id"), count(in, "NumberOfCells")));
     else
-        page.add("contacts", fmt::format("{}", count(in, "NumberOfCells")));
+        page.add(kind, fmt::format("{}", count(in, "NumberOfCells")));
     page.add("fields", fmt::format("{}", fmt::join(in.children("/VTKHDF/CellData"), ", ")));
     page.add("written by", commit_of(in, "/hdem"));
 }
@@ -143,7 +143,7 @@ void describe_hdf5(Page& page, const fs::path& file)
             return describe_results(page, in);
         if (filetype == "hdem-checkpoint")
             return describe_checkpoint(page, in);
-        if (filetype == "hdem-blocks" || filetype == "hdem-contacts")
+        if (filetype == "hdem-blocks" || filetype == "hdem-contacts" || filetype == "hdem-bolts")
             return describe_frame(page, in, filetype);
     }
     refuse(file, "an HDF5 file, but none of hdem's");

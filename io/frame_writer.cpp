@@ -15,10 +15,10 @@ namespace hdem
 {
 namespace
 {
-/// Number of blocks_NNNNNN.hdf or contacts_NNNNNN.hdf, -1 for any other name (and for what a killed run left behind).
+/// Number of blocks_NNNNNN.hdf and the like, -1 for any other name (and for what a killed run left behind).
 int frame_number(const std::string& file)
 {
-    for (const std::string kind : {"blocks_", "contacts_"})
+    for (const std::string kind : {"blocks_", "contacts_", "bolts_"})
     {
         const std::string digits = file.substr(std::min(kind.size(), file.size()), 6);
         if (file == kind + digits + ".hdf" && digits.find_first_not_of("0123456789") == std::string::npos)
@@ -51,6 +51,17 @@ catch (const RunError&)
 {
     return std::nullopt;
 }
+
+std::vector<std::string> kinds_of(const Model& model)
+{
+    std::vector<std::string> kinds{"blocks"};
+    if (model.output.contacts)
+        kinds.emplace_back("contacts");
+    if (!model.support.bolts.empty())
+        kinds.emplace_back("bolts");
+    return kinds;
+}
+
 /// Would the run have no frame of this cycle, had it gone on?
 bool is_of_interruption(const Model& model, const State& state)
 {
@@ -60,8 +71,8 @@ bool is_of_interruption(const Model& model, const State& state)
 
 void remove_frames(const std::filesystem::path& folder)
 {
-    remove_file(folder / "blocks.hdf.series");
-    remove_file(folder / "contacts.hdf.series");
+    for (const char* series : {"blocks.hdf.series", "contacts.hdf.series", "bolts.hdf.series"})
+        remove_file(folder / series);
     for (const std::filesystem::path& file : files_in(folder / "frames"))
         if (frame_number(file.filename().string()) >= 0)
             remove_file(file);
@@ -72,16 +83,14 @@ std::string frame_file(const std::string& kind, int number)
     return fmt::format("frames/{}_{:06d}.hdf", kind, number);
 }
 
-FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model)
-    : folder_(std::move(folder)),
-      contacts_(model.output.contacts)
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model) : folder_(std::move(folder)), kinds_(kinds_of(model))
 {
     remove_frames(folder_);
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const State& state)
     : folder_(std::move(folder)),
-      contacts_(model.output.contacts)
+      kinds_(kinds_of(model))
 {
     for (const std::filesystem::path& file : files_in(folder_ / "frames"))
     {
@@ -113,8 +122,10 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
     Frame frame{.number = number, .cycle = state.cycle, .time = state.time, .stage = {}};
     if (state.stage >= 0 && static_cast<std::size_t>(state.stage) < model.stages.size())
         frame.stage = model.stages[static_cast<std::size_t>(state.stage)].name;
-    if (contacts_)
+    if (model.output.contacts)
         write_contact_frame(folder_ / frame_file("contacts", number), model, state);
+    if (!model.support.bolts.empty())
+        write_bolt_frame(folder_ / frame_file("bolts", number), model, state);
     write_block_frame(folder_ / frame_file("blocks", number), model, state);
     frames_.push_back(std::move(frame));
     return frames_.back();
@@ -122,9 +133,8 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
 
 void FrameWriter::write_series() const
 {
-    write_series("blocks");
-    if (contacts_)
-        write_series("contacts");
+    for (const std::string& kind : kinds_)
+        write_series(kind);
 }
 
 void FrameWriter::write_series(const std::string& kind) const

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a state for ParaView and for tools/plot.py: one VTKHDF file for the blocks, one for the contacts.
+/// Pictures of a state for ParaView and for tools/plot.py: one VTKHDF file for the blocks, one for the contacts, one for the bolts.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -18,14 +18,14 @@ struct Frame
     std::string stage;  ///< name
 };
 
-/// Files: FOLDER/frames/blocks_NNNNNN.hdf and contacts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and contacts.hdf.series, which
+/// Files: FOLDER/frames/blocks_NNNNNN.hdf, contacts_NNNNNN.hdf and bolts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and so on, which
 /// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series
 /// names complete files only. All are written with Flush::later: results.h5 brings them to the disk.
 /// @see verification/unit/io/frame_writer_test.cpp
 class FrameWriter
 {
   public:
-    /// Contact frames are written when model.output.contacts says so. Frames of an earlier run in the folder are removed.
+    /// Contact frames are written when model.output.contacts says so, frames of bolts where the case has any. Frames of an earlier run in the folder are removed.
     FrameWriter(std::filesystem::path folder, const Model& model);
     /// To go on after a restart at `state`: frames of the folder that are not younger than it stay, the others leave the series.
     /// A file that cannot be read leaves it too; it counts as younger when its number does.
@@ -38,13 +38,14 @@ class FrameWriter
     void write_series() const;
 
     [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
-    [[nodiscard]] bool has_contacts() const { return contacts_; }
+    /// "blocks", and "contacts" and "bolts" where they are written
+    [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
   private:
     void write_series(const std::string& kind) const;
 
     std::filesystem::path folder_;
-    bool contacts_ = true;
+    std::vector<std::string> kinds_;
     std::vector<Frame> frames_;
     std::vector<std::filesystem::path> younger_;  ///< files of frames that a restart does away with
 };
@@ -52,10 +53,11 @@ class FrameWriter
 /// Remove the frames in a folder, and first the series that name them.
 void remove_frames(const std::filesystem::path& folder);
 
-/// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks" or "contacts"
+/// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks", "contacts" or "bolts"
 std::string frame_file(const std::string& kind, int number);
 
 /// One file each. Throw RunError when it cannot be written.
 void write_block_frame(const std::filesystem::path& file, const Model& model, const State& state);
 void write_contact_frame(const std::filesystem::path& file, const Model& model, const State& state);
+void write_bolt_frame(const std::filesystem::path& file, const Model& model, const State& state);
 }  // namespace hdem

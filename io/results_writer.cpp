@@ -33,15 +33,14 @@ void write_table(Hdf5Writer& file, const Table& table)
     }
 }
 
-void write_frame_links(Hdf5Writer& file, std::span<const Frame> frames, bool contact_frames)
+void write_frame_links(Hdf5Writer& file, std::span<const Frame> frames, std::span<const std::string> kinds)
 {
     std::vector<std::int64_t> cycle;
     std::vector<std::int32_t> number;
     std::vector<double> time;
     std::vector<std::string> stage;
-    file.make_group("/frames/blocks");
-    if (contact_frames)
-        file.make_group("/frames/contacts");
+    for (const std::string& kind : kinds)
+        file.make_group("/frames/" + kind);
     for (const Frame& frame : frames)
     {
         number.push_back(frame.number);
@@ -49,9 +48,8 @@ void write_frame_links(Hdf5Writer& file, std::span<const Frame> frames, bool con
         time.push_back(frame.time);
         stage.push_back(frame.stage);
         const std::string digits = fmt::format("{:06d}", frame.number);
-        file.link("/frames/blocks/" + digits, frame_file("blocks", frame.number), "/VTKHDF");
-        if (contact_frames)
-            file.link("/frames/contacts/" + digits, frame_file("contacts", frame.number), "/VTKHDF");
+        for (const std::string& kind : kinds)
+            file.link("/frames/" + kind + "/" + digits, frame_file(kind, frame.number), "/VTKHDF");
     }
     file.write("/frames/number", number);
     file.write("/frames/cycle", cycle);
@@ -130,17 +128,17 @@ bool ResultsWriter::is_due_after_stage() const
     return Clock::now() >= next_write_after_stage_;
 }
 
-void ResultsWriter::write(std::span<const Frame> frames, bool contact_frames)
+void ResultsWriter::write(std::span<const Frame> frames, std::span<const std::string> kinds)
 {
     const auto begin = Clock::now();
     Hdf5Writer file(file_);
     file.set_text("/", "filetype", "hdem-results");
-    file.set_attribute("/", "version", std::vector<std::int64_t>{1, 1});
+    file.set_attribute("/", "version", std::vector<std::int64_t>{1, 2});
     file.set_text("/", "hdem_version", version().number);
     file.set_text("/", "git_commit", version().commit);
     file.set_text("/", "date_and_time", timestamp());
     write_provenance(file, provenance_);
-    write_frame_links(file, frames, contact_frames);
+    write_frame_links(file, frames, kinds);
     file.make_group("/history");
     for (const Table& table : tables_)
         write_table(file, table);

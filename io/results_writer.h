@@ -42,7 +42,7 @@ class ResultsWriter
     [[nodiscard]] bool is_due() const;
     /// At the end of a stage too, unless stages are so short that writing would take more than a twentieth of the time.
     [[nodiscard]] bool is_due_after_stage() const;
-    void write(std::span<const Frame> frames, bool contact_frames);
+    void write(std::span<const Frame> frames, std::span<const std::string> kinds);
 
     [[nodiscard]] Provenance& provenance() { return provenance_; }
     [[nodiscard]] const std::vector<Table>& tables() const { return tables_; }

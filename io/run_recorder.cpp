@@ -164,7 +164,7 @@ void RunRecorder::write_results()
 {
     await_frame();
     frames_.write_series();
-    results_.write(frames_.frames(), frames_.has_contacts());
+    results_.write(frames_.frames(), frames_.kinds());
 }
 
 void RunRecorder::save()

@@ -1,6 +1,7 @@
 #include "parallel/critical_search.h"
 
 #include "core/geometry/tangent.h"
+#include "core/motion/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,8 @@ class ConditionWatch : public Observer
 
     void observe(const Model& model, const State& state) override
     {
+        if (condition_.quantity == FailureCondition::Quantity::detached)
+            return count_detached(model, state);
         for (std::size_t user = 0; user < start_.size(); ++user)
         {
             if (counts_[user] == 0)
@@ -45,6 +48,18 @@ class ConditionWatch : public Observer
     [[nodiscard]] const ConditionResult& result() const { return result_; }
 
   private:
+    void count_detached(const Model& model, const State& state)
+    {
+        const std::vector<Index> detached = report_displacements(model, state).detached;
+        const auto number = static_cast<double>(detached.size());
+        if (number > result_.greatest)
+        {
+            result_.greatest = number;
+            result_.block = model.name[detached.front()];
+        }
+        result_.fails = result_.fails || number > condition_.limit;
+    }
+
     [[nodiscard]] double value_of(const BlockMotion& from, const BlockMotion& to) const
     {
         if (condition_.quantity == FailureCondition::Quantity::rotation)

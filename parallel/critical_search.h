@@ -9,16 +9,17 @@
 
 namespace hdem
 {
-/// When a run has failed: a quantity of a block passes a limit, at a multiple of 100 cycles or at the end.
+/// When a run has failed: a quantity of a block, or the number of detached blocks, passes a limit, at a multiple of 100 cycles or at the end.
 struct FailureCondition
 {
     enum class Quantity
     {
         displacement,  ///< of the centroid since the first cycle [m]
-        rotation       ///< since the first cycle, its absolute value [deg]
+        rotation,      ///< since the first cycle, its absolute value [deg]
+        detached       ///< how many free blocks have moved farther than convergence.detached_distance
     };
     Quantity quantity = Quantity::displacement;
-    std::vector<std::string> blocks;  ///< empty: any free block
+    std::vector<std::string> blocks;  ///< empty: any free block; detached: all
     double limit = 0.0;
 };
 

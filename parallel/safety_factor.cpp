@@ -133,10 +133,16 @@ std::vector<std::uint8_t> weakened_joints(const JointTable& table, const FactorO
     return chosen;
 }
 
+bool weakens_bolts(const FactorOfSafetyDef& def)
+{
+    return std::ranges::find(def.reduce, "bolts") != def.reduce.end();
+}
+
 TrialRule trial_rule(const Model& model, const FactorOfSafetyDef& def, FactorSearch search, double factor)
 {
     return {.reduction = {.factor = factor,
                           .joints = weakened_joints(model.joints, def),
+                          .bolts = weakens_bolts(def),
                           .keeps_peak = search == FactorSearch::peak,
                           .stiffness = search == FactorSearch::stiffer ? def.check_stiffness : 1.0},
             .failure = {.displacement = def.displacement, .least_area = def.least_size},

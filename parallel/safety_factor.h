@@ -76,6 +76,8 @@ struct SafetyFactor
 /// Rule of the trials of a search at F.
 [[nodiscard]] TrialRule trial_rule(const Model& model, const FactorOfSafetyDef& def, FactorSearch search, double factor);
 
+[[nodiscard]] bool weakens_bolts(const FactorOfSafetyDef& def);
+
 /// Per [joint.NAME]: is it weakened? Empty: all.
 [[nodiscard]] std::vector<std::uint8_t> weakened_joints(const JointTable& table, const FactorOfSafetyDef& def);
 }  // namespace hdem

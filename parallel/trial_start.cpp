@@ -61,6 +61,17 @@ void set_laws(Model& model, Index stage, const StageLaws& laws)
     model.stage_laws[stage] = laws;
 }
 
+/// Bolts and linings that are there are not installed once more where the stage begins anew.
+void keep_support(Model& model, const State& state)
+{
+    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
+        if (state.support.bolts[i].status != BoltStatus::planned)
+            model.support.bolts[i].stage = no_index;
+    for (std::size_t i = 0; i < model.support.liners.size(); ++i)
+        if (state.support.liners[i].installed != 0)
+            model.support.liners[i].stage = no_index;
+}
+
 /// Springs, damping and criteria of a trial.
 void set_rules(Model& model, Index stage)
 {
@@ -95,6 +106,9 @@ Model trial_model(const Moment& start, const StrengthReduction& reduction)
     table.laws = laws.laws;
     table.rows = laws.rows;
     set_laws(model, stage, reduced_laws(table, reduction));
+    keep_support(model, start.state);
+    if (reduction.bolts)
+        weaken_bolts(model.support, reduction.factor);
     if (reduction.stiffness != 1.0)
     {
         model.contact.correction_rate = 0.0;  // see stiffened_state

@@ -1,4 +1,4 @@
-"""Reads one frame of blocks or of contacts; hdem_io.py is what to import. io/hdf5_format.md says what each array means."""
+"""Reads one frame of blocks, of contacts or of bolts; hdem_io.py is what to import. io/hdf5_format.md says what each array means."""
 import numpy as np
 
 from checked_hdf5 import ANY, open_checked
@@ -13,6 +13,8 @@ BLOCK_CELLS = {"id": "i4", "material": "i4", "displacement": ("f4", 3), "rotatio
                "stress_xy": "f4", "stress_magnitude": "f4"}
 CONTACT_CELLS = {"blocks": ("i4", 2), "normal": ("f4", 3), "length": "f4", "overlap": "f4", "normal_force": "f4", "shear_force": "f4", "normal_stress": "f4",
                  "shear_stress": "f4", "traction": "f4", "regime": "u1"}
+BOLT_CELLS = {"bolt": "i4", "axial_force": "f4", "across_force": "f4", "greatest_force": "f4", "elongation": "f4", "status": "u1"}
+BOLT_STATES = ("planned", "elastic", "slips", "yielded", "ruptured", "lost")
 
 
 def head_of(file, filetype="hdem-blocks"):
@@ -159,3 +161,16 @@ def read_contacts(file):
         contacts["points"] = _positions(opened, "VTKHDF/Points", (2 * len(contacts["blocks"]), 3))[:, :2].reshape(-1, 2, 2)
         contacts["info"] = _head(opened, {})
         return contacts
+
+
+def read_bolts(file):
+    """One frame of bolts as a dict of arrays, one entry per bolt that is installed; see Run.bolts."""
+    with open_checked(file, "hdem-bolts", "hdem", FORMAT_MAJOR) as opened:
+        bolts = _cells(opened, BOLT_CELLS)
+        names = opened.texts("hdem/bolt_names")
+        _indices(opened, "VTKHDF/CellData/bolt", bolts["bolt"], 0, len(names))
+        _indices(opened, "VTKHDF/CellData/status", bolts["status"], 0, len(BOLT_STATES))
+        bolts["name"] = np.array(names, dtype=object)[bolts["bolt"]]
+        bolts["points"] = _positions(opened, "VTKHDF/Points", (2 * len(bolts["bolt"]), 3))[:, :2].reshape(-1, 2, 2)
+        bolts["info"] = _head(opened, {})
+        return bolts

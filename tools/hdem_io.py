@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from checked_hdf5 import ANY, ResultError, open_checked
-from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_contacts
+from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts
 from plain_text import one_line
 from run_lock import is_running
 
@@ -153,6 +153,14 @@ class Run:
     def has_contacts(self, frame="last"):
         """Whether this frame has contacts: output.contacts of the case."""
         return self._file("contacts", frame).exists()
+
+    def bolts(self, frame="last"):
+        """Arrays with one entry per bolt that is installed: the frame's cell data, name, and points (n, 2, 2), its head and its end."""
+        return read_bolts(self._file("bolts", frame))
+
+    def has_bolts(self, frame="last"):
+        """Whether the case has bolts."""
+        return self._file("bolts", frame).exists()
 
     def _file(self, kind, frame):
         return self.folder / "frames" / f"{kind}_{self.frame(frame).number:06d}.hdf"

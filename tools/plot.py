@@ -62,7 +62,7 @@ def parse(arguments):
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, in SI units")
     parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
-    parser.add_argument("--bolts", action="store_true", help="draw the bolts of the last frame, coloured by their axial force")
+    parser.add_argument("--bolts", action="store_true", help="draw the bolts, coloured by their axial force")
     parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings at the end of the run with this along them")
     parser.add_argument("--numbers", action="store_true", help="with --joints: write values beside them, the greatest of each part of the picture")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
@@ -165,17 +165,11 @@ def draw_contacts(axes, blocks, contacts, width_mm):
     return handles
 
 
-def draw_bolts(axes, options):
-    """As summary.json has them: where they are at the end of the run."""
-    folder = options.result if options.result.is_dir() else options.result.parent
-    try:
-        bolts = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["bolts"]
-        lines = np.array([[bolt["from"], bolt["to"]] for bolt in bolts], dtype=float).reshape(-1, 2, 2)
-        force = np.array([bolt["axial_force"] for bolt in bolts], dtype=float)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ResultError(f"--bolts: {folder / 'summary.json'} has no bolts ({error}). It is written at the end of a run.") from error
+def draw_bolts(axes, bolts):
+    """Those that are installed by then; one that has ruptured, or lost its rock, has no force."""
+    lines, force = bolts["points"], np.nan_to_num(bolts["axial_force"].astype(float), nan=0.0, posinf=0.0, neginf=0.0)
     if not len(lines):
-        raise ResultError("--bolts: this case has no bolts")
+        return []
     greatest = float(np.max(force, initial=0.0)) or 1.0
     colours = plt.get_cmap("plasma")
     axes.add_collection(LineCollection(lines, colors="black", linewidths=2.6, capstyle="round", zorder=4))
@@ -244,10 +238,13 @@ def draw_frame(run, options):
     blocks = read_blocks(options.result) if single else run.blocks(options.frame)
     if not len(blocks["id"]):
         raise ResultError("this frame holds no blocks")
-    over = "--contacts" if options.contacts else "--joints" if options.joints else None
+    over = "--contacts" if options.contacts else "--joints" if options.joints else "--bolts" if options.bolts else None
     if over and single:
         raise ResultError(f"{over} needs the run's folder or its results.h5, not a single frame")
-    contacts = run.contacts(options.frame) if over else None
+    contacts = run.contacts(options.frame) if options.contacts or options.joints else None
+    if options.bolts and not run.has_bolts(options.frame):
+        raise ResultError("--bolts: this case has no bolts, or the run is of a program that wrote no frames of them")
+    bolts = run.bolts(options.frame) if options.bolts else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
     rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners)) + int(len(blocks["water_table"]) > 0)
@@ -262,7 +259,7 @@ def draw_frame(run, options):
     if options.joints:
         handles += draw_joints(axes, contacts, options.joints, options.width, view, options.numbers)
     if options.bolts:
-        handles += draw_bolts(axes, options)
+        handles += draw_bolts(axes, bolts)
     if options.liners:
         handles += draw_liners(axes, options, view)
     if options.crosses:

@@ -5,6 +5,7 @@
 #include "core/joint/all_laws.h"
 #include "core/limit/linear_program.h"
 #include "core/state/workspace.h"
+#include "core/support/bolt_strength.h"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +71,11 @@ PointStrength strength_of(const Model& model, const Contacts& contacts, Index co
 class Program
 {
   public:
-    Program(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened) : model_(model), state_(state)
+    Program(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, bool weakens_bolts)
+        : model_(model),
+          state_(state),
+          bolts_(bolt_strengths(model, state)),
+          weakens_bolts_(weakens_bolts)
     {
         number_rows();
         for (std::size_t joint = 0; joint < model.joints.names.size(); ++joint)
@@ -102,6 +107,9 @@ class Program
                 for (const LinearProgram::Entry& e : effect(point, 1.0, 0.0))
                     shift[static_cast<std::size_t>(e.row)] += e.value * s.tension / unit_;
         }
+        for (std::size_t i = 0; i < bolts_.size() && weakens_bolts_; ++i)
+            program_->change_bounds(first_bolt_ + static_cast<int>(i), bolts_[i].least / factor / unit_,
+                                    bolts_[i].greatest / factor / unit_);
         for (int row = 0; row < rows_; ++row)
             program_->set_row(row, shift[static_cast<std::size_t>(row)]);
         gave_up_ = gave_up_ || program_->solve(most_iterations) != LinearProgram::Status::optimal;
@@ -211,6 +219,23 @@ class Program
         return entries;
     }
 
+    /// Of a bolt with the force 1.
+    [[nodiscard]] std::vector<LinearProgram::Entry> effect(const BoltStrength& bolt) const
+    {
+        std::vector<LinearProgram::Entry> entries;
+        const auto add = [&](Index block, const Vec2& force, const Vec2& place)
+        {
+            const BlockMotion& m = state_.blocks.motion[block];
+            const double on[] = {force.x(), force.y(), cross(place - Vec2(m.x, m.y), force) / model_.radius[block]};
+            for (int i = 0; i < 3; ++i)
+                if (row_[block][i] >= 0)
+                    entries.push_back({row_[block][i], on[i]});
+        };
+        add(bolt.first, bolt.direction, bolt.first_place);
+        add(bolt.second, -bolt.direction, bolt.second_place);
+        return entries;
+    }
+
     /// One edge of the cone of friction, N = 1.
     [[nodiscard]] std::vector<LinearProgram::Entry> cone_edge(const ForcePoint& point, double friction) const
     {
@@ -227,6 +252,11 @@ class Program
             if (point.strength.cohesion > 0.0)
                 point.column[2] = program_->add_column(0.0, 0.0, 0.0, effect(point, 0.0, 1.0));
         }
+        for (std::size_t i = 0; i < bolts_.size(); ++i)
+        {
+            const int column = program_->add_column(bolts_[i].least / unit_, bolts_[i].greatest / unit_, 0.0, effect(bolts_[i]));
+            first_bolt_ = i == 0 ? column : first_bolt_;
+        }
         std::vector<LinearProgram::Entry> entries;
         for (Index block = 0; block < model_.blocks(); ++block)
         {
@@ -240,6 +270,9 @@ class Program
 
     const Model& model_;
     const State& state_;
+    std::vector<BoltStrength> bolts_;
+    bool weakens_bolts_ = false;
+    int first_bolt_ = 0;  ///< column
     std::vector<std::array<int, 3>> row_;
     int rows_ = 0, columns_ = 0;
     std::vector<Index> kept_;  ///< laws that keep their strength
@@ -252,7 +285,7 @@ class Program
 }  // namespace
 
 StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, double least,
-                             double most)
+                             double most, bool weakens_bolts)
 {
     StrengthBound bound;
     if (model.blocks() > most_blocks)
@@ -260,7 +293,12 @@ StrengthBound strength_bound(const Model& model, const State& state, const std::
         bound.why = "more than " + std::to_string(most_blocks) + " blocks";
         return bound;
     }
-    Program program(model, state, weakened);
+    if (std::ranges::any_of(state.support.liners, [](const LinerRecord& liner) { return liner.installed != 0; }))
+    {
+        bound.why = "linings are not part of the linear program";
+        return bound;
+    }
+    Program program(model, state, weakened, weakens_bolts);
     bound.rows = program.rows();
     bound.columns = program.columns();
     const auto stands = [&](double factor)

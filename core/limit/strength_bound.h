@@ -30,7 +30,8 @@ struct StrengthBound
 /// Forces N (compression) and S at the two ends of each contact that
 ///
 ///   balance weight, loads and tractions on every free block (force and moment)
-///   are admissible:  N >= -T l / F,  |S| <= c l / F + N tan phi / F
+///   are admissible:  N >= -T l / F,  |S| <= c l / F + N tan phi / F;  bolts any within their strength (core/support/bolt_strength.h), which is divided by F
+///                    where `weakens_bolts`
 ///
 /// where l is the point's share of the contact length. The greatest F for which there are such forces bounds the factor of safety from above,
 /// for any flow rule (Drucker 1954; Livesley 1978): where there are none the rock cannot be at rest. Geometry is that of `state`.
@@ -47,5 +48,5 @@ struct StrengthBound
 /// @param weakened  per [joint.NAME]: is its strength divided by F? Empty: all
 /// @see verification/unit/limit/strength_bound_test.cpp
 [[nodiscard]] StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened,
-                                           double least, double most);
+                                           double least, double most, bool weakens_bolts = false);
 }  // namespace hdem

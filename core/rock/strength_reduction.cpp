@@ -123,6 +123,16 @@ StageLaws reduced_laws(const JointTable& table, const StrengthReduction& how)
     return reduced;
 }
 
+void weaken_bolts(Support& support, double factor)
+{
+    for (Bolt& bolt : support.bolts)
+    {
+        bolt.yield /= factor;
+        bolt.shear_strength /= factor;
+        bolt.bond_strength /= factor;
+    }
+}
+
 bool loses_strength(const JointTable& table, const std::vector<std::uint8_t>& joints)
 {
     for (std::size_t joint = 0; joint < table.rows.size() && joint < table.names.size(); ++joint)

@@ -14,6 +14,7 @@ struct StrengthReduction
 {
     double factor = 1.0;               ///< F
     std::vector<std::uint8_t> joints;  ///< per [joint.NAME]: is its strength divided? Empty: of all
+    bool bolts = false;                ///< the strength of bolts is divided too
     bool keeps_peak = false;           ///< nothing is lost by breaking, slip or wear: residual values are the peak ones
     double stiffness = 1.0;            ///< normal and shear stiffness are multiplied by this
 };
@@ -30,6 +31,9 @@ struct StrengthReduction
 /// patton has nothing to lose; barton_bandis keeps its curve, whose peak is part of it.
 /// @see verification/unit/core/rock/strength_reduction_test.cpp
 [[nodiscard]] StageLaws reduced_laws(const JointTable& table, const StrengthReduction& how);
+
+/// Divide what bolts bear, axially, across and by their bond.
+void weaken_bolts(Support& support, double factor);
 
 /// Has any of these joints a strength that slip or breaking takes?
 [[nodiscard]] bool loses_strength(const JointTable& table, const std::vector<std::uint8_t>& joints);

@@ -1,6 +1,7 @@
 #include "core/support/bolt_forces.h"
 
 #include "core/support/bolt_link.h"
+#include "core/support/bolt_memory.h"
 #include "core/support/grouted_bolt.h"
 
 #include <algorithm>
@@ -11,34 +12,6 @@ namespace hdem
 {
 namespace
 {
-/// Numbers of an anchored bolt in SupportState::history.
-struct AnchoredMemory
-{
-    double free = 0.0;     ///< distance of its ends without force [m]
-    double plastic = 0.0;  ///< [m]
-};
-
-/// The same of one crossing of a local one.
-struct LocalMemory
-{
-    double free = 0.0;      ///< distance of its ends without force [m]
-    double straight = 0.0;  ///< offset across the bolt without force [m]
-    double plastic = 0.0;   ///< [m]
-    double sheared = 0.0;   ///< plastic, across [m]
-    double cut = 0.0;       ///< 1: it has ruptured
-};
-
-template <typename Memory>
-Memory* memory_of(const Bolt& bolt, std::vector<double>& history)
-{
-    return reinterpret_cast<Memory*>(history.data() + bolt.history);
-}
-
-bool is_there(const BoltLink& link, const Blocks& blocks)
-{
-    return blocks.present[link.first] != 0 && blocks.present[link.second] != 0;
-}
-
 /// Force of a spring that flows at `limit`; what flows is added to `plastic`.
 double flow(double stiffness, double stretch, double limit, double& plastic, BoltRecord& record)
 {
@@ -156,12 +129,6 @@ void pull_bar(const Bolt& bolt, const Blocks& blocks, const GroutedMemory& memor
         const LinkPlace at = place_of(bolt, bolt.links[l], blocks);
         pull.add(bolt.links[l], tension[l] * at.line, at.first, at.second, reserve[l]);
     }
-}
-
-bool acts(const Bolt& bolt, const BoltRecord& record)
-{
-    return record.status != BoltStatus::planned && record.status != BoltStatus::lost &&
-           (record.status != BoltStatus::ruptured || bolt.kind != BoltKind::anchored);
 }
 
 void install(const Bolt& bolt, State& state)

@@ -88,7 +88,10 @@ class Critical
   private:
     [[nodiscard]] std::string quantity() const
     {
-        return condition_.quantity == FailureCondition::Quantity::rotation ? "rotation [deg]" : "displacement [m]";
+        using Quantity = FailureCondition::Quantity;
+        return condition_.quantity == Quantity::detached
+                   ? "number of detached blocks"
+                   : (condition_.quantity == Quantity::rotation ? "rotation [deg]" : "displacement [m]");
     }
 
     std::array<bool, 2> look_at_ends()
@@ -176,8 +179,9 @@ class Critical
         for (const Run& run : pair)
         {
             counted_.push_back(run);
-            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g} ({})", run.at, run.result.fails ? "fails" : "stands",
-                                  run.result.cycles, run.result.greatest, printable(run.result.block)));
+            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g}{}", run.at, run.result.fails ? "fails" : "stands",
+                                  run.result.cycles, run.result.greatest,
+                                  run.result.block.empty() ? "" : " (" + printable(run.result.block) + ")"));
             if (only_counting && run.result.fails)
                 break;
         }
@@ -238,10 +242,13 @@ FailureCondition parse_condition(const std::string& text)
     FailureCondition condition;
     const std::string quantity = text.substr(0, colon);
     const double limit = number_of(greater == std::string::npos ? "" : text.substr(greater + 1));
+    if (text.substr(0, greater) == "detached" && std::isfinite(limit) && limit >= 0.0)
+        return {.quantity = FailureCondition::Quantity::detached, .blocks = {}, .limit = limit};
     const bool is_known = quantity == "displacement" || quantity == "rotation";
     if (colon == std::string::npos || greater == std::string::npos || greater < colon + 2 || !is_known || !std::isfinite(limit) ||
         limit < 0.0)
-        refuse(fmt::format("--fails {}: (not of the form displacement:BLOCK>METRES or rotation:BLOCK>DEGREES). Write e.g. --fails "
+        refuse(fmt::format("--fails {}: (not of the form displacement:BLOCK>METRES, rotation:BLOCK>DEGREES or detached>NUMBER). "
+                           "Write e.g. --fails "
                            "'displacement:wedge>0.1', or * for any block.",
                            printable(text)));
     if (quantity == "rotation")

@@ -17,6 +17,6 @@ struct Vary
 
 /// "KEY=LOW:HIGH". Throws InputError.
 [[nodiscard]] Vary parse_vary(const std::string& text);
-/// "displacement:BLOCK>0.1", "rotation:*>5". Throws InputError.
+/// "displacement:BLOCK>0.1", "rotation:*>5", "detached>0". Throws InputError.
 [[nodiscard]] FailureCondition parse_condition(const std::string& text);
 }  // namespace hdem

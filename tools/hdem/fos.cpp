@@ -182,7 +182,7 @@ class Fos
                                                    threads_);
         const Model& model = reference.moment.model;
         outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
-                                       greatest_factor);
+                                       greatest_factor, weakens_bolts(outcome.def));
         begin(outcome);
         const SignalWatch signals;
         FactorSetting setting{.def = outcome.def, .bound = {}, .threads = threads_, .store = &file_};

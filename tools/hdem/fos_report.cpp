@@ -1,5 +1,6 @@
 #include "tools/hdem/fos_report.h"
 
+#include "core/support/bolt_strength.h"
 #include "io/atomic_file.h"
 #include "io/printable.h"
 #include "io/text_file.h"
@@ -158,6 +159,14 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
         warnings.push_back(
             fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where others hold them.",
                         outcome.bound.factor));
+    std::vector<std::string> endless;
+    for (const Bolt& bolt : reference.model.support.bolts)
+        if (bears_any_force(bolt))
+            endless.push_back(printable(bolt.name));
+    if (!endless.empty())
+        warnings.push_back(fmt::format("no strength is given for these bolts: {}. Trials and bound count on any force of them. "
+                                       "Give yield (and shear_strength).",
+                                       some_of(endless)));
     const double most = greatest_factor_for_dilation(reference.model.joints, weakened_joints(reference.model.joints, outcome.def));
     if (f.as_given.is_closed() && f.as_given.middle() > most)
         warnings.push_back(fmt::format(

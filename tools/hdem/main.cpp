@@ -83,7 +83,8 @@ void add_critical(CLI::App& app, CriticalOptions& options)
         ->required();
     critical
         ->add_option("--fails", options.fails,
-                     "When a run has failed: displacement:BLOCK>METRES or rotation:BLOCK>DEGREES, * for any free block")
+                     "When a run has failed: displacement:BLOCK>METRES or rotation:BLOCK>DEGREES, * for any free block; "
+                     "detached>NUMBER of blocks")
         ->required();
     critical->add_option("--tolerance", options.tolerance, "Width of the last bracket; default: a 200th of the range")
         ->check(CLI::PositiveNumber);

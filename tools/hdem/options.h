@@ -53,7 +53,7 @@ struct CriticalOptions
 {
     std::string case_file;
     std::string vary;    ///< KEY=LOW:HIGH
-    std::string fails;   ///< displacement:BLOCK>0.1
+    std::string fails;   ///< displacement:BLOCK>0.1, detached>0
     std::string folder;  ///< of the results; "" = the case's name with _critical
     std::optional<double> tolerance;
     std::optional<int> threads;

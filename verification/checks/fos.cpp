@@ -52,7 +52,8 @@ FosAnswer find_factor(const std::string& case_file, const Overrides& overrides, 
                                                threads);
     const Model& model = reference.moment.model;
     FosAnswer answer;
-    answer.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, def), least_factor, greatest_factor);
+    answer.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, def), least_factor, greatest_factor,
+                                  weakens_bolts(def));
     FactorSetting setting{.def = def, .bound = {}, .threads = threads};
     if (answer.bound.end == StrengthBound::End::found)
         setting.bound = answer.bound.factor;
@@ -298,6 +299,34 @@ void check_slope(Report& report)
     report.require({"runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
 }
 
+/// F of a slab on a slope with a bolt of constant tension, 40 degrees from the normal of the joint: F W sin psi = (W cos psi + T cos theta) tan phi + F T sin theta.
+/// Where the bolt's strength is divided too: F^2 W sin psi - F (W cos psi tan phi + T sin theta) - T cos theta tan phi = 0.
+void check_bolts(Report& report)
+{
+    const double weight = 2700.0 * 9.81 * 2.0, psi = 40.0 * std::numbers::pi / 180.0, s = std::sin(psi), c = std::cos(psi);
+    const double t = tan_deg(30.0);
+    const std::string source = "(W cos ψ + T cos θ) tan φ / (W sin ψ - T sin θ)";
+    for (const auto& [factor, tension] : {std::pair{1.0, 9789.20}, std::pair{1.5, 19657.49}})
+        for (const char* method : {"force", "hybrid"})
+            for (const double angle : {0.0, turn})
+            {
+                const Overrides given{set("bolt[0].pretension", tension), set("bolt[0].yield", tension),
+                                      set("contact.method", std::string(method))};
+                const FosAnswer a = find_factor("../support/slab.toml", turned_case("support/slab.toml", given, angle));
+                const std::string name = fmt::format("T {:g} N, {}{}: ", tension, method, angle > 0.0 ? ", turned by 23°" : "");
+                report.require({name + "F", source, factor, a.value()}, relative(0.01));
+                report.require({name + "bound by limit analysis", source, factor, a.bound.factor}, relative(0.002));
+            }
+    const double tension = 19657.49, b = weight * c * t + tension * s;
+    const double both = (b + std::sqrt(b * b + 4.0 * weight * s * tension * c * t)) / (2.0 * weight * s);
+    const FosAnswer a = find_factor("../support/slab.toml", {set("bolt[0].pretension", tension),
+                                                             set("bolt[0].yield", tension),
+                                                             {"factor_of_safety", R"({reduce = ["joints", "bolts"]})"}});
+    report.require({"T 19657.5 N, the bolt's strength divided too: F", "the same with T / F", both, a.value()}, relative(0.01));
+    report.require({"T 19657.5 N, the bolt's strength divided too: bound", "the same with T / F", both, a.bound.factor},
+                   relative(0.002));
+}
+
 /// Angle of a slope at which a block slides.
 void check_critical(Report& report)
 {
@@ -324,6 +353,7 @@ std::vector<Check> fos_checks()
             {"fos.F5", "two blocks on two planes", check_biplanar},
             {"fos.F6", "roof wedge in a horizontal stress", check_wedge},
             {"fos.laws", "strength reduction of all joint laws", check_laws},
+            {"fos.bolts", "slab held by a bolt", check_bolts},
             {"fos.critical", "slope at which a slab slides", check_critical},
             {"fos.loads", "loads that have grown, or still grow, at the end of the last stage", check_loads},
             {"fos.slope", "jointed slope with and without a water table", check_slope},

@@ -2,6 +2,7 @@
 
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/support_checks.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -180,6 +181,8 @@ std::vector<Check> support_checks()
             {"support.B3", "Block hung on a grouted cable", check_hung_cable},
             {"support.B4", "Slab on a slope, held by the shear of a bolt", check_local},
             {"support.B5", "Slab on a slope, held by a tensioned bolt", check_tension},
-            {"support.B6", "Bolt with pretension and joint share a load", check_pretension}};
+            {"support.B6", "Bolt with pretension and joint share a load", check_pretension},
+            {"support.goodman_bray", "Anchor that holds columns which topple and slide", check_goodman_bray},
+            {"support.tunnel", "Tunnel that loses three blocks without bolts", check_tunnel, Check::Length::is_long}};
 }
 }  // namespace hdem::verification

@@ -163,7 +163,7 @@ def differing_results(one, other):
 
 
 # Of the time on the wall and the machine, not of the run.
-OF_THE_MACHINE = {"threads", "wall_seconds", "stage_wall_seconds", "contact_point_updates_per_second", "timing"}
+OF_THE_MACHINE = {"threads", "thread_use", "wall_seconds", "stage_wall_seconds", "contact_point_updates_per_second", "timing"}
 
 
 def differing_summary(one, other):

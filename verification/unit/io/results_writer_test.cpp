@@ -242,7 +242,7 @@ TEST(ResultsWriter, FileIsWholeWheneverTheRunIsKilled)
                 for (int i = 0; i < 500; ++i)
                     results.add_row(table, 500 * cycle + i, 0.0, std::vector<double>{static_cast<double>(500 * cycle + i)});
                 frames.write(run.model, run.state);
-                results.write(frames.frames(), true);
+                results.write(frames.frames(), frames.kinds());
             }
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(40 + 13 * kill_number));

@@ -13,7 +13,7 @@ from pathlib import Path
 TOOLS = Path(sys.argv[2]).resolve()
 # -S: without the folders of installed packages, so with no module but Python's own.
 BARE = ["/usr/bin/python3", "-S"]
-NEEDS = {"plot.py": "modules h5py, matplotlib, numpy", "run_report.py": "modules h5py, matplotlib, numpy", "own_figure.py": "modules h5py, matplotlib, numpy",
+NEEDS = {"plot.py": "modules h5py, matplotlib, numpy", "run_report.py": "modules h5py, matplotlib, numpy", "own_figure.py": "modules h5py, matplotlib, numpy", "pull_out_figure.py": "modules h5py, matplotlib, numpy",
          "run_view.py": "modules h5py, numpy", "import_dxf.py": "module ezdxf", "verification_report": "modules matplotlib, numpy", "ensemble": "modules h5py, matplotlib, numpy",
          "paraview_view.py": "module numpy"}
 NEEDS_NOTHING = {"sweep"}

@@ -62,6 +62,7 @@ cycles = 3000
 StrengthBound bound_of(const std::string& text, const std::vector<std::uint8_t>& weakened = {})
 {
     test::CaseRun run(read_case_text(text, "case.toml").def);
+    run.simulation.begin_stage(0);
     run.advance(3000);
     return strength_bound(run.model(), run.state(), weakened, 1.0 / 128.0, 64.0);
 }
@@ -95,6 +96,32 @@ force = [0.0, -5e4]
 )"));
     const double expected = tan_deg(30.0) * (weight * std::cos(a) + 5e4) / (weight * std::sin(a));
     EXPECT_NEAR(pressed.factor, expected, 2e-4 * expected);
+}
+
+/// A slab of weight W on a slope of 20 degrees, phi 30 degrees, with bolts that bear `across` at right angles to the joint and `along` along it.
+double factor_with(double along, double across)
+{
+    const double weight = 4.0 * 2700.0 * 9.81, a = std::acos(-1.0) / 9.0;
+    return (tan_deg(30.0) * (weight * std::cos(a) + across) + along) / (weight * std::sin(a));
+}
+
+TEST(StrengthBound, BoltsBearUpToTheirStrength)
+{
+    const std::string slope = slab("friction_angle_deg = 30.0\n");
+    const auto with = [&](const std::string& bolt)
+    { return bound_of(slope + "[[bolt]]\nfrom = [2.0, 0.5]\nto = [2.0, -0.9]\n" + bolt); };
+    const double tension = factor_with(0.0, 4e4);
+    EXPECT_NEAR(with("stiffness = 1e5\npretension = 1e3\nyield = 4e4\n").factor, tension, 1e-3);
+    EXPECT_NEAR(with("kind = \"grouted\"\narea = 1e-4\nbond_stiffness = 1e7\nbond_strength = 8e4\nyield = 1e6\n").factor, tension,
+                1e-3)
+        << "0.5 m of bond in the slab";
+    EXPECT_NEAR(with("kind = \"grouted\"\narea = 1e-4\nbond_stiffness = 1e7\nbond_strength = 8e4\nyield = 2e4\n").factor,
+                factor_with(0.0, 2e4), 1e-3);
+    EXPECT_NEAR(
+        with("kind = \"local\"\nstiffness = 0.0\nshear_stiffness = 1e6\nshear_strength = 1e4\nactive_length = 0.05\nyield = 1.0\n")
+            .factor,
+        factor_with(1e4, 0.0), 1e-3);
+    EXPECT_EQ(with("stiffness = 1e5\n").end, StrengthBound::End::none) << "no strength is given";
 }
 
 TEST(StrengthBound, JointsThatKeepTheirStrengthHold)

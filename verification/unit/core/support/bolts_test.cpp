@@ -1,6 +1,14 @@
 #include "core/support/bolt_forces.h"
+#include "core/support/bolt_link.h"
 #include "core/support/bolt_pattern.h"
+#include "io/case_reader.h"
+#include "io/frame_writer.h"
+#include "io/hdf5_reader.h"
+#include "parallel/strength_trial.h"
 #include "verification/unit/case_run.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
 
 namespace hdem
 {
@@ -94,6 +102,86 @@ TEST(Bolts, AreLostWithABlock)
         run.advance(9);
         EXPECT_EQ((momentum(run.model(), run.state().blocks).linear - before.linear).norm(), 0.0);
     }
+}
+
+TEST(Bolts, AreInTheFrameOnceInstalled)
+{
+    const ScratchFolder folder("bolt_frame");
+    BoltDef near = bolt_of(BoltKind::anchored), late = bolt_of(BoltKind::local);
+    near.spacing = 2.0;
+    late.name = "late";
+    late.stage = "more";
+    CaseDef scene = flying_pair(near);
+    scene.bolts.push_back(late);
+    scene.stages.push_back({.name = "more", .cycles = 10});
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(500);
+    write_bolt_frame(folder / "bolts_000000.hdf", run.model(), run.state());
+    const Hdf5Reader in(folder / "bolts_000000.hdf");
+    EXPECT_THAT(in.read_texts("/hdem/bolt_names"), testing::ElementsAre("bolt", "late"));
+    EXPECT_THAT(in.read<std::int32_t>("/VTKHDF/CellData/bolt", {any_extent}), testing::ElementsAre(0));
+    EXPECT_THAT(in.read<std::uint8_t>("/VTKHDF/CellData/status", {1}), testing::ElementsAre(3));
+    EXPECT_FLOAT_EQ(in.read<float>("/VTKHDF/CellData/axial_force", {1}).front(), 8e3F) << "of one bolt: its yield";
+    const auto points = in.read<double>("/VTKHDF/Points", {2, 3});
+    const Blocks& blocks = run.state().blocks;
+    const Vec2 head = run.model().origin + Vec2(blocks.motion[0].x, blocks.motion[0].y) +
+                      turned_with(blocks.motion[0], Vec2(-0.3, -0.2));
+    EXPECT_NEAR(points[0], head.x(), 1e-12);
+    EXPECT_NEAR(points[1], head.y(), 1e-12);
+    run.simulation.begin_stage(1);
+    run.advance(1);
+    write_bolt_frame(folder / "bolts_000001.hdf", run.model(), run.state());
+    EXPECT_THAT(Hdf5Reader(folder / "bolts_000001.hdf").read<std::int32_t>("/VTKHDF/CellData/bolt", {any_extent}),
+                testing::ElementsAre(0, 1));
+}
+
+/// A slab that has slipped until its dowel holds it.
+TEST(Bolts, KeepTheirForcesInTrialsOfStrength)
+{
+    CaseRun run(read_case_text(R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+friction_angle_deg = 10.0
+[gravity]
+tilt_deg = 20.0
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[-6, -1], [10, -1], [10, 0], [-6, 0]]
+fixed = true
+[[block]]
+name = "slab"
+polygon = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[bolt]]
+kind = "local"
+from = [2.0, 0.5]
+to = [2.0, -0.9]
+stiffness = 0.0
+shear_stiffness = 1e7
+shear_strength = 5e4
+active_length = 0.05
+[[stage]]
+until = "converged"
+)",
+                               "case.toml")
+                    .def);
+    run.simulation.begin_stage(0);
+    run.advance(20000);
+    const double slip = run.state().blocks.displacement(1).norm();
+    ASSERT_GT(slip, 1e-3);
+    const Moment rest = elastic_state({run.model(), run.state()}, 1);
+    const auto trial_of = [&](bool bolts, double factor)
+    { return run_trial(rest, {.reduction = {.factor = factor, .joints = {}, .bolts = bolts}, .failure = {}}, 1); };
+    const Trial same = trial_of(false, 1.0);
+    EXPECT_EQ(same.end, TrialEnd::stable);
+    EXPECT_LT(same.displacement, 0.1 * slip) << "the dowel is not installed once more";
+    EXPECT_EQ(trial_of(false, 3.0).end, TrialEnd::stable);
+    EXPECT_EQ(trial_of(true, 3.0).end, TrialEnd::failed) << "with a third of its strength it does not hold the slab";
 }
 
 TEST(BoltPattern, StandsInEqualStretchesSquareToTheOutline)
