@@ -31,8 +31,8 @@ async function start() {
     view.draw();
     byId("loading").remove();
     window.hdem = { view, runs, ready: performance.now() };
-    await showHistories(view, runs);
     startLive(view, facts);
+    await showHistories(view, runs);
     for (const run of runs) for (let i = 0; i < run.frames.length && run.bytes < 300e6; ++i) await run.frame(i).then(() => new Promise((done) => setTimeout(done)));
 }
 

@@ -106,7 +106,7 @@ TEST(RunRecorder, FilesAreAsTheirPageSays)
     run.state.contacts.has_preload = run.state.contacts.has_memory = true;
     run.state.contacts.resize(run.state.contacts.size());
     run.model.joints.rows.assign(run.model.joints.laws.size(), {.kind = kind_of<CoulombResidual>()});
-    run.model.support.bolts = {{.name = "bolt"}};
+    run.model.support.bolts = {{.name = "bolt", .links = {{.first = 0, .second = 1}}}};
     run.state.support = {.bolts = {{.force = 1.0}}, .history = {2.0}};
     HistoryDef of_bolt{.name = "bolt", .quantities = bolt_history_quantities()};
     of_bolt.bolt = "bolt";

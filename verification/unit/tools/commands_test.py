@@ -48,7 +48,7 @@ class Info(unittest.TestCase):
     def test_of_results_says_where_they_come_from(self):
         for file in (self.folder, self.folder / "results.h5"):
             rows = self.info(file)
-            self.assertEqual(rows["file"], "results of a run, format 1.1")
+            self.assertEqual(rows["file"], "results of a run, format 1.2")
             self.assertIn("small.toml (SHA-256 ", rows["case"])
             self.assertRegex(rows["frames"], r"^\d+, the last at cycle 1700, 0\.17 s$")
             self.assertIn("kinetic_energy", rows["energy"])

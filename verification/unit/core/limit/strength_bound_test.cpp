@@ -98,11 +98,12 @@ force = [0.0, -5e4]
     EXPECT_NEAR(pressed.factor, expected, 2e-4 * expected);
 }
 
-/// A slab of weight W on a slope of 20 degrees, phi 30 degrees, with bolts that bear `across` at right angles to the joint and `along` along it.
+/// A slab of weight W on a slope of 20 degrees, phi 30 degrees, with bolts that bear `across` at right angles to the joint and `along` along it; tan phi is divided by F, what
+/// the bolts bear is not.
 double factor_with(double along, double across)
 {
     const double weight = 4.0 * 2700.0 * 9.81, a = std::acos(-1.0) / 9.0;
-    return (tan_deg(30.0) * (weight * std::cos(a) + across) + along) / (weight * std::sin(a));
+    return tan_deg(30.0) * (weight * std::cos(a) + across) / (weight * std::sin(a) - along);
 }
 
 TEST(StrengthBound, BoltsBearUpToTheirStrength)
