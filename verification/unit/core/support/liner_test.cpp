@@ -74,6 +74,10 @@ TEST(Liners, HaveNoForceWhenInstalledNorWhereNoBlockIsLeft)
     const double work = run.state().ledger.support;
     run.advance(10);
     EXPECT_EQ(run.state().ledger.support, work);
+    State after = run.state();
+    pushes.clear();
+    press_liners(run.model(), after, solvers, pushes);
+    EXPECT_TRUE(pushes.empty());
 }
 
 TEST(LinerBeam, StaysWithinItsStrengthsAndGivesItsTangents)
