@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace hdem
 {
 namespace
@@ -108,6 +110,8 @@ std::vector<LinerSummary> summarise_liners(const Model& model, const State& stat
                 .parted = r.parted,
                 .stored = r.stored,
                 .spent = r.spent,
+                .is_far = r.displacement >
+                          std::sqrt(12.0 * liner.bending_stiffness / liner.axial_stiffness),  // of a rectangle: its height
                 .segments = {}};
         if (!made.installed)
             continue;

@@ -70,11 +70,7 @@ def read_blocks(file):
 def read_block_arrays(file):
     """The same without names and without lists, for those who read many large frames. Cells as arrays: points (n, 2), offsets, outer, part_block."""
     with open_checked(file, "hdem-blocks", "hdem", FORMAT_MAJOR) as opened:
-        blocks = _block_arrays(opened, np.iinfo("i4").max)
-        if opened.has("hdem/bolt_segments"):
-            blocks["bolts"] = _positions(opened, "hdem/bolt_segments", (ANY, 2, 2))
-            blocks["bolt_force"] = opened.array("hdem/bolt_force", None, (len(blocks["bolts"]),))
-        return blocks
+        return _block_arrays(opened, np.iinfo("i4").max)
 
 
 def read_names(file):

@@ -173,11 +173,6 @@ LinerSolver& LinerSolvers::of(const Model& model, std::size_t liner)
     return *solvers_[liner];
 }
 
-void LinerSolvers::clear()
-{
-    solvers_.clear();
-}
-
 bool install_liners(const Model& model, State& state)
 {
     bool any = false;

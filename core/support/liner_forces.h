@@ -24,8 +24,6 @@ class LinerSolvers
     LinerSolvers& operator=(LinerSolvers&&) noexcept;
 
     [[nodiscard]] LinerSolver& of(const Model& model, std::size_t liner);
-    /// Forget all, as the model's blocks have been renumbered.
-    void clear();
 
   private:
     std::vector<std::unique_ptr<LinerSolver>> solvers_;

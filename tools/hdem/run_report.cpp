@@ -335,6 +335,12 @@ void print_liners(Log& log, const std::vector<LinerSummary>& liners)
                                  l.displacement, l.hinges, l.parted));
         else
             log.line(fmt::format("  {:<16} not installed", l.name));
+    for (const LinerSummary& l : liners)
+        if (l.is_far)
+            log.line(fmt::format(
+                "warning: liner \"{}\" has moved by {:.3g} m, more than its thickness: its forces hold for small displacements. "
+                "It has failed, or the rock behind it has.",
+                l.name, l.displacement));
 }
 
 /// One word for the run.

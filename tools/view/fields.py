@@ -11,7 +11,7 @@ KNOWN_CELLS = {"id", "material", "displacement", "rotation", "velocity", "speed"
 
 def more_fields(blocks):
     """Cell data of one number a block that a later version of the frames may have."""
-    own = {"position", "area", "mass", "part_block", "outer", "points", "offsets", "outline", "outline_excavation", "bolts", "bolt_force"}
+    own = {"position", "area", "mass", "part_block", "outer", "points", "offsets", "outline", "outline_excavation"}
     count = len(blocks["id"])
     return sorted(name for name, data in blocks.items() if name not in KNOWN_CELLS | own and isinstance(data, np.ndarray) and data.shape == (count,)
                   and np.issubdtype(data.dtype, np.number))

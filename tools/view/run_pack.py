@@ -9,7 +9,7 @@ import numpy as np
 from coding import Chunk, groomed
 from contact_rows import QUANTITIES, STEP, ContactRows
 from fields import STORED, all_fields, more_fields, range_of
-from hdem_frames import read_block_arrays, read_contacts, read_names
+from hdem_frames import read_block_arrays, read_bolts, read_contacts, read_names
 from hdem_io import ResultError
 from poses import References, Shapes
 from tables import tables_of
@@ -74,8 +74,8 @@ class RunPack:
         entry["chunk"] = self._block_chunk(blocks, slots)
         detached = blocks["detached"].astype(bool)
         entry["ranges"] = {name: range_of(name, values, detached) for name, values in all_fields(blocks).items()}
-        if "bolts" in blocks:
-            entry["bolts"] = self._bolts(blocks["bolts"], blocks["bolt_force"])
+        if (bolts := self._file("bolts", frame.number)).exists():
+            entry["bolts"] = self._bolts(read_bolts(bolts))
         self._poses_at_hand[frame.number] = self._poses(blocks, slots, reference)
         self.frames.append(entry)
 
@@ -105,9 +105,9 @@ class RunPack:
             self.outlines.append(outline)
         return self.outlines.index(outline)
 
-    def _bolts(self, segments, force):
-        return {"ends": np.round(np.asarray(segments, float).reshape(-1, 4) - np.tile(self.shapes.origin, 2), 5).tolist(),
-                "force": [float(f"{value:.4g}") for value in force]}
+    def _bolts(self, bolts):
+        return {"ends": np.round(bolts["points"].reshape(-1, 4) - np.tile(self.shapes.origin, 2), 5).tolist(),
+                "force": [float(f"{value:.4g}") for value in bolts["axial_force"]]}
 
     def _choose_contacts(self):
         """Contacts of all frames, or where these are too many of each stage's last one."""
@@ -215,8 +215,6 @@ class RunPack:
             number = frame["number"]
             contacts = frame.get("contacts")
             frames.append(frame | {"chunk": put(f"b{number}", frame["chunk"]), "contacts": put(f"c{number}", contacts) | {"references": contacts.references} if contacts else None})
-        if "bolts" not in self.frames[-1] and (bolts := self._bolts_at_the_end()):
-            frames[-1]["bolts"] = bolts
         try:
             made_by = run.provenance()
         except ResultError:
@@ -226,11 +224,3 @@ class RunPack:
                  "static": put("s", self.static_chunk()), "rows": put("r", self.contact_row_chunk()), "tables_chunk": put("h", tables_chunk), "tables": tables,
                  "outlines": self.outlines, "frames": frames, "contacts_left_out": self.contacts_left_out()}
         return facts | self._fixed_facts, parts
-
-    def _bolts_at_the_end(self):
-        """As summary.json has them: bolts where they are at the end of the run."""
-        bolts = self.run.summary().get("bolts")
-        try:
-            return self._bolts([[bolt["from"], bolt["to"]] for bolt in bolts], [bolt["axial_force"] for bolt in bolts]) if bolts else None
-        except (KeyError, TypeError, ValueError):
-            raise ResultError(f"{self.run.folder / 'summary.json'}: its bolts cannot be read. Remove the file, or run the case again.") from None

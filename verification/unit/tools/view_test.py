@@ -31,6 +31,8 @@ CASES = Path(__file__).resolve().parents[2] / "cases"
 if not (SHARE / "view/viewer.html").exists():
     print("skipped: hdem was built without the viewer (no Node.js, or its packages could not be fetched)")
     sys.exit(77)
+sys.path.insert(0, str(SHARE))
+from hdem_io import open_run    # noqa: E402
 from view_page import ViewPage    # noqa: E402
 
 
@@ -166,16 +168,18 @@ class PageOfASmallRun(unittest.TestCase):
             frames = ViewPage(self.root / "some.html").runs[0]["frames"]
             self.assertEqual(sum(frame["contacts"] is not None for frame in frames), wanted, how)
 
-    def test_bolts_at_the_end_are_drawn(self):
-        folder = self.copy("bolted")
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        summary["bolts"] = [{"name": "one", "from": [1.0, 0.5], "to": [1.0, -0.5], "axial_force": 2e4}]
-        (folder / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+    def test_bolts_of_each_frame_are_drawn(self):
+        cases = Path(__file__).resolve().parents[2] / "cases/support/pull.toml"
+        folder = self.root / "pull"
+        subprocess.run([HDEM, "run", cases, "-o", folder, "--set", "output.frame_every=1000", "-q"], check=True)
         self.assertEqual(view(folder)[0], 0)
-        page = ViewPage(folder / "view.html")
-        bolts, origin = page.runs[0]["frames"][34]["bolts"], page.runs[0]["origin"]
-        np.testing.assert_allclose(np.array(bolts["ends"][0]) + origin * 2, [1.0, 0.5, 1.0, -0.5], atol=1e-4)
-        self.assertEqual(bolts["force"], [2e4])
+        page, run = ViewPage(folder / "view.html").runs[0], open_run(folder)
+        self.assertEqual(page["frames"][0]["bolts"]["ends"], [], "not installed yet")
+        for number in (1, 2, 3):
+            shown, bolts = page["frames"][number]["bolts"], run.bolts(number)
+            np.testing.assert_allclose(np.array(shown["ends"][0]) + page["origin"] * 2, bolts["points"][0].ravel(), atol=1e-4)
+            self.assertAlmostEqual(shown["force"][0] / bolts["axial_force"][0], 1.0, delta=1e-3)
+        self.assertGreater(page["frames"][3]["bolts"]["force"][0], page["frames"][1]["bolts"]["force"][0])
 
     def test_what_is_missing_or_damaged_is_told(self):
         empty = self.copy("empty")
