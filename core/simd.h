@@ -22,10 +22,14 @@ struct Mask
 {
     using V = std::int64_t __attribute__((vector_size(32)));
     V v;  ///< per lane: 0 or -1
+
+    [[nodiscard]] bool has(int lane) const { return v[lane] != 0; }
+    void clear(int lane) { v[lane] = 0; }
 };
 
 struct Pack
 {
+    static constexpr int width = lanes;
     using V = double __attribute__((vector_size(32)));
     V v;
 
@@ -132,6 +136,25 @@ inline bool any(Mask m)
     return ((m.v[0] | m.v[1]) | (m.v[2] | m.v[3])) != 0;
 #endif
 }
+/// What comparing two packs gives.
+template <typename P>
+using MaskOf = decltype(P() < P());
+
+/// How many lanes of masks were set.
+class LaneCount
+{
+  public:
+    void add(Mask m) { count_ -= m.v; }
+    [[nodiscard]] std::int64_t total() const { return count_[0] + count_[1] + count_[2] + count_[3]; }
+
+  private:
+    Mask::V count_{};
+};
+[[nodiscard]] inline LaneCount count_of(Mask)
+{
+    return {};
+}
+
 /// In the order of the lanes.
 inline double sum(Pack a)
 {

@@ -42,9 +42,9 @@ void touch_packs(const State& state, Overlaps& overlaps)
     const Contacts& contacts = state.contacts;
     for (std::size_t i = 0; i < contacts.lane.size(); ++i)
     {
-        const BasicEdgePair<Pack> edges = load_edges(contacts.lane[i]);
-        const BasicMotion<Pack> ref = load_motions(state.blocks.motion, &contacts.ref[lanes * i]);
-        const BasicMotion<Pack> inc = load_motions(state.blocks.motion, &contacts.inc[lanes * i]);
+        const BasicEdgePair<Pack> edges = load_edges<Pack>(contacts.lane[i]);
+        const BasicMotion<Pack> ref = load_motions<Pack>(state.blocks.motion, &contacts.ref[lanes * i]);
+        const BasicMotion<Pack> inc = load_motions<Pack>(state.blocks.motion, &contacts.inc[lanes * i]);
         const BasicEdgeTouch<Pack> touch = touch_edges(edges, ref, inc);
         touch.point[0].overlap.store(&overlaps[2 * lanes * i]);
         touch.point[1].overlap.store(&overlaps[2 * lanes * i + lanes]);

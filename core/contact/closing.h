@@ -57,10 +57,11 @@ template <typename R>
 }
 
 /// Contacts with a point at which one block moves past the other faster than `speed`.
-[[nodiscard]] inline Mask are_faster(const BasicTouchPoint<Pack>* p, double speed)
+template <typename P>
+[[nodiscard]] inline MaskOf<P> are_faster(const BasicTouchPoint<P>* p, double speed)
 {
-    const auto square = [](const BasicTouchPoint<Pack>& point) { return point.v_m * point.v_m + point.v_t * point.v_t; };
-    return max(square(p[0]), square(p[1])) > Pack(speed * speed);
+    const auto square = [](const BasicTouchPoint<P>& point) { return point.v_m * point.v_m + point.v_t * point.v_t; };
+    return max(square(p[0]), square(p[1])) > P(speed * speed);
 }
 
 /// Square of two of the longer step: what may_close_or_open asks for [s2].
@@ -71,54 +72,55 @@ template <typename R>
 }
 
 /// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
-[[nodiscard]] inline Mask may_close_or_open(const BasicTouchPoint<Pack>* p, Pack ways)
+template <typename P>
+[[nodiscard]] inline MaskOf<P> may_close_or_open(const BasicTouchPoint<P>* p, P ways)
 {
-    const auto slowness = [&](const BasicTouchPoint<Pack>& point)
+    const auto slowness = [&](const BasicTouchPoint<P>& point)
     { return point.overlap * point.overlap - ways * point.v_m * point.v_m; };
-    return min(slowness(p[0]), slowness(p[1])) < Pack(0.0);
+    return min(slowness(p[0]), slowness(p[1])) < P(0.0);
 }
 
 /// closing_share of both points of four contacts. `stiffness`: K_N L of each point [N/m], `recovery`: way of rest_overlap [m].
 /// (The touch as a copy, not in line: to hand out its address costs the force law 4 % even where this is never called.)
-[[nodiscard, gnu::noinline]] inline std::array<Pack, 2> closing_shares(const Blocks& blocks, const ContactLanes& l,
-                                                                       const Index* at_ref, const Index* at_inc,
-                                                                       const BasicEdgeTouch<Pack> touch, Pack stiffness,
-                                                                       Pack recovery)
+template <typename P>
+[[nodiscard, gnu::noinline]] inline std::array<P, 2> closing_shares(const Blocks& blocks, const ContactLanes& l,
+                                                                    const Index* at_ref, const Index* at_inc,
+                                                                    const BasicEdgeTouch<P> touch, P stiffness, P recovery)
 {
-    const BasicInertia<Pack> ref = load_inertias(blocks.inertia, at_ref);
-    const BasicInertia<Pack> inc = load_inertias(blocks.inertia, at_inc);
-    const BasicTouchPoint<Pack>* const p = touch.point;
-    const Pack across = (ref.inverse_mass_x + inc.inverse_mass_x) * touch.ey * touch.ey +
-                        (ref.inverse_mass_y + inc.inverse_mass_y) * touch.ex * touch.ex;
+    const BasicInertia<P> ref = load_inertias<P>(blocks.inertia, at_ref);
+    const BasicInertia<P> inc = load_inertias<P>(blocks.inertia, at_inc);
+    const BasicTouchPoint<P>* const p = touch.point;
+    const P across = (ref.inverse_mass_x + inc.inverse_mass_x) * touch.ey * touch.ey +
+                     (ref.inverse_mass_y + inc.inverse_mass_y) * touch.ex * touch.ex;
     const auto response = [&](int j, int k)  // of the approach at j to a unit force at k [1/kg]
     { return across + ref.inverse_inertia * p[j].ref_t * p[k].ref_t + inc.inverse_inertia * p[j].inc_t * p[k].inc_t; };
-    const Pack coupling = response(0, 1);
-    const ForceLanes on_ref = load_forces(blocks.force, at_ref), on_inc = load_forces(blocks.force, at_inc);
-    const Pack a_x = on_inc.x * inc.inverse_mass_x - on_ref.x * ref.inverse_mass_x;
-    const Pack a_y = on_inc.y * inc.inverse_mass_y - on_ref.y * ref.inverse_mass_y;
-    const Pack turn_ref = on_ref.moment * ref.inverse_inertia, turn_inc = on_inc.moment * inc.inverse_inertia;
-    Pack u[2], last_normal[2];
+    const P coupling = response(0, 1);
+    const BasicForceLanes<P> on_ref = load_forces<P>(blocks.force, at_ref), on_inc = load_forces<P>(blocks.force, at_inc);
+    const P a_x = on_inc.x * inc.inverse_mass_x - on_ref.x * ref.inverse_mass_x;
+    const P a_y = on_inc.y * inc.inverse_mass_y - on_ref.y * ref.inverse_mass_y;
+    const P turn_ref = on_ref.moment * ref.inverse_inertia, turn_inc = on_inc.moment * inc.inverse_inertia;
+    P u[2], last_normal[2];
     for (int k = 0; k < 2; ++k)
     {
-        u[k] = max(p[k].overlap - rest_overlap(p[k].overlap, load_lane(l.rest_overlap[k]), recovery), Pack(0.0));
-        last_normal[k] = load_lane(l.normal_force[k]);
+        u[k] = max(p[k].overlap - rest_overlap(p[k].overlap, load_lane<P>(l, l.rest_overlap[k]), recovery), P(0.0));
+        last_normal[k] = load_lane<P>(l, l.normal_force[k]);
     }
-    const Pack acting = blocks.step.kick() * blocks.step.next;  // of an acceleration, on the overlap at t + dt
-    std::array<Pack, 2> share;
+    const P acting = blocks.step.kick() * blocks.step.next;  // of an acceleration, on the overlap at t + dt
+    std::array<P, 2> share;
     for (int k = 0; k < 2; ++k)
     {
-        const Pack own = response(k, k);
-        const Pack last = touch.ex * a_y - touch.ey * a_x + turn_inc * p[k].inc_t - turn_ref * p[k].ref_t;
-        const Pack others = last + own * last_normal[k] + coupling * last_normal[1 - k];
-        const Pack answer = stiffness * (own * u[k] + coupling * u[1 - k]);
-        const Pack past = p[k].v_m * blocks.step.last;
-        const Pack of_point = closing_share<Pack>({.now = u[k],
-                                                   .past = past,
-                                                   .coast = p[k].v_m * blocks.step.next,
-                                                   .others = others * acting,
-                                                   .answer = max(answer * acting, Pack(0.0))});
+        const P own = response(k, k);
+        const P last = touch.ex * a_y - touch.ey * a_x + turn_inc * p[k].inc_t - turn_ref * p[k].ref_t;
+        const P others = last + own * last_normal[k] + coupling * last_normal[1 - k];
+        const P answer = stiffness * (own * u[k] + coupling * u[1 - k]);
+        const P past = p[k].v_m * blocks.step.last;
+        const P of_point = closing_share<P>({.now = u[k],
+                                             .past = past,
+                                             .coast = p[k].v_m * blocks.step.next,
+                                             .others = others * acting,
+                                             .answer = max(answer * acting, P(0.0))});
         // In the first cycle of a run what presses is not known yet.
-        share[k] = select((last_normal[k] > Pack(0.0)) | (past > u[k]), of_point, 1.0);
+        share[k] = select((last_normal[k] > P(0.0)) | (past > u[k]), of_point, 1.0);
     }
     return share;
 }

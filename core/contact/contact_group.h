@@ -18,41 +18,46 @@ struct Threshold
     [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
 };
 
-/// Four contacts and what is known of them in this cycle.
-struct ContactGroup
+/// Contacts of a pack and what is known of them in this cycle.
+template <typename P>
+struct BasicContactGroup
 {
-    ContactGroup(const BasicEdgeTouch<Pack>& edge_touch, Pack w_ref, Pack w_inc)
+    using M = MaskOf<P>;
+
+    BasicContactGroup(const BasicEdgeTouch<P>& edge_touch, P w_ref, P w_inc)
         : touch(edge_touch),
           turning{{edge_touch.point[0], edge_touch.slope, w_ref, w_inc}, {edge_touch.point[1], edge_touch.slope, w_ref, w_inc}},
           w(w_inc - w_ref)
     {
     }
 
-    const BasicEdgeTouch<Pack>& touch;
-    TurningRate<Pack> turning[2];
-    Pack w;  ///< of inc relative to ref
+    const BasicEdgeTouch<P>& touch;
+    TurningRate<P> turning[2];
+    P w;  ///< of inc relative to ref
     // Set later: to fill them with zeros here, or to copy the touch, cost a tenth of the law's time.
     const Index* ref;
     const Index* inc;
-    const JointLanes* joint;
-    Pack length;  ///< each point's share of the contact length
-    Pack last_length, length_inverse;
-    Pack recovery;     ///< by which a rest overlap shrinks in a cycle [m]
-    Pack shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
-    Mask closed[2];
-    Mask was_impulse[2];
-    Pack last_normal[2], last_shear[2];
-    Pack preload[2];  ///< only where contacts have one [m]
+    const BasicJointLanes<P>* joint;
+    P length;  ///< each point's share of the contact length
+    P last_length, length_inverse;
+    P recovery;     ///< by which a rest overlap shrinks in a cycle [m]
+    P shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)
+    M closed[2];
+    M was_impulse[2];
+    P last_normal[2], last_shear[2];
+    P preload[2];  ///< only where contacts have one [m]
 };
+using ContactGroup = BasicContactGroup<Pack>;
 
 /// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
 /// m_c = m/2 without levers.
-inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
+template <typename P>
+inline BasicInertia<P> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
 {
-    BasicInertia<Pack> inertia = load_inertias(blocks.inertia, at);
+    BasicInertia<P> inertia = load_inertias<P>(blocks.inertia, at);
     if (model.contact.fixed_mass_counts)
     {
-        const BasicInertia<Pack> full = load_inertias(model.full_inertia, at);
+        const BasicInertia<P> full = load_inertias<P>(model.full_inertia, at);
         inertia.inverse_mass_x = full.inverse_mass_x;
         inertia.inverse_mass_y = full.inverse_mass_y;
     }
@@ -61,34 +66,36 @@ inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& b
 
 /// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
 /// (In line, as the next two: by calls the force law takes 5 % more instructions where many contacts are fast.)
-[[gnu::always_inline]] inline Mask are_fast(const ContactGroup& g, Pack speed_squared, const Model& model, const Blocks& blocks,
-                                            const Threshold& threshold)
+template <typename P>
+[[gnu::always_inline]] inline MaskOf<P> are_fast(const BasicContactGroup<P>& g, P speed_squared, const Model& model,
+                                                 const Blocks& blocks, const Threshold& threshold)
 {
     // A block that gravity has pulled for one cycle has just dt |g|: rounding must not decide that tie.
-    const Pack margin = 1.0 + 1e-9;
+    const P margin = 1.0 + 1e-9;
     if (threshold.fixed >= 0.0)
-        return speed_squared > Pack(threshold.fixed * threshold.fixed) * margin;
-    const BasicInertia<Pack> ref = threshold_inertias(model, blocks, g.ref);
-    const BasicInertia<Pack> inc = threshold_inertias(model, blocks, g.inc);
-    Pack elastic = 0.0;
+        return speed_squared > P(threshold.fixed * threshold.fixed) * margin;
+    const BasicInertia<P> ref = threshold_inertias<P>(model, blocks, g.ref);
+    const BasicInertia<P> inc = threshold_inertias<P>(model, blocks, g.inc);
+    P elastic = 0.0;
     for (int k = 0; k < 2; ++k)
     {
-        const BasicTouchPoint<Pack>& p = g.touch.point[k];
-        const Pack mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -g.touch.ey, g.touch.ex);
-        const Pack mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, g.touch.ex, g.touch.ey);
+        const BasicTouchPoint<P>& p = g.touch.point[k];
+        const P mass_n = inverse_collision_mass(ref, p.ref_t, inc, p.inc_t, -g.touch.ey, g.touch.ex);
+        const P mass_s = inverse_collision_mass(ref, p.ref_m, inc, p.inc_m, g.touch.ex, g.touch.ey);
         // Springs that an impulse has emptied have stored nothing.
-        const Pack normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
-        const Pack shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
+        const P normal = select(g.was_impulse[k], 0.0, g.last_normal[k]);
+        const P shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
         elastic += elastic_velocity_squared(normal, g.joint->law.normal_stiffness * g.length, mass_n, shear,
                                             g.joint->law.shear_stiffness * g.length, mass_s);
     }
-    const Pack u_th = threshold_velocity(Pack(threshold.scale), Pack(threshold.gravity_velocity), elastic);
+    const P u_th = threshold_velocity(P(threshold.scale), P(threshold.gravity_velocity), elastic);
     return speed_squared > u_th * u_th * margin;
 }
 
 /// Standing rock keeps its springs, see RegimeRule.
-[[gnu::always_inline]] inline Mask leave_to_springs(Mask fast, const ContactGroup& g, Pack speed_squared, const Model& model,
-                                                    const Blocks& blocks)
+template <typename P>
+[[gnu::always_inline]] inline MaskOf<P> leave_to_springs(MaskOf<P> fast, const BasicContactGroup<P>& g, P speed_squared,
+                                                         const Model& model, const Blocks& blocks)
 {
     const double distance = model.convergence.loose_distance;
     const auto keeps = [&](Index a, Index b, double squared)
@@ -98,30 +105,30 @@ inline BasicInertia<Pack> threshold_inertias(const Model& model, const Blocks& b
         const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
         return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size;
     };
-    for (int j = 0; j < lanes; ++j)
-        if (fast.v[j] != 0 && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
-            fast.v[j] = 0;
+    for (int j = 0; j < P::width; ++j)
+        if (fast.has(j) && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
+            fast.clear(j);
     return fast;
 }
 
-template <ContactLaw law>
-[[nodiscard, gnu::always_inline]] inline Mask are_impulsive(const ContactGroup& g, const Model& model, const Blocks& blocks,
-                                                            const Threshold& threshold)
+template <ContactLaw law, typename P>
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_impulsive(const BasicContactGroup<P>& g, const Model& model,
+                                                                 const Blocks& blocks, const Threshold& threshold)
 {
-    const Mask none{};
+    const MaskOf<P> none{};
     if constexpr (law != ContactLaw::by_speed)
         return law == ContactLaw::impulses ? !none : none;
-    Pack speed = 0.0;
+    P speed = 0.0;
     for (int k = 0; k < 2; ++k)
     {
-        const BasicTouchPoint<Pack>& p = g.touch.point[k];
+        const BasicTouchPoint<P>& p = g.touch.point[k];
         speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
     }
     // The elastic part only adds: at rest nothing more needs to be known.
     const double least = threshold.least();
-    if (!any(speed > Pack(least * least)))
+    if (!any(speed > P(least * least)))
         return none;
-    const Mask fast = are_fast(g, speed, model, blocks, threshold);
+    const MaskOf<P> fast = are_fast(g, speed, model, blocks, threshold);
     return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
 }
 }  // namespace hdem

@@ -20,7 +20,7 @@ struct alignas(32) BlockLoad
 };
 
 /// How far a contact's shear strength is used, for the damping of its blocks.
-struct JointUse
+struct alignas(16) JointUse
 {
     float mobilised = -1.0F;  ///< share in use at its force points; -1: none [-]
     float t_x = 1.0F;         ///< direction along the edge [-]

@@ -1,0 +1,57 @@
+#include "core/contact/contact_forces_wide.h"
+
+#ifdef __AVX512F__
+#include "core/contact/wide_lanes.h"
+//
+#include "core/contact/contact_pass.h"
+
+namespace hdem
+{
+namespace
+{
+template <Joints joints>
+ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
+                             ContactLoads& loads, const ContactTally& sums)
+{
+    switch (rule.law)
+    {
+    case ContactLaw::springs:
+        return evaluate_packs<ContactLaw::springs, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+    case ContactLaw::impulses:
+        return evaluate_packs<ContactLaw::impulses, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+    case ContactLaw::by_speed:
+        return evaluate_packs<ContactLaw::by_speed, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+    }
+    return {};
+}
+}  // namespace
+
+bool has_wide_packs()
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw");
+}
+
+ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+{
+    const auto evaluate_all = contacts.has_preload ? evaluate_by_law<Joints::preloaded> : evaluate_by_law<Joints::plain>;
+    return evaluate_all(range, model, rule, blocks, contacts, loads, sums);
+}
+}  // namespace hdem
+
+#else
+namespace hdem
+{
+bool has_wide_packs()
+{
+    return false;
+}
+
+ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+{
+    return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums);
+}
+}  // namespace hdem
+#endif

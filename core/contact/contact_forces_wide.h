@@ -1,0 +1,19 @@
+#pragma once
+/// The contact stage on processors with AVX-512, eight contacts at a time.
+
+#include "core/contact/contact_forces.h"
+
+namespace hdem
+{
+/// Does this processor have what evaluate_by_eight needs, and was it built?
+[[nodiscard]] bool has_wide_packs();
+
+/// evaluate_contacts, four contacts at a time.
+[[nodiscard]] ContactTally evaluate_by_four(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                                            Contacts& contacts, ContactLoads& loads, const ContactTally& sums);
+
+/// The same bits, eight at a time.
+/// @pre  has_wide_packs(), no contact has a memory, `range` has a multiple of eight contacts (with those that fill the arrays up)
+[[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                                             Contacts& contacts, ContactLoads& loads, const ContactTally& sums);
+}  // namespace hdem

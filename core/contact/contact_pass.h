@@ -1,0 +1,228 @@
+#pragma once
+/// One pass of the laws over contacts, as many at a time as a pack P holds.
+
+#include "core/contact/closing.h"
+#include "core/contact/joint_points.h"
+#include "core/contact/spring_points.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace hdem
+{
+/// What is the same for all contacts of a cycle.
+template <typename P>
+struct PassRule
+{
+    PassRule(const Model& model, const RegimeRule& rule, const Blocks& of)
+        : blocks(of),
+          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
+                    rule.rock_keeps_springs},
+          closing(rule.closing),
+          closing_speed(rule.closing_speed),
+          dt(of.step.last),
+          ways(closing_ways(of.step)),
+          floors_deep(model.contact.overlap_limit / model.contact.length_floor),
+          recovery(model.contact.correction_rate * dt / model.contact.length_floor)
+    {
+    }
+
+    const Blocks& blocks;
+    Threshold threshold;
+    Closing closing;
+    double closing_speed;
+    P dt, ways;
+    P floors_deep;  ///< contact.overlap_limit; it and the length floor are shares of the smaller block's size
+    P recovery;     ///< of a rest overlap in a cycle, in length floors
+};
+
+/// ContactTally while it is formed.
+template <typename P>
+struct PassSums
+{
+    using Count = decltype(count_of(MaskOf<P>{}));
+    Pack friction, changes, dilation, broken;
+    Count closed{}, impulses{}, stale{}, deep{};
+
+    explicit PassSums(const ContactTally& before)
+        : friction(before.friction),
+          changes(before.changes),
+          dilation(before.dilation),
+          broken(before.broken)
+    {
+    }
+    [[nodiscard]] ContactTally added_to(const ContactTally& before) const
+    {
+        return {friction,
+                changes,
+                before.closed + static_cast<Index>(closed.total()),
+                before.impulses + static_cast<Index>(impulses.total()),
+                before.stale + static_cast<Index>(stale.total()),
+                before.deep + static_cast<Index>(deep.total()),
+                dilation,
+                broken};
+    }
+};
+
+/// Which law the points of a pack obey. Fills what `g` holds of the points.
+template <ContactLaw law, Joints joints, typename P>
+[[gnu::always_inline]] inline MaskOf<P> choose_laws(BasicContactGroup<P>& g, const Model& model, const PassRule<P>& rule,
+                                                    const Contacts& contacts, Index i, [[maybe_unused]] const RowLanes& rows,
+                                                    P floor, PassSums<P>& sums)
+{
+    const ContactLanes& l = contacts.lane[i / lanes];
+    for (int k = 0; k < 2; ++k)
+    {
+        if constexpr (joints != Joints::plain)
+            g.preload[k] = load_lane<P>(contacts.preload_lane[i / lanes], contacts.preload_lane[i / lanes].preload[k]);
+        P reach = pressed_by<joints>(g, k);
+        if constexpr (joints == Joints::laws)
+            if (rows.any)
+                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]);
+        g.closed[k] = is_closed(g.touch.length, reach, floor);
+        g.was_impulse[k] = were_impulses(&contacts.regime[k][i], MaskOf<P>{});
+        g.last_normal[k] = load_lane<P>(l, l.normal_force[k]);
+        g.last_shear[k] = load_lane<P>(l, l.shear_force[k]);
+        sums.closed.add(g.closed[k]);
+    }
+    MaskOf<P> impulsive = are_impulsive<law>(g, model, rule.blocks, rule.threshold);
+    if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
+        if (rows.any && any(impulsive))
+            impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes].point[0]) |
+                                      keep_springs(rows, contacts.memory_lane[i / lanes].point[1]));
+    if constexpr (law != ContactLaw::springs)
+    {
+        sums.impulses.add(g.closed[0] & impulsive);
+        sums.impulses.add(g.closed[1] & impulsive);
+    }
+    return impulsive;
+}
+
+/// Forces of the points of a pack.
+template <Joints joints, typename P>
+[[gnu::always_inline]] inline void evaluate_points(BasicContactGroup<P>& g, MaskOf<P> touching, MaskOf<P> impulsive,
+                                                   const PassRule<P>& rule, Contacts& contacts, Index i,
+                                                   [[maybe_unused]] const RowLanes& rows, P floor, BasicSums<P>& sums)
+{
+    ContactLanes& l = contacts.lane[i / lanes];
+    const MaskOf<P> past = g.was_impulse[0] | g.was_impulse[1] |
+                           (load_lane<P>(l, l.rest_overlap[0]) + load_lane<P>(l, l.rest_overlap[1]) > P(0.0));
+    MaskOf<P> act = past | impulsive;
+    MaskOf<P> shared{};
+    if (rule.closing != Closing::whole_cycles)
+    {
+        shared = rule.closing == Closing::fast_points ? may_close_or_open(pressed_touch<joints>(g).point, rule.ways) : touching;
+        if (rule.closing_speed > 0.0)
+            shared = shared & are_faster(g.touch.point, rule.closing_speed);
+        act = act | shared;
+    }
+    const bool remembers = joints == Joints::laws && rows.any;
+    if (!any(act) && !remembers)
+    {
+        for (int k = 0; k < 2; ++k)
+            evaluate_point<Contact4::rests, joints>(g, k, impulsive, P(1.0), rule.dt, l, &contacts.regime[k][i], sums);
+        return;
+    }
+    g.recovery = rule.recovery * floor;
+    std::array<P, 2> share{1.0, 1.0};
+    if (rule.closing != Closing::whole_cycles && (!remembers || any(shared)))
+        share = closing_shares<P>(rule.blocks, l, g.ref, g.inc, pressed_touch<joints>(g), g.joint->law.normal_stiffness * g.length,
+                                  g.recovery);
+    for (P& s : share)  // what is slow must not depend on which contacts it is handled with
+        s = select(shared, s, 1.0);
+    if constexpr (joints == Joints::laws)
+        if (remembers)
+        {
+            evaluate_joint_points(g, impulsive, share, rule.dt,
+                                  {l, contacts.memory_lane[i / lanes], {&contacts.regime[0][i], &contacts.regime[1][i]}, rows},
+                                  sums);
+            return;
+        }
+    for (int k = 0; k < 2; ++k)
+        evaluate_point<Contact4::any, joints>(g, k, impulsive, share[k], rule.dt, l, &contacts.regime[k][i], sums);
+}
+
+/// What the contacts of a pack put on their blocks.
+template <typename P>
+[[gnu::always_inline]] inline void store_results(const BasicEdgeTouch<P>& touch, const BasicSums<P>& sums, MaskOf<P> touching,
+                                                 MaskOf<P> impulsive, const std::uint8_t* swapped, Index i, ContactLoads& loads)
+{
+    const P x = touch.ex * sums.f_t - touch.ey * sums.f_m;
+    const P y = touch.ey * sums.f_t + touch.ex * sums.f_m;
+    store_loads(x, y, sums.moment_ref, sums.moment_inc, sums.strength - sums.used, swapped, &loads.load[2 * i]);
+    const MaskOf<P> springs = touching & !impulsive;
+    const P mobilised = select(sums.strength > P(0.0), sums.used / sums.strength, 1.0);
+    store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, &loads.use[i]);
+}
+
+/// Ask for the memory of contacts that come later: processors see by themselves that ContactLanes follow each other, but too late. Where contacts are in no cache of a
+/// core's own a pass takes up to twice as long without (parallel/README.md).
+template <typename P>
+[[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, ContactLoads& loads, Index i)
+{
+    constexpr Index ahead = 16;
+    const Index at = std::min(i + ahead, static_cast<Index>(contacts.stale.size()) - P::width);
+    // (Not by a function for both: g++ takes one that only fetches for one without effect, and drops it.)
+    const char* const lane = reinterpret_cast<const char*>(&contacts.lane[at / lanes]);
+    for (std::size_t b = 0; b < P::width / lanes * sizeof(ContactLanes); b += 64)
+        __builtin_prefetch(lane + b, 1);
+    const char* const load = reinterpret_cast<const char*>(&loads.load[2 * at]);
+    for (std::size_t b = 0; b < 2 * P::width * sizeof(BlockLoad); b += 64)
+        __builtin_prefetch(load + b, 1);
+}
+
+/// evaluate_contacts for packs of one width. `range` begins and ends at multiples of it, or of `lanes` with the last contact.
+template <ContactLaw law, Joints joints, typename P>
+[[nodiscard]] ContactTally evaluate_packs(IndexRange range, const Model& model, const RegimeRule& regimes, const Blocks& blocks,
+                                          Contacts& contacts, ContactLoads& loads, const ContactTally& before)
+{
+    static_assert(joints != Joints::laws || std::is_same_v<P, Pack>);
+    const PassRule<P> rule(model, regimes, blocks);
+    LawLanes<P> laws(model.joints.laws);
+    RowLanes rows(model.joints.rows);
+    PassSums<P> pass(before);
+    for (Index i = range.begin; i < range.end; i += P::width)
+    {
+        ContactLanes& l = contacts.lane[i / lanes];
+        const Index* const at_ref = &contacts.ref[i];
+        const Index* const at_inc = &contacts.inc[i];
+        fetch_ahead<P>(contacts, loads, i);
+        const BasicEdgePair<P> edges = load_edges<P>(l);
+        const BasicMotion<P> ref = load_motions<P>(blocks.motion, at_ref);
+        const BasicMotion<P> inc = load_motions<P>(blocks.motion, at_inc);
+        const BasicEdgeView<P> view = view_edges(edges, ref, inc);
+        const BasicEdgeTouch<P> touch = touch_edges(edges, view, ref, inc);
+        BasicContactGroup<P> g(touch, ref.w, inc.w);
+        g.ref = at_ref;
+        g.inc = at_inc;
+        g.joint = &laws.load(&contacts.law[i]);
+        if constexpr (joints == Joints::laws)
+            rows.load(&contacts.law[i]);
+        const P floor = load_lane<P>(l, l.length_floor);
+        g.length = point_length(touch.length, floor);
+        const MaskOf<P> moved = have_moved(l, view);
+        store_flags(moved, &contacts.stale[i]);
+        pass.stale.add(moved);
+        const MaskOf<P> impulsive = choose_laws<law, joints>(g, model, rule, contacts, i, rows, floor, pass);
+        const MaskOf<P> touching = g.closed[0] | g.closed[1];
+        pass.deep.add(touching & (max(touch.point[0].overlap, touch.point[1].overlap) > rule.floors_deep * floor));
+
+        g.last_length = load_lane<P>(l, l.last_length);
+        g.length_inverse = P(1.0) / g.length;
+        g.shear_share = shear_share(g.length / g.last_length);
+        BasicSums<P> sums;
+        evaluate_points<joints>(g, touching, impulsive, rule, contacts, i, rows, floor, sums);
+        add_tilt_forces<joints>(g, floor, rule.dt, l, sums);
+        store_lane(l, l.last_length, g.length);
+        add_pack(sums.friction, pass.friction);
+        add_pack(sums.changes, pass.changes);
+        if constexpr (joints == Joints::laws)
+        {
+            pass.dilation += sums.dilation;
+            pass.broken += sums.broken;
+        }
+        store_results(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
+    }
+    return pass.added_to(before);
+}
+}  // namespace hdem

@@ -1,0 +1,257 @@
+#pragma once
+/// Eight contacts at once on processors with AVX-512: each lane computes what it does in a Pack of four, so the bits are the same.
+/// Only for contact_forces_wide.cpp, which alone is compiled for these processors and is asked only where has_wide_packs().
+
+#include "core/contact/contact_lanes.h"
+
+#include <immintrin.h>
+
+namespace hdem
+{
+inline constexpr int wide_lanes = 2 * lanes;
+
+struct WideMask
+{
+    __mmask8 v = 0;
+
+    [[nodiscard]] bool has(int lane) const { return ((v >> lane) & 1) != 0; }
+    void clear(int lane) { v = static_cast<__mmask8>(v & ~(1 << lane)); }
+};
+
+struct WidePack
+{
+    static constexpr int width = wide_lanes;
+    using V = double __attribute__((vector_size(64)));
+    V v;
+
+    WidePack() = default;
+    explicit WidePack(V value) : v(value) {}
+    WidePack(double value) : v{value, value, value, value, value, value, value, value} {}
+};
+
+inline WidePack operator+(WidePack a, WidePack b)
+{
+    return WidePack(a.v + b.v);
+}
+inline WidePack operator-(WidePack a, WidePack b)
+{
+    return WidePack(a.v - b.v);
+}
+inline WidePack operator*(WidePack a, WidePack b)
+{
+    return WidePack(a.v * b.v);
+}
+inline WidePack operator/(WidePack a, WidePack b)
+{
+    return WidePack(a.v / b.v);
+}
+inline WidePack operator-(WidePack a)
+{
+    return WidePack(-a.v);
+}
+inline WidePack& operator+=(WidePack& a, WidePack b)
+{
+    return a = a + b;
+}
+inline WidePack& operator-=(WidePack& a, WidePack b)
+{
+    return a = a - b;
+}
+inline WideMask operator<(WidePack a, WidePack b)
+{
+    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)};
+}
+inline WideMask operator>(WidePack a, WidePack b)
+{
+    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)};
+}
+inline WideMask operator<=(WidePack a, WidePack b)
+{
+    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LE_OQ)};
+}
+inline WideMask operator==(WidePack a, WidePack b)
+{
+    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_EQ_OQ)};
+}
+inline WideMask operator&(WideMask a, WideMask b)
+{
+    return {static_cast<__mmask8>(a.v & b.v)};
+}
+inline WideMask operator|(WideMask a, WideMask b)
+{
+    return {static_cast<__mmask8>(a.v | b.v)};
+}
+inline WideMask operator!(WideMask a)
+{
+    return {static_cast<__mmask8>(~a.v)};
+}
+inline WidePack select(WideMask m, WidePack yes, WidePack no)
+{
+    return WidePack(_mm512_mask_blend_pd(m.v, no.v, yes.v));
+}
+inline WidePack max(WidePack a, WidePack b)
+{
+    return WidePack(_mm512_max_pd(a.v, b.v));  // b where they are equal, as the Pack of four has it
+}
+inline WidePack min(WidePack a, WidePack b)
+{
+    return WidePack(_mm512_min_pd(a.v, b.v));
+}
+inline WidePack abs(WidePack a)
+{
+    return max(a, -a);
+}
+inline WidePack sqrt(WidePack a)
+{
+    return WidePack(_mm512_sqrt_pd(a.v));
+}
+inline bool any(WideMask m)
+{
+    return m.v != 0;
+}
+
+/// How many lanes of masks were set.
+class WideCount
+{
+  public:
+    void add(WideMask m) { count_ += __builtin_popcount(m.v); }
+    [[nodiscard]] std::int64_t total() const { return count_; }
+
+  private:
+    std::int64_t count_ = 0;
+};
+[[nodiscard]] inline WideCount count_of(WideMask)
+{
+    return {};
+}
+
+/// Lane by lane as two Packs that follow each other.
+inline void add_pack(WidePack a, Pack& sum)
+{
+    sum.v += _mm512_castpd512_pd256(a.v);
+    sum.v += _mm512_extractf64x4_pd(a.v, 1);
+}
+
+/// Four lanes of this owner, four of the next.
+template <typename P, typename Owner>
+requires std::is_same_v<P, WidePack>
+[[nodiscard, gnu::always_inline]] inline P load_lane(const Owner&, const ContactLanes::Lane& lane)
+{
+    const char* const at = reinterpret_cast<const char*>(lane.data());
+    const __m256d low = _mm256_load_pd(reinterpret_cast<const double*>(at));
+    return P(
+        _mm512_insertf64x4(_mm512_castpd256_pd512(low), _mm256_load_pd(reinterpret_cast<const double*>(at + sizeof(Owner))), 1));
+}
+
+template <typename Owner>
+[[gnu::always_inline]] inline void store_lane(Owner&, ContactLanes::Lane& lane, WidePack value)
+{
+    char* const at = reinterpret_cast<char*>(lane.data());
+    _mm256_store_pd(reinterpret_cast<double*>(at), _mm512_castpd512_pd256(value.v));
+    _mm256_store_pd(reinterpret_cast<double*>(at + sizeof(Owner)), _mm512_extractf64x4_pd(value.v, 1));
+}
+
+/// Rows of four doubles of eight blocks: columns of them.
+template <typename Row>
+[[gnu::always_inline]] inline void load_rows(const Row* rows, const Index* at, std::ptrdiff_t offset, WidePack& a, WidePack& b,
+                                             WidePack& c, WidePack& d)
+{
+    const auto row = [=](int i) { return _mm256_load_pd(reinterpret_cast<const double*>(rows + at[i]) + offset); };
+    const auto two = [&](int i, int j) { return _mm512_insertf64x4(_mm512_castpd256_pd512(row(i)), row(j), 1); };
+    const __m512d r02 = two(0, 2), r13 = two(1, 3), r46 = two(4, 6), r57 = two(5, 7);
+    const __m512d low_03 = _mm512_unpacklo_pd(r02, r13), high_03 = _mm512_unpackhi_pd(r02, r13);
+    const __m512d low_47 = _mm512_unpacklo_pd(r46, r57), high_47 = _mm512_unpackhi_pd(r46, r57);
+    a.v = _mm512_shuffle_f64x2(low_03, low_47, 0x88);
+    b.v = _mm512_shuffle_f64x2(high_03, high_47, 0x88);
+    c.v = _mm512_shuffle_f64x2(low_03, low_47, 0xdd);
+    d.v = _mm512_shuffle_f64x2(high_03, high_47, 0xdd);
+}
+
+[[nodiscard]] inline __m128i load_bytes(const std::uint8_t* from)
+{
+    return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+}
+
+[[nodiscard]] inline WideMask were_impulses(const std::uint8_t* regime, WideMask)
+{
+    return {static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::impulse))))};
+}
+
+inline void store_bytes(__m128i bytes, std::uint8_t* to)
+{
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), bytes);
+}
+
+inline void store_regimes(WideMask spring, WideMask slips, WideMask held, std::uint8_t* regime)
+{
+    const __m128i one = _mm_set1_epi8(1);
+    const __m128i springs = _mm_add_epi8(_mm_maskz_mov_epi8(spring.v, one), _mm_maskz_mov_epi8(slips.v, one));
+    store_bytes(_mm_add_epi8(springs, _mm_maskz_mov_epi8(held.v, _mm_set1_epi8(3))), regime);
+}
+
+inline void store_flags(WideMask m, std::uint8_t* to)
+{
+    store_bytes(_mm_maskz_mov_epi8(m.v, _mm_set1_epi8(1)), to);
+}
+
+[[nodiscard]] inline WideMask have_moved(const ContactLanes& l, const BasicEdgeView<WidePack>& v)
+{
+    const auto seen = [&l](const std::array<float, lanes>& of)
+    {
+        const char* const at = reinterpret_cast<const char*>(of.data());
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(reinterpret_cast<const float*>(at))),
+                                    _mm_load_ps(reinterpret_cast<const float*>(at + sizeof l)), 1);
+    };
+    const auto off = [&](WidePack now, const std::array<float, lanes>& then)
+    { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), _mm256_sub_ps(_mm512_cvtpd_ps(now.v), seen(then))); };
+    const __m256 limit = seen(l.moved_limit);
+    const __m256 a = _mm256_max_ps(off(v.t0, l.seen[0]), off(v.m0, l.seen[1]));
+    const __m256 b = _mm256_max_ps(off(v.t1, l.seen[2]), off(v.m1, l.seen[3]));
+    const __mmask8 near = static_cast<__mmask8>(_mm256_cmp_ps_mask(a, limit, _CMP_LE_OQ) &
+                                                _mm256_cmp_ps_mask(b, limit, _CMP_LE_OQ));
+    return {static_cast<__mmask8>(~near)};
+}
+
+/// Loads of eight contacts on one of their blocks: columns to rows, each to its place of two.
+[[gnu::always_inline]] inline void store_rows(WidePack x, WidePack y, WidePack moment, WidePack reserve,
+                                              const std::uint8_t* swapped, int side, BlockLoad* to)
+{
+    const __m512d even_force = _mm512_unpacklo_pd(x.v, y.v), odd_force = _mm512_unpackhi_pd(x.v, y.v);
+    const __m512d even_rest = _mm512_unpacklo_pd(moment.v, reserve.v), odd_rest = _mm512_unpackhi_pd(moment.v, reserve.v);
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), last = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    const auto put = [&](__m512d rows, int i, int j)
+    {
+        _mm256_store_pd(&to[2 * i + (side ^ swapped[i])].x, _mm512_castpd512_pd256(rows));
+        _mm256_store_pd(&to[2 * j + (side ^ swapped[j])].x, _mm512_extractf64x4_pd(rows, 1));
+    };
+    put(_mm512_permutex2var_pd(even_force, first, even_rest), 0, 2);
+    put(_mm512_permutex2var_pd(even_force, last, even_rest), 4, 6);
+    put(_mm512_permutex2var_pd(odd_force, first, odd_rest), 1, 3);
+    put(_mm512_permutex2var_pd(odd_force, last, odd_rest), 5, 7);
+}
+
+inline void store_loads(WidePack x, WidePack y, WidePack moment_ref, WidePack moment_inc, WidePack reserve,
+                        const std::uint8_t* swapped, BlockLoad* to)
+{
+    store_rows(-x, -y, moment_ref, reserve, swapped, 0, to);
+    store_rows(x, y, moment_inc, reserve, swapped, 1, to);
+}
+
+inline void store_use(WidePack mobilised, WidePack t_x, WidePack t_y, WideMask touching, WideMask springs, JointUse* to)
+{
+    const __m256i bits = _mm256_mask_mov_epi32(_mm256_maskz_set1_epi32(touching.v, contact_impulse), springs.v,
+                                               _mm256_set1_epi32(contact_force));
+    const __m256 m = _mm512_cvtpd_ps(mobilised.v), x = _mm512_cvtpd_ps(t_x.v), y = _mm512_cvtpd_ps(t_y.v);
+    const __m256 mx_01 = _mm256_unpacklo_ps(m, x), mx_23 = _mm256_unpackhi_ps(m, x);  // of contacts 0, 1, 4, 5 and 2, 3, 6, 7
+    const __m256 yb_01 = _mm256_unpacklo_ps(y, _mm256_castsi256_ps(bits)), yb_23 = _mm256_unpackhi_ps(y, _mm256_castsi256_ps(bits));
+    const auto put = [to](__m256 rows, int i)
+    {
+        _mm_store_ps(&to[i].mobilised, _mm256_castps256_ps128(rows));
+        _mm_store_ps(&to[i + 4].mobilised, _mm256_extractf128_ps(rows, 1));
+    };
+    put(_mm256_shuffle_ps(mx_01, yb_01, 0x44), 0);
+    put(_mm256_shuffle_ps(mx_01, yb_01, 0xee), 1);
+    put(_mm256_shuffle_ps(mx_23, yb_23, 0x44), 2);
+    put(_mm256_shuffle_ps(mx_23, yb_23, 0xee), 3);
+}
+}  // namespace hdem
