@@ -66,10 +66,12 @@ TEST(FiniteTraces, CutTogetherWithThroughGoingSets)
 
 TEST(FiniteTraces, WhatIsLeftAndWhatIsDroppedIsAllThatWasDrawn)
 {
-    const RockMass rock = rock_of(box_20 + two_sets + laws);
+    const CaseDef def = test::read(box_20 + two_sets + laws);
+    const RockMass rock = generate_rock_mass(def);
+    const std::int32_t source = EdgeSources(def).set(1);
     double edges = 0.0;  // each joint has two sides
     for (const DirectedEdge& edge : all_edges(rock))
-        edges += edge.source == EdgeSources(test::read(box_20 + two_sets + laws)).set(1) ? (edge.to - edge.from).norm() : 0.0;
+        edges += edge.source == source ? (edge.to - edge.from).norm() : 0.0;
     const DrawnSet& set = rock.sets[1];
     EXPECT_NEAR(0.5 * edges + set.dead_ends + set.welded, set.length, 1e-3 * set.length);
 }
@@ -183,6 +185,43 @@ TEST(FiniteTraces, CellsBelowTheSmallestAreaAreJoinedAndCounted)
         EXPECT_GE(area(block), 0.3);
     EXPECT_GT(rock.merged_slivers, 0);
     EXPECT_GT(rock.sets[0].welded + rock.sets[1].welded, 0.0);
+}
+
+/// Two upright joints 10 cm from each other that stop at a fault, and one that ends at the same fault from the other side: the cell between
+/// the two has an edge of 10 cm at the fault and one at the boundary. Beside the boundary both go straight on in the neighbour.
+TEST(FiniteTraces, CellsWithShortEdgesAreJoinedToANeighbour)
+{
+    const std::string text = box_20 + "[[fault]]\nname = \"main\"\npoints = [[-1, 10], [21, 10]]\n"
+                                      "[[joint_set]]\ndip_deg = 90.0\nspacing = 8.0\norigin = [5, 5]\nstops_at = [\"main\"]\n"
+                                      "[[joint_set]]\ndip_deg = 90.0\nspacing = 8.0\norigin = [5.1, 5]\nstops_at = [\"main\"]\n";
+    const auto shortest = [](const RockMass& rock)
+    {
+        double least = 1e9;
+        for (const DirectedEdge& edge : all_edges(rock))
+            least = std::min(least, (edge.to - edge.from).norm());
+        return least;
+    };
+    const RockMass all = rock_of(text + laws);
+    EXPECT_EQ(all.blocks.size(), 6u) << "three wide ones, two narrow ones below the fault, one above it";
+    EXPECT_NEAR(shortest(all), 0.1, 1e-9);
+    const RockMass joined = rock_of(text + "[generator]\nsmallest_edge = 0.3\n" + laws);
+    expect_filled(joined);
+    EXPECT_EQ(joined.blocks.size(), 4u);
+    EXPECT_GT(shortest(joined), 0.3);
+    EXPECT_EQ(joined.merged_slivers, 2);
+    EXPECT_NEAR(joined.sets[0].welded + joined.sets[1].welded, 20.0, 1e-3);
+    EXPECT_TRUE(std::ranges::none_of(joined.warnings, [](const Problem& p) { return p.key == "generator.smallest_edge"; }));
+}
+
+TEST(FiniteTraces, ShortEdgesThatAreLeftAreCounted)
+{
+    const std::string text = box_20 + two_sets + "[generator]\nsmallest_edge = 0.2\n" + laws;
+    const RockMass rock = rock_of(text);
+    expect_filled(rock);
+    EXPECT_GT(rock.merged_slivers, 0);
+    EXPECT_TRUE(std::ranges::any_of(
+        rock.warnings, [](const Problem& p)
+        { return p.key == "generator.smallest_edge" && p.text.find("shorter edges are left") != std::string::npos; }));
 }
 
 TEST(DrawnSpacing, IsFoundByEveryBlock)
