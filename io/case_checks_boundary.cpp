@@ -39,17 +39,21 @@ class BoundaryCheck : public CaseCheck
             return;
         }
         exclude(path, object, "side", "edges");
-        const bool is_polygon = given("domain.polygon");
+        const bool is_polygon = given("domain.polygon"), has_edges = is_polygon || given("domain.profile");
         if (given(path + ".side") && is_polygon)
             problems_.add(path + ".side", object, "side", "is one of a rectangle, and the domain is a polygon",
                           "Use edges = [0, ...]: 0 is the edge from the first to the second vertex.");
-        else if (given(path + ".edges") && !is_polygon)
+        else if (boundary.side == "top" && given("domain.profile"))
+            problems_.add(path + ".side", object, "side = \"top\"", "is not one side: the domain ends at a profile",
+                          "Use edges: 0 is the lower side, 1 the right one, from 2 on the profile from the right to the left.");
+        else if (given(path + ".edges") && !has_edges)
             problems_.add(path + ".edges", object, "edges", "are those of a polygon, and the domain is a rectangle",
                           "Use side = \"left\", \"right\", \"bottom\" or \"top\".");
         else if (given(path + ".edges") && !problems_.has(path + ".edges") && boundary.edges.empty())
             problems_.add(path + ".edges", object, "edges = []", "names no edge", "Name at least one.");
         for (const int edge : boundary.edges)
-            if (is_polygon && static_cast<std::size_t>(edge) >= def_.domain.polygon.size() && !problems_.has("domain.polygon"))
+            if (has_edges && !def_.domain.polygon.empty() && static_cast<std::size_t>(edge) >= def_.domain.polygon.size() &&
+                !problems_.has("domain.polygon"))
                 problems_.add(path + ".edges", object, fmt::format("edges = {}", edge),
                               fmt::format("the polygon has edges 0 to {}", def_.domain.polygon.size() - 1),
                               "Give the number of an edge.");

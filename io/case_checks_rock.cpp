@@ -21,6 +21,7 @@ class RockCheck : public CaseCheck
         for (std::size_t i = 0; i < def_.excavations.size(); ++i)
             check_excavation(def_.excavations[i], fmt::format("excavation[{}]", i));
         check_regions();
+        check_voronoi();
         check_joints();
         if (def_.insitu.given)
             check_insitu();
@@ -48,7 +49,21 @@ class RockCheck : public CaseCheck
             if (given(std::string("domain.") + key) && domain.traces_file.empty())
                 problems_.add(std::string("domain.") + key, "[domain]", key, "belongs to traces_file, which is not given",
                               "Give traces_file, or remove this key.");
-        if (given("domain.polygon"))
+        if (given("domain.bottom") && !given("domain.profile"))
+            problems_.add("domain.bottom", "[domain]", "bottom", "belongs to profile, which is not given",
+                          "Give profile, or remove this key.");
+        if (given("domain.profile"))
+        {
+            for (const char* key : {"width", "height", "origin", "polygon"})
+                exclude("domain", "[domain]", "profile", key);
+            if (!given("domain.bottom"))
+                problems_.add("domain.bottom", "[domain]", "bottom", "is missing: a profile is the upper side only",
+                              "Give the y of the lower side in m.");
+            if (std::ranges::find(domain.fixed, "top") != domain.fixed.end())
+                problems_.add("domain.fixed", "[domain]", "fixed = \"top\"", "is not one side: the domain ends at a profile",
+                              "Use fixed_edges: from 2 on they run along the profile from the right to the left.");
+        }
+        else if (given("domain.polygon"))
         {
             for (const char* key : {"width", "height", "origin"})
                 exclude("domain", "[domain]", "polygon", key);
@@ -103,6 +118,66 @@ class RockCheck : public CaseCheck
             else if (const auto [other, added] = taken.emplace(name, object); !added)
                 problems_.add(key, object, said, fmt::format("{} has this name already", other->second), "Choose another.");
         }
+    }
+
+    void check_joint_set(const JointSetDef& set, const std::string& path, const Names& faults)
+    {
+        const std::string object = fmt::format("joint set \"{}\"", printable(set.name));
+        const auto has = [&](const char* key) { return given(path + "." + key); };
+        const auto refuse = [&](const char* key, const std::string& why, const std::string& remedy)
+        {
+            if (has(key))
+                problems_.add(path + "." + key, object, key, why, remedy);
+        };
+        const auto require = [&](const char* key, const char* why, const char* remedy)
+        {
+            if (!has(key))
+                problems_.add(path + "." + key, object, key, why, remedy);
+        };
+        exclude(path, object, "dip_deg", "orientation");
+        if (!has("orientation"))
+            require("dip_deg", "is missing", "Add it: a number in deg or a distribution, e.g. dip_deg = -30.0.");
+        exclude(path, object, "spacing", "p21");
+        exclude(path, object, "gap", "p21");
+        exclude(path, object, "origin", "p21");
+        if (!has("p21"))
+            require("spacing", "is missing", "Add it: a number in m or a distribution, e.g. spacing = 2.0.");
+        if (set.dip_law.is_random())
+            refuse("deviation_deg", "contradicts the distribution of dip_deg", "Remove one of the two.");
+        if (!has("trace"))
+            for (const char* key : {"gap", "p21"})
+                refuse(key, "belongs to trace, which is not given", "Give trace, or remove this key.");
+        else if (!has("p21"))
+            require("gap", "is missing: joints of finite length have a gap between them, or a p21",
+                    "Give the length of the rock bridges in m, or p21 instead of spacing.");
+        if (has("trace") || has("stops_at"))
+            refuse("persistence", "is for through-going joints", "Give trace and gap instead.");
+        for (std::size_t i = 0; i < set.stops_at.size(); ++i)
+            if (!problems_.has("fault"))
+                check_stop(set.stops_at[i], path, object, faults);
+    }
+
+    void check_stop(const std::string& name, const std::string& path, const std::string& object, const Names& faults)
+    {
+        if (!faults.contains(name))
+            check_reference(path + ".stops_at", object, name, "fault", faults);
+    }
+
+    void check_voronoi()
+    {
+        const VoronoiDef& voronoi = def_.voronoi;
+        if (!voronoi.given)
+            return;
+        if (!def_.domain.given && !problems_.has("domain"))
+            problems_.add("voronoi", "[voronoi]", "[voronoi]", "fills the domain only, and there is no [domain]",
+                          "Give a [domain].");
+        Names regions;
+        for (const RegionDef& region : def_.regions)
+            regions.insert(region.name);
+        if (!voronoi.region.empty() && !problems_.has("region"))
+            check_reference("voronoi.region", "[voronoi]", voronoi.region, "region", regions);
+        if (!voronoi.joint.empty())
+            check_reference("voronoi.joint", "[voronoi]", voronoi.joint, "joint", joints_);
     }
 
     void check_excavation(const ExcavationDef& excavation, const std::string& path)
@@ -162,6 +237,7 @@ class RockCheck : public CaseCheck
             const std::string object = fmt::format("joint set \"{}\"", printable(set.name));
             check(fmt::format("joint_set[{}].region", i), object, set.region, "region", regions);
             check(fmt::format("joint_set[{}].outside", i), object, set.outside, "region", regions);
+            check_joint_set(set, fmt::format("joint_set[{}]", i), faults);
         }
     }
 

@@ -142,7 +142,72 @@ time,factor
 A stage with `until` does not end while a factor changes in it. Until then no block is left out, and all steps are the same. From then on the stage
 goes on as if the load had always been there. While times in seconds are still to come, steps stay the same in earlier stages too.
 
-**Random numbers.** Deviations and persistence are the only random things, and follow from `generator.seed` alone.
+**Random numbers.** Dips, spacings, traces, gaps, persistence and Voronoi points are the only random things, and follow from `generator.seed` alone
+(or from the `seed` of their section). Each use of each set has a stream of its own: what one set draws changes nothing in another one.
+
+## Joint sets with distributions
+
+Where a number of a joint set is drawn, it is a table instead of a number:
+
+```toml
+[[joint_set]]
+name = "bedding"
+dip_deg = {mean = 25.0, distribution = "von_mises", kappa = 50}
+spacing = {mean = 1.2, distribution = "exponential", least = 0.3, most = 5.0}
+
+[[joint_set]]                           # joints that end in the rock
+name = "cross"
+dip_deg = {mean = 80.0, distribution = "normal", sd = 6.0}
+spacing = {mean = 1.5, distribution = "lognormal", sd = 0.7}
+trace = {mean = 4.0, distribution = "lognormal", sd = 2.0}
+gap = {mean = 1.0, distribution = "exponential"}
+stops_at = ["main"]                     # a [[fault]]
+```
+
+| `distribution` | Numbers it has | For |
+|---|---|---|
+| `"uniform"` | `least` and `most`, or `mean` and `sd` | all |
+| `"normal"` | `mean`, `sd`; a length also `least` | all |
+| `"von_mises"` | `mean`, `kappa` (at most 10 000) | `dip_deg` |
+| `"exponential"` | `mean` | lengths |
+| `"lognormal"` | `mean`, `sd`: of the number itself, not of its logarithm | lengths |
+
+`least` and `most` cut any of them. `mean`, `sd` and `kappa` are those before the cut: an exponential with mean 1 cut to 0.2 and 3 has the mean 1.018707. `hdem check`
+prints, for each set, the mean that came out and behind it, in brackets, the mean of the distribution as it was cut. `summary.json` has both under `joint_sets`.
+
+**Through-going joints** lie at their spacings from `origin` outwards, and turn about the points at which they cross the line through `origin` at right angles to the set.
+So their dips deviate by less than 45°: what is drawn is cut there. For greater deviations take joints of finite length.
+
+**Joints of finite length** have a `trace`. With `spacing` and `gap` they follow each other on parallel lines, and each turns about its own middle. With `p21` [m/m2] instead of these
+their middles lie anywhere, independent of each other, and their length an area is `p21` on average. The length an area on lines is trace / (trace + gap) / spacing.
+
+They are cut together with the through-going sets that have no `persistence`, with faults and with outlines of regions: where these close around an area it becomes a block.
+Sets with a `persistence` cut these blocks afterwards, by chance. What of a joint ends inside a block is dropped, and cells smaller than `generator.smallest_block_area`, or narrower than
+2e-6 of the domain, are joined to the neighbour with the longest common edge, but never across a fault or an outline. `hdem check`, `run.log` and `summary.json` say how much of each set's length that was.
+Cells with an edge below `generator.smallest_edge` are joined to a neighbour whose edge goes straight on from it; what is left is said in a warning.
+
+A rock bridge is solid rock: it does not break. Where it should, draw the joint through, and give it a [joint.NAME] with the cohesion and the tension of the bridge.
+
+**Orientations in space.** `orientation = {dip = 60, dip_direction = 130, section = 90}` and the true `spacing` of the planes: with tan α = tan δ cos(α_d − ζ) the trace falls
+to the side to which the planes dip, and its spacing is s / sqrt(sin² δ cos²(α_d − ζ) + cos² δ). Here `dip_deg` is -52.9955°, and 1.5 m become 1.805633 m. All distributions
+are then those of the section; a deviation is one in the section.
+
+**Voronoi cells** ([voronoi]) stand for rock without sets. Their edges are cut as joints of finite length are. Edges below `generator.smallest_edge` shrink to a point; at the
+boundary of the domain or of the region they may still be shorter. Through-going sets cut the cells too: keep them out by `outside`.
+
+## The profile
+
+`domain.profile` names a file of the ground:
+
+```
+x,y
+0,102.5
+35,118
+80,121.4
+```
+
+Lines that begin with `#` are skipped. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
+with the lower side: 0 is the lower side, 1 the right one, and the last one is on the left; `fixed` and [[boundary]] know them by their names too.
 
 ## Faults and regions
 
@@ -213,6 +278,16 @@ Holes, MULTIPOLYGON, Z and M are refused.
 A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
 other; a heading may stand above them. `tools/import_dxf.py` makes such files from drawings.
 
+A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`. Coordinates are taken as they
+are, in metres. Other formats become GeoJSON by `ogr2ogr` (Debian: gdal-bin):
+
+```sh
+ogr2ogr -f GeoJSON blocks.geojson blocks.shp
+```
+
+The other way round, `hdem check CASE.toml --write-blocks blocks.geojson` (or `.wkt`) writes all blocks with name, material, what is fixed and, for each edge from the first vertex to
+the second on, the set, fault or outline that cut it. Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials.
+
 ## The traces file
 
 `domain.traces_file` names a text file of joint traces that need not run through: one WKT line a row, or a `.csv` with rows of `name,x,y`.
@@ -222,6 +297,8 @@ other; a heading may stand above them. `tools/import_dxf.py` makes such files fr
 LINESTRING(0 2, 8 5.5)
 LINESTRING(3 0, 4 3, 6 9)
 ```
+
+A file whose name ends in `.geojson` or `.json` is GeoJSON with LineString and MultiLineString: `ogr2ogr -f GeoJSON traces.geojson traces.shp`.
 
 The traces cut the domain into blocks where they close around an area together, or with the domain's boundary. What parts nothing, because it ends
 inside a block or only joins two rings of traces, is dropped, and counted in `hdem check` and in run.log. Excavations and joint sets cut further. Traces are cut whatever `smallest_block_area`
@@ -273,6 +350,10 @@ std::string type_column(const KeySpec& key)
         return "number or text";
     case ValueType::pair_or_text:
         return "two numbers or text";
+    case ValueType::distribution:
+        return "number or distribution";
+    case ValueType::orientation:
+        return "{dip, dip_direction, section}";
     }
     return "";
 }

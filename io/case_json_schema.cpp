@@ -47,6 +47,25 @@ Json vector_schema(const KeySpec& key, int numbers)
     return schema;
 }
 
+Json object_of_numbers(const std::vector<std::string>& names, bool are_required)
+{
+    Json properties = Json::object();
+    for (const std::string& name : names)
+        properties[name] = {{"type", "number"}};
+    Json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
+    if (are_required)
+        schema["required"] = names;
+    return schema;
+}
+
+Json distribution_schema(const KeySpec& key)
+{
+    Json schema = object_of_numbers({"mean", "sd", "kappa", "least", "most"}, false);
+    schema["properties"]["distribution"] = {{"enum", key.choices}};
+    schema["required"] = {"distribution"};
+    return schema;
+}
+
 Json value_schema(const KeySpec& key)
 {
     switch (key.type)
@@ -84,6 +103,10 @@ Json value_schema(const KeySpec& key)
         return {{"anyOf", Json::array({number_schema(key, "number"), text_schema(key)})}};
     case ValueType::pair_or_text:
         return {{"anyOf", Json::array({vector_schema(key, 2), text_schema(key)})}};
+    case ValueType::distribution:
+        return {{"anyOf", Json::array({number_schema(key, "number"), distribution_schema(key)})}};
+    case ValueType::orientation:
+        return object_of_numbers({"dip", "dip_direction", "section"}, true);
     }
     return {};
 }

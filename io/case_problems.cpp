@@ -1,5 +1,7 @@
 #include "io/case_problems.h"
 
+#include "io/distribution_key.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -224,6 +226,10 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
         return value.text() != nullptr ? check_text(key, value) : check_number(key, value);
     case ValueType::pair_or_text:
         return value.text() != nullptr ? check_text(key, value) : check_vector(key, value, 2);
+    case ValueType::distribution:
+        return find_distribution_complaint(key, value);
+    case ValueType::orientation:
+        return find_orientation_complaint(value);
     }
     return {};
 }
@@ -268,6 +274,10 @@ std::string describe_type(const KeySpec& key)
         return "a number" + in + " or " + choices;
     case ValueType::pair_or_text:
         return "two numbers" + in + " or " + choices;
+    case ValueType::distribution:
+        return "a number" + in + " or a distribution";
+    case ValueType::orientation:
+        return "{dip, dip_direction, section}" + in;
     }
     return "";
 }

@@ -1,14 +1,19 @@
 #include "io/case_reader.h"
 
 #include "core/rock/fault_lines.h"
+#include "core/rock/finite_traces.h"
 #include "core/rock/rock_checks.h"
+#include "core/rock/section.h"
+#include "core/rock/voronoi_edges.h"
 #include "io/case_checks.h"
 #include "io/case_problems.h"
 #include "io/case_schema.h"
 #include "io/factor_table.h"
+#include "io/geojson.h"
 #include "io/law_library.h"
 #include "io/polygons.h"
 #include "io/pressure_table.h"
+#include "io/profile.h"
 #include "io/stage_joints.h"
 #include "io/text_file.h"
 #include "io/traces.h"
@@ -229,7 +234,8 @@ void add_blocks_file(CaseFile& read, const std::filesystem::path& case_file, con
         return;
     const std::string file = (case_file.parent_path() / def.blocks_file).string();
     std::istringstream in(*text);
-    auto [blocks, found] = read_polygons(in, file, def.blocks.size());
+    auto [blocks, found] = is_geojson(file) ? read_geojson_blocks(*text, file, def.blocks.size())
+                                            : read_polygons(in, file, def.blocks.size());
     located.insert(located.end(), found.begin(), found.end());
     const int number = read.source.add_source(file);
     for (auto& [block, line] : blocks)
@@ -250,9 +256,44 @@ std::vector<Polygon> traces_of(CaseFile& read, const std::filesystem::path& case
     if (text == nullptr)
         return {};
     std::istringstream in(*text);
-    auto [traces, found] = read_traces(in, (case_file.parent_path() / name).string());
+    const std::string file = (case_file.parent_path() / name).string();
+    auto [traces, found] = is_geojson(name) ? read_geojson_traces(*text, file) : read_traces(in, file);
     located.insert(located.end(), found.begin(), found.end());
     return traces;
+}
+
+/// Polygon of a domain below a profile. Problems inside the file are located already.
+void add_profile(CaseFile& read, const std::filesystem::path& case_file, const NamedFiles* stored, CaseProblems& problems,
+                 std::vector<Problem>& located)
+{
+    DomainDef& domain = read.def.domain;
+    if (domain.profile.empty() || !domain.polygon.empty())
+        return;
+    const std::string* text = text_named("domain.profile", "[domain]", domain.profile, read, case_file, stored, problems);
+    if (text == nullptr)
+        return;
+    std::istringstream in(*text);
+    const ProfileFile file = read_profile(in, (case_file.parent_path() / domain.profile).string());
+    located.insert(located.end(), file.problems.begin(), file.problems.end());
+    if (!file.problems.empty() || !domain.bottom)
+        return;
+    const double lowest = std::ranges::min(file.points, {}, [](const Vec2& p) { return p.y(); }).y();
+    if (*domain.bottom < lowest)
+        domain.polygon = domain_below(file.points, *domain.bottom);
+    else
+        problems.add("domain.bottom", "[domain]", fmt::format("bottom = {} m", *domain.bottom),
+                     fmt::format("is not below the profile, whose lowest point is at {} m", lowest), "Give a lower one.");
+}
+
+/// Orientations in space become dips and spacings in the section.
+void resolve_orientations(CaseDef& def, CaseProblems& problems)
+{
+    for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
+        if (!resolve_orientation(def.joint_sets[i]))
+            problems.add(fmt::format("joint_set[{}].orientation", i),
+                         fmt::format("joint set \"{}\"", printable(def.joint_sets[i].name)), "orientation",
+                         "the planes are parallel to the section and leave no traces in it",
+                         "Leave this set out, or choose another section.");
 }
 
 /// Rows of the file of water pressures. Problems inside it are located already.
@@ -304,13 +345,20 @@ void read_table_files(CaseFile& read, const std::filesystem::path& case_file, co
 /// Only a domain without problems can be cut.
 void cut_domain(CaseDef& def, const std::vector<Polygon>& traces, const CaseSource& source)
 {
-    if ((traces.empty() && def.faults.empty() && def.regions.empty()) || !find_rock_problems(def).empty())
+    const bool has_lines = def.voronoi.given || std::ranges::any_of(def.joint_sets, is_finite);
+    if ((traces.empty() && def.faults.empty() && def.regions.empty() && !has_lines) || !find_rock_problems(def).empty())
         return;
     try
     {
-        const std::vector<SourceLine> lines = source_lines(def);
+        std::vector<SourceLine> lines = source_lines(def);
+        std::vector<DrawnSet> sets;
+        if (has_lines)
+            std::ranges::move(draw_lines(def, sets), std::back_inserter(lines));
+        if (def.voronoi.given)
+            std::ranges::move(draw_voronoi(def, sets.emplace_back()), std::back_inserter(lines));
         if (!traces.empty() || !lines.empty())
             def.trace_cells = cut_into_cells(domain_polygon(def.domain), traces, def.domain.traces_snap, lines);
+        def.trace_cells.sets = std::move(sets);
     }
     catch (const InputError& error)
     {
@@ -338,6 +386,8 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     Reader(result.def, source, problems).read(document);
     if (!result.def.blocks_file.empty())
         add_blocks_file(result, file, files, problems, located);
+    add_profile(result, file, files, problems, located);
+    resolve_orientations(result.def, problems);
     add_pressures(result, file, files, problems, located);
     read_table_files(result, file, files, problems, located);
     const std::vector<Polygon> traces = traces_of(result, file, files, problems, located);

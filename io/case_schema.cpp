@@ -37,12 +37,12 @@ const std::vector<std::string>& point_quantities()
 const std::vector<SectionSpec>& case_schema()
 {
     static const std::vector<SectionSpec> all = {
-        top_section(),       domain_section(),      fault_section(),       region_section(),           joint_set_section(),
-        generator_section(), excavation_section(),  block_section(),       material_section(),         joint_section(),
-        insitu_section(),    water_section(),       water_crack_section(), boundary_section(),         bolt_section(),
-        liner_section(),     gravity_section(),     load_section(),        contact_section(),          damping_section(),
-        time_section(),      convergence_section(), stage_section(),       factor_of_safety_section(), history_section(),
-        output_section()};
+        top_section(),     domain_section(),    fault_section(),       region_section(),      joint_set_section(),
+        voronoi_section(), generator_section(), excavation_section(),  block_section(),       material_section(),
+        joint_section(),   insitu_section(),    water_section(),       water_crack_section(), boundary_section(),
+        bolt_section(),    liner_section(),     gravity_section(),     load_section(),        contact_section(),
+        damping_section(), time_section(),      convergence_section(), stage_section(),       factor_of_safety_section(),
+        history_section(), output_section()};
     return all;
 }
 

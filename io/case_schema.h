@@ -31,7 +31,9 @@ enum class ValueType
     text_or_texts,     ///< a text or a list of texts
     boolean_or_texts,  ///< true, false or a list of choices
     number_or_text,    ///< a number or one of the choices
-    pair_or_text       ///< two numbers or one of the choices
+    pair_or_text,      ///< two numbers or one of the choices
+    distribution,      ///< a number or a table of a distribution: io/distribution_key.h
+    orientation        ///< a table {dip, dip_direction, section}
 };
 
 /// Interval that a number, or each number of a list, lies in.

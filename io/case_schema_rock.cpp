@@ -69,6 +69,18 @@ SectionSpec domain_section()
                                      .effect = "Vertices, instead of the rectangle; simple, convex or not, in either direction.",
                                      .range = coordinate,
                                      .default_note = "no polygon"}),
+         field<&DomainDef::profile>(
+             {.name = "profile",
+              .effect = "CSV file of rows x,y: the ground, with x ascending. The domain is what lies below it down to `bottom`, "
+                        "instead of the rectangle or the polygon. Its sides have the names of a rectangle's.",
+              .example = "\"topo.csv\"",
+              .default_note = "no profile"}),
+         field<&DomainDef::bottom>({.name = "bottom",
+                                    .unit = "m",
+                                    .effect = "y of the lower side of a domain below a profile.",
+                                    .example = "-20.0",
+                                    .range = coordinate,
+                                    .default_note = "must be given with profile"}),
          field<&DomainDef::fixed>({.name = "fixed",
                                    .effect = "Sides of the rectangle: a block with an edge on one of them never moves.",
                                    .example = "[\"left\", \"right\", \"bottom\"]",
@@ -111,59 +123,6 @@ SectionSpec domain_section()
             def.domain.given = true;
             return &def.domain;
         }};
-}
-
-SectionSpec joint_set_section()
-{
-    return {"joint_set",
-            SectionKind::array,
-            "joint set",
-            "Parallel joints at a regular spacing that cut the domain into blocks.",
-            {field<&JointSetDef::name>({.name = "name",
-                                        .effect = "For messages, pictures and `--set`.",
-                                        .default_note = "\"set1\", \"set2\", ... in the order of the file"}),
-             field<&JointSetDef::dip_deg>({.name = "dip_deg",
-                                           .unit = "deg",
-                                           .effect = "Inclination of the trace to the x axis, positive anticlockwise.",
-                                           .example = "-30.0",
-                                           .range = {.low = -180, .high = 180},
-                                           .required = true}),
-             field<&JointSetDef::spacing>({.name = "spacing",
-                                           .unit = "m",
-                                           .effect = "Distance between neighbouring joints, measured across them.",
-                                           .example = "2.0",
-                                           .range = length,
-                                           .required = true}),
-             field<&JointSetDef::deviation_deg>({.name = "deviation_deg",
-                                                 .unit = "deg",
-                                                 .effect = "The dip of each joint is drawn uniformly from dip_deg ± this.",
-                                                 .range = {.low = 0, .high = 45}}),
-             field<&JointSetDef::persistence>(
-                 {.name = "persistence",
-                  .effect = "Chance that a block in the path of a joint is cut by it; 1 = every joint runs through.",
-                  .range = {.low = 0, .high = 1, .low_included = false}}),
-             field<&JointSetDef::origin>({.name = "origin",
-                                          .unit = "m",
-                                          .effect = "One joint of the set passes through this point (without its deviation).",
-                                          .range = coordinate,
-                                          .default_note = "centre of the domain"}),
-             field<&JointSetDef::seed>({.name = "seed",
-                                        .effect = "Seed of this set's random numbers, to vary one set and keep the others.",
-                                        .range = {.low = 0},
-                                        .default_note = "from generator.seed and the set's number"}),
-             field<&JointSetDef::joint>({.name = "joint",
-                                         .effect = "Name of the [joint.NAME] for contacts on faces that this set cut.",
-                                         .default_note = "by the materials of the two blocks"}),
-             field<&JointSetDef::region>({.name = "region",
-                                          .effect = "Name of the [[region]] whose blocks this set cuts. Its joints are the same "
-                                                    "lines with and without it.",
-                                          .example = "\"hanging_wall\"",
-                                          .default_note = "the whole domain"}),
-             field<&JointSetDef::outside>({.name = "outside",
-                                           .effect = "Name of a [[region]] whose blocks this set does not cut.",
-                                           .example = "\"weak\"",
-                                           .default_note = "the whole domain"})},
-            append<&CaseDef::joint_sets>};
 }
 
 SectionSpec generator_section()

@@ -9,6 +9,7 @@ namespace hdem
 SectionSpec top_section();
 SectionSpec domain_section();
 SectionSpec joint_set_section();
+SectionSpec voronoi_section();
 SectionSpec generator_section();
 SectionSpec excavation_section();
 SectionSpec block_section();

@@ -156,6 +156,30 @@ Json liners_json(const RunSummary& s)
 }
 }  // namespace
 
+namespace
+{
+Json drawn_json(const DrawnNumber& drawn)
+{
+    return drawn.count == 0 ? Json() : Json{{"count", drawn.count}, {"mean", drawn.mean()}, {"expected", drawn.expected}};
+}
+
+Json joint_sets_json(const RunSummary& s)
+{
+    Json sets = Json::array();
+    for (const DrawnSet& set : s.joint_sets)
+        sets.push_back({{"name", set.name},
+                        {"joints", set.joints},
+                        {"dip_deg", drawn_json(set.dip)},
+                        {"spacing", drawn_json(set.spacing)},
+                        {"trace", drawn_json(set.trace)},
+                        {"gap", drawn_json(set.gap)},
+                        {"length", set.length},
+                        {"dead_ends_share", set.length > 0.0 ? set.dead_ends / set.length : 0.0},
+                        {"welded_share", set.length > 0.0 ? set.welded / set.length : 0.0}});
+    return sets;
+}
+}  // namespace
+
 std::string summary_text(const RunSummary& s)
 {
     Json stages = Json::array();
@@ -214,6 +238,7 @@ std::string summary_text(const RunSummary& s)
         {"max_displacement_all", s.max_displacement_all},
         {"detached_blocks", s.detached_blocks},
         {"lost_blocks", s.lost_blocks},
+        {"joint_sets", joint_sets_json(s)},
         {"bolts", bolts},
         {"liners", liners_json(s)},
         {"energy", energy_json(s)},

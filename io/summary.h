@@ -2,6 +2,7 @@
 /// summary.json: the outcome of a run in one small file.
 
 #include "core/energy_ledger.h"
+#include "core/model/trace_cells.h"
 #include "core/statics/static_result.h"
 
 #include <array>
@@ -129,8 +130,9 @@ struct RunSummary
     std::vector<std::string> lost_blocks;      ///< names of blocks that have left the model and are held
     std::vector<BoltSummary> bolts;
     std::vector<LinerSummary> liners;
-    EnergyLedger energy;  ///< sums since the start [J]
-    StoredEnergy stored;  ///< at the end [J]
+    std::vector<DrawnSet> joint_sets;  ///< as drawn
+    EnergyLedger energy;               ///< sums since the start [J]
+    StoredEnergy stored;               ///< at the end [J]
     double wall_seconds = 0.0;
     double contact_point_updates_per_second = 0.0;
     std::vector<StageTiming> timing;    ///< since the start or the last restart; key per stage with min, mean, max, share

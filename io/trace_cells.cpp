@@ -1,7 +1,12 @@
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
+#include "core/rock/line_stretches.h"
 #include "io/traces.h"
 
+#include <boost/geometry/algorithms/disjoint.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <fmt/format.h>
 #include <geos_c.h>
 
@@ -13,6 +18,8 @@ namespace hdem
 {
 namespace
 {
+namespace bg = boost::geometry;
+
 /// The geometry library, with its last message.
 class Geos
 {
@@ -97,13 +104,6 @@ std::pair<Vec2, Vec2> begin_of(const Geos& geos, const GEOSGeometry* line)
     return begin;
 }
 
-double distance(const Vec2& p, const TraceSegment& segment)
-{
-    const Vec2 way = segment.to - segment.from;
-    const double along = std::clamp(way.dot(p - segment.from) / way.squaredNorm(), 0.0, 1.0);
-    return (p - segment.from - along * way).norm();
-}
-
 /// Middle of the first straight stretch of a line.
 Vec2 middle(const Geos& geos, const GEOSGeometry* line)
 {
@@ -111,32 +111,68 @@ Vec2 middle(const Geos& geos, const GEOSGeometry* line)
     return 0.5 * (first + second);
 }
 
-/// Of which of the lines that come first a dropped stretch is; no_index for a trace.
-std::int32_t source_of(const Geos& geos, const GEOSGeometry* stretch, const TraceCells& cells, double slack)
+/// Segments, found by place.
+class SegmentIndex
 {
-    const auto [first, second] = begin_of(geos, stretch);
-    for (const TraceSegment& segment : cells.segments)
-        if (segment.source == no_index)
-            break;
-        else if (std::max(distance(first, segment), distance(second, segment)) < 0.01 * slack)
-            return segment.source;
-    return no_index;
-}
+  public:
+    SegmentIndex(const std::vector<TraceSegment>& segments, double near) : segments_(segments), near_(near)
+    {
+        std::vector<std::pair<Around, std::size_t>> boxes;
+        for (std::size_t i = 0; i < segments.size(); ++i)
+        {
+            const Vec2 low = segments[i].from.cwiseMin(segments[i].to).array() - near;
+            const Vec2 high = segments[i].from.cwiseMax(segments[i].to).array() + near;
+            boxes.push_back({{{low.x(), low.y()}, {high.x(), high.y()}}, i});
+        }
+        tree_ = Tree(boxes);
+    }
+
+    /// Source of the first segment that both points lie on; no_index when there is none, or a trace of a file.
+    [[nodiscard]] std::int32_t source(const Vec2& a, const Vec2& b) const
+    {
+        std::size_t best = segments_.size();
+        for (auto it = tree_.qbegin(bg::index::intersects(Place(a.x(), a.y()))); it != tree_.qend(); ++it)
+            if (it->second < best && std::max(distance(a, segments_[it->second]), distance(b, segments_[it->second])) < near_)
+                best = it->second;
+        return best < segments_.size() ? segments_[best].source : no_index;
+    }
+
+  private:
+    using Place = bg::model::d2::point_xy<double>;
+    using Around = bg::model::box<Place>;
+    using Tree = bg::index::rtree<std::pair<Around, std::size_t>, bg::index::quadratic<16>>;
+
+    static double distance(const Vec2& p, const TraceSegment& segment)
+    {
+        const Vec2 way = segment.to - segment.from;
+        const double along = std::clamp(way.dot(p - segment.from) / way.squaredNorm(), 0.0, 1.0);
+        return (p - segment.from - along * way).norm();
+    }
+
+    const std::vector<TraceSegment>& segments_;
+    double near_;
+    Tree tree_;
+};
 
 /// Stretches inside the domain that part nothing and are longer than what lengthening may have left over.
 void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygon& domain, double least, TraceCells& result)
 {
     const double slack = line_slack(domain);
+    const SegmentIndex segments(result.segments, 0.01 * slack);
     for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), stretches); ++i)
     {
         const GEOSGeometry* stretch = GEOSGetGeometryN_r(geos.get(), stretches, i);
         double length = 0.0;
         GEOSLength_r(geos.get(), stretch, &length);
-        const std::int32_t source = source_of(geos, stretch, result, slack);
+        const auto [first, second] = begin_of(geos, stretch);
+        const std::int32_t source = segments.source(first, second);
         if (length <= (source == no_index ? least : 2.0 * slack) || !contains(domain, middle(geos, stretch)))
             continue;
         if (source == no_index)
+        {
             ++result.dead_ends;
+            result.trace_dropped += length - least;
+        }
         else
             result.dropped[static_cast<std::size_t>(source)] += length - slack;  // of its free end
     }
@@ -159,6 +195,51 @@ std::vector<Polygon> rings_of(const Geos& geos, const GEOSGeometry* areas)
     }
     return rings;
 }
+/// Half of the length of a ring's edges counts as dropped: each of them has two sides.
+void drop_ring(const Polygon& ring, const SegmentIndex& segments, TraceCells& result)
+{
+    for (std::size_t i = 0; i < ring.size(); ++i)
+    {
+        const Vec2& a = ring[i];
+        const Vec2& b = ring[next(i, ring.size())];
+        const std::int32_t source = segments.source(a, b);
+        (source == no_index ? result.trace_dropped : result.dropped[static_cast<std::size_t>(source)]) += 0.5 * (b - a).norm();
+    }
+}
+
+/// Cells in the domain. One with holes comes in triangles. The library cannot always find them: then what is in the holes, a few blocks
+/// inside of one, is dropped.
+void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domain, TraceCells& result)
+{
+    std::vector<Vec2> places;
+    std::vector<Polygon> filled;
+    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), cells); ++i)
+    {
+        const GEOSGeometry* cell = GEOSGetGeometryN_r(geos.get(), cells, i);
+        const Vec2 place = geos.point_on(cell);
+        if (!contains(domain, place))
+            continue;
+        places.push_back(place);
+        const int holes = GEOSGetNumInteriorRings_r(geos.get(), cell);
+        GEOSGeometry* triangles = holes > 0 ? GEOSConstrainedDelaunayTriangulation_r(geos.get(), cell) : nullptr;
+        result.cells.push_back(rings_of(geos, triangles != nullptr ? geos.own(triangles).get() : cell));
+        for (int h = 0; h < holes && triangles == nullptr; ++h)
+            filled.push_back(geos.ring(GEOSGetInteriorRingN_r(geos.get(), cell, h)));
+    }
+    if (filled.empty())
+        return;
+    const SegmentIndex segments(result.segments, 0.01 * line_slack(domain));
+    for (const Polygon& ring : filled)
+        drop_ring(ring, segments, result);
+    std::vector<std::vector<Polygon>> kept;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (std::ranges::none_of(filled, [&](const Polygon& ring) { return contains(ring, places[i]); }))
+            kept.push_back(std::move(result.cells[i]));
+        else
+            for (const Polygon& piece : result.cells[i])
+                drop_ring(piece, segments, result);
+    result.cells = std::move(kept);
+}
 }  // namespace
 
 TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap,
@@ -177,6 +258,8 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     {
         all.push_back(snap > 0.0 ? lengthened(trace, snap) : trace);
         add_segments(all.back(), no_index, result.segments);
+        for (std::size_t i = 1; i < trace.size(); ++i)
+            result.trace_length += length_inside(domain, trace[i - 1], trace[i]);
     }
     // All at once, and what lies outside the domain left out later: lines cut off at the boundary before may end a rounding short of it.
     all.push_back(domain);
@@ -192,15 +275,7 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     result.traces = static_cast<std::int64_t>(traces.size());
     count_dropped(geos, ends, domain, snap * (1.0 + 1e-9), result);
     count_dropped(geos, bridges, domain, 0.0, result);
-    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), cells.get()); ++i)
-    {
-        const GEOSGeometry* cell = GEOSGetGeometryN_r(geos.get(), cells.get(), i);
-        if (!contains(domain, geos.point_on(cell)))
-            continue;
-        const bool has_hole = GEOSGetNumInteriorRings_r(geos.get(), cell) > 0;
-        result.cells.push_back(
-            rings_of(geos, has_hole ? geos.own(GEOSConstrainedDelaunayTriangulation_r(geos.get(), cell)).get() : cell));
-    }
+    add_cells(geos, cells.get(), domain, result);
     return result;
 }
 }  // namespace hdem

@@ -97,6 +97,17 @@ double shared_length(const CutPolygon& a, const CutPolygon& b, const Chords& cho
     return sum;
 }
 
+void add_shared_lengths(const CutPolygon& a, const CutPolygon& b, const Chords& chords, double tolerance,
+                        std::map<std::int32_t, double>& lengths)
+{
+    for_each_shared(a, b, chords, tolerance,
+                    [&](const SharedEdge& shared)
+                    {
+                        lengths[a.edges[shared.edge_a].source] += shared.length();
+                        return true;
+                    });
+}
+
 void set_shared_source(CutPolygon& a, CutPolygon& b, std::int32_t source, const Chords& chords, double tolerance)
 {
     bool again = true;

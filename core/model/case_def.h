@@ -4,6 +4,7 @@
 /// users, in io/case_schema (which writes io/case_format.md).
 
 #include "core/joint/user_law.h"
+#include "core/model/distribution_def.h"
 #include "core/model/stage_end.h"
 #include "core/model/trace_cells.h"
 #include "core/types.h"
@@ -32,14 +33,16 @@ enum class DomainHold
     mean  ///< the blocks at the pressed sides, which together neither move nor turn: core/boundary/mean_hold.h
 };
 
-/// [domain]: the area that is filled with rock; a rectangle (width, height, origin) or a polygon.
+/// [domain]: the area that is filled with rock; a rectangle (width, height, origin), a polygon, or what lies below a profile.
 struct DomainDef
 {
     bool given = false;
-    double width = 0.0;              ///< [m]
-    double height = 0.0;             ///< [m]
-    Vec2 origin = {0.0, 0.0};        ///< lower left corner of the rectangle [m]
-    Polygon polygon;                 ///< instead of width and height; simple, any orientation [m]
+    double width = 0.0;            ///< [m]
+    double height = 0.0;           ///< [m]
+    Vec2 origin = {0.0, 0.0};      ///< lower left corner of the rectangle [m]
+    Polygon polygon;               ///< instead of width and height; simple, any orientation; of a profile once io/ has read it [m]
+    std::string profile;           ///< or a CSV file of x, y of the ground
+    std::optional<double> bottom;  ///< y of the lower side below a profile [m]
     std::vector<std::string> fixed;  ///< "left", "right", "bottom", "top": blocks with an edge on that side are fixed
     std::vector<int> fixed_edges;    ///< same for edges of the polygon, 0 = first to second vertex
     DomainHold hold = DomainHold::none;
@@ -68,19 +71,45 @@ struct RegionDef
     std::string joint;     ///< name of a [joint.NAME] for contacts along the outline; "" = by materials
 };
 
-/// [[joint_set]]: parallel joints at a regular spacing.
+/// Orientation of a plane in space, and the vertical section that it is seen in. Azimuths are from north, clockwise.
+struct OrientationDef
+{
+    double dip = 0.0;            ///< below the horizontal [deg]
+    double dip_direction = 0.0;  ///< azimuth of the line of steepest descent [deg]
+    double section = 0.0;        ///< azimuth of +x [deg]
+};
+
+/// [[joint_set]]: parallel joints, through-going or of finite length. Either `spacing` or `p21`.
 struct JointSetDef
 {
-    std::string name;                   ///< "set1", "set2", ... when not given
-    double dip_deg = 0.0;               ///< inclination of the trace to the x axis, positive anticlockwise [deg]
-    double spacing = 0.0;               ///< distance between neighbouring joints, across them [m]
-    double deviation_deg = 0.0;         ///< each joint's dip is uniform in dip_deg +- deviation_deg
-    double persistence = 1.0;           ///< chance that a block in a joint's path is cut, 0 < p <= 1
+    std::string name;                           ///< "set1", "set2", ... when not given
+    double dip_deg = 0.0;                       ///< inclination of the trace to the x axis, positive anticlockwise [deg]
+    double spacing = 0.0;                       ///< mean distance between neighbouring joints, across them; 0 with p21 [m]
+    double deviation_deg = 0.0;                 ///< each joint's dip is uniform in dip_deg +- deviation_deg
+    DistributionDef dip_law;                    ///< of dip_deg, where it is drawn: dip_deg is its mean [deg]
+    DistributionDef spacing_law;                ///< of spacing, where it is drawn [m]
+    std::optional<DistributionDef> trace;       ///< length of joints that end in the rock [m]
+    std::optional<DistributionDef> gap;         ///< between joints on one line [m]
+    double p21 = 0.0;                           ///< length of traces an area, instead of spacing and gap; 0 = by these [m/m2]
+    std::optional<OrientationDef> orientation;  ///< from which io/ has found dip_deg and the spacing in the section
+    std::vector<std::string> stops_at;          ///< names of faults at which joints end
+    double persistence = 1.0;                   ///< chance that a block in a joint's path is cut, 0 < p <= 1
     std::optional<Vec2> origin;         ///< one (undeviated) joint passes through this point [m]; default: centre of the domain
     std::optional<std::uint64_t> seed;  ///< of this set's random stream; default: derived from generator.seed and the set's number
     std::string joint;                  ///< name of a [joint.NAME] for contacts on this set's faces; "" = by materials
     std::string region;                 ///< only blocks in the region of this name are cut; "" = all
     std::string outside;                ///< only blocks outside the region of this name are cut; "" = all
+};
+
+/// [voronoi]: a part of the domain in cells around random points.
+struct VoronoiDef
+{
+    bool given = false;
+    double edge = 0.0;                  ///< mean length of the cells' edges [m]
+    int iterations = 5;                 ///< times that points move to the centroids of their cells (Lloyd)
+    std::string region;                 ///< name of the region it fills; "" = the domain
+    std::string joint;                  ///< name of a [joint.NAME] for contacts between cells; "" = by materials
+    std::optional<std::uint64_t> seed;  ///< of its random points; default: derived from generator.seed
 };
 
 /// [generator]
@@ -542,6 +571,7 @@ struct CaseDef
     std::vector<FaultDef> faults;
     std::vector<RegionDef> regions;
     std::vector<JointSetDef> joint_sets;
+    VoronoiDef voronoi;
     GeneratorDef generator;
     std::vector<ExcavationDef> excavations;
     std::vector<BlockDef> blocks;

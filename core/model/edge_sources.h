@@ -5,7 +5,7 @@
 
 namespace hdem
 {
-/// Faults come first, then outlines of regions, joint sets, and all traces together. Where the two edges of a contact differ, the lower
+/// Faults come first, then outlines of regions, joint sets, all traces together, and Voronoi cells. Where the two edges of a contact differ, the lower
 /// number says which joint acts: a fault goes before a joint set.
 class EdgeSources
 {
@@ -21,6 +21,7 @@ class EdgeSources
     [[nodiscard]] std::int32_t region(std::size_t number) const { return regions_ + static_cast<std::int32_t>(number); }
     [[nodiscard]] std::int32_t set(std::size_t number) const { return sets_ + static_cast<std::int32_t>(number); }
     [[nodiscard]] std::int32_t traces() const { return traces_; }
+    [[nodiscard]] std::int32_t voronoi() const { return traces_ + 1; }
 
   private:
     std::int32_t regions_;

@@ -4,6 +4,7 @@
 #include "core/types.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace hdem
@@ -23,6 +24,35 @@ struct SourceLine
     Polygon points;  ///< [m]
 };
 
+/// What was drawn of a number: how often, its sum, and the mean of the distribution as it was cut.
+struct DrawnNumber
+{
+    std::int64_t count = 0;
+    double sum = 0.0;
+    double expected = 0.0;
+
+    void add(double x)
+    {
+        ++count;
+        sum += x;
+    }
+    [[nodiscard]] double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
+};
+
+/// What became of one source of joints: a joint set, the Voronoi cells, the traces of a file.
+struct DrawnSet
+{
+    std::string name;
+    std::int64_t joints = 0;  ///< that have a part in the domain
+    DrawnNumber dip;          ///< [deg]
+    DrawnNumber spacing;      ///< in the section [m]
+    DrawnNumber trace;        ///< [m]
+    DrawnNumber gap;          ///< [m]
+    double length = 0.0;      ///< in the domain and where the set may be [m]
+    double dead_ends = 0.0;   ///< of it that parts nothing, and was dropped [m]
+    double welded = 0.0;      ///< of it along slivers that were joined to a neighbour [m]
+};
+
 /// What traces of finite length cut the domain into.
 struct TraceCells
 {
@@ -32,6 +62,9 @@ struct TraceCells
     std::vector<TraceSegment> segments;
     std::int64_t traces = 0;
     std::int64_t dead_ends = 0;   ///< stretches of traces dropped, because they part nothing
-    std::vector<double> dropped;  ///< the same of faults and outlines: length by source [m]
+    double trace_length = 0.0;    ///< of the traces of a file, in the domain [m]
+    double trace_dropped = 0.0;   ///< of it what was dropped [m]
+    std::vector<double> dropped;  ///< the same of faults, outlines and sets: length by source [m]
+    std::vector<DrawnSet> sets;   ///< of each joint set, then of the Voronoi cells; empty when none of them was cut here
 };
 }  // namespace hdem

@@ -176,6 +176,8 @@ void add_joints(const CaseDef& def, Model& model)
         table.of_joint_set.push_back(set.joint.empty() ? no_index : joint_named(set.joint));
     table.of_joint_set.push_back(def.domain.traces_joint.empty() ? no_index
                                                                  : joint_named(def.domain.traces_joint));  // of all traces
+    if (def.voronoi.given)
+        table.of_joint_set.push_back(def.voronoi.joint.empty() ? no_index : joint_named(def.voronoi.joint));
 }
 
 double smallest_free_mass(const Model& model, const Blocks& blocks)

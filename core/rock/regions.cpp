@@ -1,6 +1,7 @@
 #include "core/rock/regions.h"
 
 #include "core/rock/fault_lines.h"
+#include "core/rock/line_stretches.h"
 #include "core/rock/problem_text.h"
 
 #include <algorithm>
@@ -117,8 +118,27 @@ bool Regions::is_meant(const JointSetDef& set, const CutBlock& block) const
 {
     if (set.region.empty() && set.outside.empty())
         return true;
-    const Vec2 point = point_inside(block);
+    return is_meant(set, point_inside(block));
+}
+
+bool Regions::is_meant(const JointSetDef& set, const Vec2& point) const
+{
     return (set.region.empty() || holds(set.region, point)) && (set.outside.empty() || !holds(set.outside, point));
+}
+
+void Regions::add_boundary(const std::string& region, const Vec2& from, const Vec2& to, std::vector<double>& shares) const
+{
+    for (std::size_t i = 0; i < def_.regions.size(); ++i)
+        if (def_.regions[i].name == region)
+            for (const Limit& limit : limits_[i])
+                add_crossings(limit.area, true, from, to, shares);
+}
+
+void Regions::add_boundaries(const JointSetDef& set, const Vec2& from, const Vec2& to, std::vector<double>& shares) const
+{
+    for (const std::string& region : {set.region, set.outside})
+        if (!region.empty())
+            add_boundary(region, from, to, shares);
 }
 
 const std::string& Regions::material(const CutBlock& block) const

@@ -22,6 +22,18 @@ class Regions
     /// Does the set cut the block?
     [[nodiscard]] bool is_meant(const JointSetDef& set, const CutBlock& block) const;
 
+    /// Does the set cut what is at a point?
+    [[nodiscard]] bool is_meant(const JointSetDef& set, const Vec2& point) const;
+
+    /// Adds the shares of the way from `from` to `to` at which boundaries of the set's regions are met.
+    void add_boundaries(const JointSetDef& set, const Vec2& from, const Vec2& to, std::vector<double>& shares) const;
+
+    /// Does a point lie in the region of this name?
+    [[nodiscard]] bool holds(const std::string& region, const Vec2& point) const;
+
+    /// Adds the shares of a way at which the boundary of one region is met.
+    void add_boundary(const std::string& region, const Vec2& from, const Vec2& to, std::vector<double>& shares) const;
+
     /// That of the first region with a material around the block, else of the domain.
     [[nodiscard]] const std::string& material(const CutBlock& block) const;
 
@@ -39,7 +51,6 @@ class Regions
 
     void add_limit(std::size_t region, Polygon area, bool is_inside, const std::string& fault);
     [[nodiscard]] bool holds(std::size_t region, const Vec2& point) const;
-    [[nodiscard]] bool holds(const std::string& region, const Vec2& point) const;
     static double share_within(const Limit& limit, const CutBlock& block);
 
     const CaseDef& def_;

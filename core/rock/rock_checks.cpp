@@ -4,10 +4,12 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/unit_direction.h"
 #include "core/rock/excavation.h"
+#include "core/rock/finite_traces.h"
 #include "core/rock/joint_sets.h"
 #include "core/rock/polygon_error.h"
 #include "core/rock/problem_text.h"
 #include "core/rock/region_checks.h"
+#include "core/rock/voronoi_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -151,7 +153,9 @@ class RockChecker
     {
         const std::string at = key("joint_set", number);
         const std::string object = "joint set \"" + set.name + "\": ";
-        bool good = check_positive(set.spacing, at + ".spacing", object + "spacing", "Give the distance between joints in m.");
+        const bool has_p21 = set.trace && set.p21 > 0.0;
+        bool good = has_p21 ||
+                    check_positive(set.spacing, at + ".spacing", object + "spacing", "Give the distance between joints in m.");
         if (!std::isfinite(set.dip_deg))
         {
             good = fail(at + ".dip_deg", object + "dip_deg = " + text(set.dip_deg) + " (must be finite). Correct it.");
@@ -181,19 +185,33 @@ class RockChecker
         for (std::size_t i = 0; i < def_.joint_sets.size(); ++i)
         {
             const JointSetDef& set = def_.joint_sets[i];
-            const double joints = count_joints(set, bounding_box(polygon));
-            if (joints > most_joints)
+            const double joints = set.p21 > 0.0 ? 0.0 : count_joints(set, bounding_box(polygon));
+            const double traces = set.trace ? count_traces(set, bounding_box(polygon)) : 0.0;
+            if (joints > most_joints || traces > most_joints)
             {
-                fail(key("joint_set", i) + ".spacing", "joint set \"" + set.name + "\": spacing = " + text(set.spacing) +
-                                                           " m (makes " + text(joints) +
-                                                           " joints across the domain). Give a greater spacing.");
+                const bool by_p21 = set.p21 > 0.0;
+                fail(key("joint_set", i) + (by_p21 ? ".p21" : ".spacing"),
+                     "joint set \"" + set.name +
+                         "\": " + (by_p21 ? "p21 = " + text(set.p21) + " m/m2" : "spacing = " + text(set.spacing) + " m") +
+                         " (makes " + text(std::max(joints, traces)) + " joints across the domain). Give " +
+                         (by_p21 ? "a smaller p21, or longer traces." : "a greater spacing."));
+                continue;
             }
-            blocks += joints;
+            blocks += set.trace ? traces : joints;
             for (std::size_t j = 0; j < i; ++j)
             {
                 const double sine = unit_direction(set.dip_deg - def_.joint_sets[j].dip_deg).y();
                 const double area = std::min(cut_area(set, polygon), cut_area(def_.joint_sets[j], polygon));
-                blocks += std::abs(area * sine) / (set.spacing * def_.joint_sets[j].spacing);
+                blocks += std::abs(area * sine) * trace_intensity(set) * trace_intensity(def_.joint_sets[j]);
+            }
+        }
+        if (def_.voronoi.given)
+        {
+            const double cells = count_cells(def_);
+            if (cells > most_joints)
+            {
+                fail("voronoi.edge", "[voronoi]: edge = " + text(def_.voronoi.edge) + " m (makes about " + text(cells) +
+                                         " cells). Give a greater one.");
             }
         }
         if (blocks > most_blocks)

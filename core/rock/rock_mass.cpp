@@ -4,7 +4,9 @@
 #include "core/rock/block_cutter.h"
 #include "core/rock/excavation.h"
 #include "core/rock/explicit_blocks.h"
+#include "core/rock/finite_traces.h"
 #include "core/rock/joint_sets.h"
+#include "core/rock/line_stretches.h"
 #include "core/rock/problem_text.h"
 #include "core/rock/regions.h"
 #include "core/rock/rock_checks.h"
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -45,22 +48,64 @@ Domain make_domain(const CaseDef& def)
     return domain;
 }
 
+void warn_of_no_joints(const JointSetDef& set, std::size_t number, std::int64_t joints, RockMass& rock)
+{
+    if (joints == 0)
+    {
+        rock.warnings.push_back({Problem::Severity::warning, "joint_set[" + std::to_string(number) + "]",
+                                 "joint set \"" + set.name + "\": no joint crosses the domain. Check its spacing and origin."});
+    }
+}
+
+/// What was drawn of a through-going set.
+DrawnSet noted(const JointSetDef& set, const JointTraces& joints, const Polygon& domain, double tolerance)
+{
+    DrawnSet drawn;
+    drawn.name = set.name;
+    drawn.dip.expected = set.dip_law.is_random() ? Distribution(dip_within_reach(set)).mean() : set.dip_deg;
+    drawn.spacing.expected = set.spacing_law.is_random() ? Distribution(set.spacing_law).mean() : set.spacing;
+    std::optional<double> before;
+    const Box box = bounding_box(domain);
+    const double far = (box.high - box.low).norm();
+    for (std::size_t i = 0; i < joints.lines.size(); ++i)
+    {
+        const CutLine& line = joints.lines[i];
+        if (side_of(domain, line, tolerance) != Side::crossed)
+        {
+            before.reset();
+            continue;
+        }
+        const double at = joints.across.dot(line.point - joints.origin);
+        const double reach = far + (line.point - box.low).norm();
+        ++drawn.joints;
+        drawn.dip.add(joints.dips[i]);
+        drawn.length += length_inside(domain, line.point - reach * line.direction, line.point + reach * line.direction);
+        if (before)
+        {
+            drawn.spacing.add(at - *before);
+        }
+        before = at;
+    }
+    return drawn;
+}
+
 void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& regions, CutMass& mass, RockMass& rock)
 {
+    rock.sets.resize(std::max(rock.sets.size(), def.joint_sets.size()));
     for (std::size_t i = 0; i < def.joint_sets.size(); ++i)
     {
         const JointSetDef& set = def.joint_sets[i];
+        if (is_cut_as_lines(def, set))
+        {
+            warn_of_no_joints(set, i, rock.sets[i].joints, rock);
+            continue;
+        }
         JointTraces joints = draw_joints(set, static_cast<std::int32_t>(i), def.generator, bounding_box(domain));
         joints.source = EdgeSources(def).set(i);
-        const auto crosses = [&](const CutLine& line) { return side_of(domain, line, mass.tolerance) == Side::crossed; };
-        const auto crossing = std::count_if(joints.lines.begin(), joints.lines.end(), crosses);
+        rock.sets[i] = noted(set, joints, domain, mass.tolerance);
+        const std::int64_t crossing = rock.sets[i].joints;
         rock.joints += crossing;
-        if (crossing == 0)
-        {
-            rock.warnings.push_back(
-                {Problem::Severity::warning, "joint_set[" + std::to_string(i) + "]",
-                 "joint set \"" + def.joint_sets[i].name + "\": no joint crosses the domain. Check its spacing and origin."});
-        }
+        warn_of_no_joints(set, i, crossing, rock);
         const std::int64_t before = rock.cuts + rock.refused_cuts + rock.skipped_cuts;
         const bool is_limited = !set.region.empty() || !set.outside.empty();
         std::function<bool(const CutBlock&)> is_meant;
@@ -256,6 +301,14 @@ RockMass generate_rock_mass(const CaseDef& def)
             throw InputError(std::move(problems));
         }
         cut_joint_sets(def, domain.polygon, regions, mass, rock);
+        if (def.trace_cells.traces > 0)
+        {
+            rock.sets.emplace_back();
+            rock.sets.back().name = "traces";
+            rock.sets.back().joints = def.trace_cells.traces;
+            rock.sets.back().length = def.trace_cells.trace_length;
+            rock.sets.back().dead_ends = def.trace_cells.trace_dropped;
+        }
         cut_excavations(def, mass, rock);
         add_generated(def, domain, regions, mass, rock);
         warn_of_small_blocks(def, rock);

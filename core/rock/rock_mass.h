@@ -53,6 +53,7 @@ struct RockMass
     std::int64_t skipped_cuts = 0;    ///< by persistence
     std::int64_t dead_ends = 0;       ///< stretches of traces that part nothing, dropped
     std::int64_t merged_slivers = 0;  ///< outline pieces joined to a neighbour
+    std::vector<DrawnSet> sets;       ///< of each joint set, then of the Voronoi cells and of the traces of a file, if given
     std::vector<Problem> warnings;
 };
 

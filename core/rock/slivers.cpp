@@ -3,6 +3,7 @@
 #include "core/rock/problem_text.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -14,22 +15,50 @@ namespace
 {
 using Slot = std::size_t;  // position in mass.blocks
 
+double perimeter(const CutBlock& block)
+{
+    double around = 0.0;
+    for (const CutPolygon& part : block.parts)
+        for (std::size_t i = 0; i < part.vertices.size(); ++i)
+            if (part.edges[i].source != edge_internal)
+                around += (part.vertices[next(i, part.vertices.size())] - part.vertices[i]).norm();
+    return around;
+}
+
 class SliverMerger
 {
   public:
+    /// Pieces of outlines.
     SliverMerger(CutMass& mass, double smallest_area, RockMass& counts)
+        : SliverMerger(mass, counts, {.smallest_area = smallest_area, .first_source = std::numeric_limits<std::int32_t>::min()})
+    {
+        for (Slot b = 0; b < mass_.blocks.size(); ++b)
+        {
+            const double area = mass_.blocks[b].outline == no_index ? smallest_area : total_area(mass_.blocks[b].parts);
+            if (area < smallest_area)
+            {
+                queue_.insert({area, b});
+            }
+        }
+    }
+
+    /// Cells between lines.
+    SliverMerger(CutMass& mass, RockMass& counts, const SmallCells& cells)
         : mass_(mass),
-          smallest_area_(smallest_area),
           counts_(counts),
+          cells_(cells),
           owner_(mass.blocks.size())
     {
         std::iota(owner_.begin(), owner_.end(), Slot{0});
+    }
+
+    void find_small_cells()
+    {
         for (Slot b = 0; b < mass_.blocks.size(); ++b)
         {
-            const double area = mass_.blocks[b].outline == no_index ? smallest_area_ : total_area(mass_.blocks[b].parts);
-            if (area < smallest_area_)
+            if (is_small(mass_.blocks[b]))
             {
-                queue_.insert({area, b});
+                queue_.insert({total_area(mass_.blocks[b].parts), b});
             }
         }
     }
@@ -45,6 +74,8 @@ class SliverMerger
         }
         std::erase_if(mass_.blocks, [](const CutBlock& block) { return block.parts.empty(); });
     }
+
+    [[nodiscard]] const std::map<std::int32_t, double>& welded() const { return cells_.welded; }
 
   private:
     /// Who has an edge on a chord of a sliver: only those can become its neighbours.
@@ -92,15 +123,32 @@ class SliverMerger
         return b;
     }
 
-    double length_between(const CutBlock& a, const CutBlock& b) const
+    [[nodiscard]] bool is_small(const CutBlock& block) const
     {
-        double sum = 0.0;
+        const double area = total_area(block.parts);
+        return area < cells_.smallest_area || area < cells_.narrowest * perimeter(block);
+    }
+
+    [[nodiscard]] std::map<std::int32_t, double> lengths_between(const CutBlock& a, const CutBlock& b) const
+    {
+        std::map<std::int32_t, double> lengths;
         for (const CutPolygon& of_a : a.parts)
         {
             for (const CutPolygon& of_b : b.parts)
             {
-                sum += shared_length(of_a, of_b, mass_.chords, mass_.tolerance);
+                add_shared_lengths(of_a, of_b, mass_.chords, mass_.tolerance, lengths);
             }
+        }
+        return lengths;
+    }
+
+    /// Along edges across which blocks may be joined.
+    [[nodiscard]] double length_between(const CutBlock& a, const CutBlock& b) const
+    {
+        double sum = 0.0;
+        for (const auto& [source, length] : lengths_between(a, b))
+        {
+            sum += source >= cells_.first_source ? length : 0.0;
         }
         return sum;
     }
@@ -140,12 +188,19 @@ class SliverMerger
         const Slot target = best_neighbour(sliver);
         if (target == sliver)
         {
-            warn(mass_.blocks[sliver], area);
+            if (mass_.blocks[sliver].outline != no_index)
+            {
+                warn(mass_.blocks[sliver], area);
+            }
             return;
         }
         CutBlock& from = mass_.blocks[sliver];
         CutBlock& to = mass_.blocks[target];
         const double target_area = total_area(to.parts);
+        for (const auto& [source, length] : lengths_between(from, to))
+        {
+            cells_.welded[source] += length;
+        }
         for (CutPolygon& a : from.parts)
         {
             for (CutPolygon& b : to.parts)
@@ -157,7 +212,8 @@ class SliverMerger
         from.parts.clear();
         owner_[sliver] = target;
         ++counts_.merged_slivers;
-        if (queue_.erase({target_area, target}) > 0 && target_area + area < smallest_area_)
+        const bool stays_small = cells_.narrowest > 0.0 ? is_small(to) : target_area + area < cells_.smallest_area;
+        if (queue_.erase({target_area, target}) > 0 && stays_small)
         {
             queue_.insert({total_area(to.parts), target});
         }
@@ -174,8 +230,8 @@ class SliverMerger
     }
 
     CutMass& mass_;
-    double smallest_area_;
     RockMass& counts_;
+    SmallCells cells_;
     std::set<std::pair<double, Slot>> queue_;  // area and block: smallest first
     std::vector<Slot> owner_;                  // the block a merged sliver now belongs to
     std::unordered_map<Index, std::vector<Slot>> users_;
@@ -185,5 +241,13 @@ class SliverMerger
 void merge_slivers(CutMass& mass, double smallest_area, RockMass& counts)
 {
     SliverMerger(mass, smallest_area, counts).run();
+}
+
+void merge_cells(CutMass& mass, SmallCells& cells, RockMass& counts)
+{
+    SliverMerger merger(mass, counts, cells);
+    merger.find_small_cells();
+    merger.run();
+    cells.welded = merger.welded();
 }
 }  // namespace hdem

@@ -91,7 +91,9 @@ std::string name_of(const Model& model, std::int32_t source)
     if (source < 0)
         return source == edge_wall ? "walls of sides" : (source == edge_outline ? "outlines" : "other edges");
     const auto set = static_cast<std::size_t>(source);
-    return set < model.joint_set_names.size() ? model.joint_set_names[set] : "traces";
+    return set < model.joint_set_names.size()    ? model.joint_set_names[set]
+           : set == model.joint_set_names.size() ? "traces"
+                                                 : "voronoi";
 }
 
 /// Greatest shear and tension that a point bears where the blocks are drawn [N].

@@ -7,7 +7,7 @@ _hdem_words()
         run) echo "-o --output --restart --overwrite --max-wall --method --threads --set --live -q --quiet -h --help" ;;
         critical) echo "--vary --fails --tolerance -o --output --overwrite --threads --set -q --quiet -h --help" ;;
         fos) echo "-o --output --overwrite --threads --set -q --quiet -h --help" ;;
-        check) echo "--set --blocks -h --help" ;;
+        check) echo "--set --write-blocks --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
         plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --numbers --bolts --liners --crosses --history --factor --title --width --dpi -h --help" ;;

@@ -1,6 +1,8 @@
 /// hdem check: read and generate only.
 
 #include "core/stress/insitu_stress.h"
+#include "io/atomic_file.h"
+#include "io/block_shapes.h"
 #include "io/load_case.h"
 #include "io/polygons.h"
 #include "parallel/simulation.h"
@@ -28,6 +30,13 @@ void list_blocks(const Model& model, const State& state)
             state.blocks.is_free(i) ? "free" : "fixed",
             model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
     }
+}
+
+void write_blocks(const std::string& file, const CaseDef& def)
+{
+    const std::vector<BlockShape> shapes = block_shapes(def, generate_rock_mass(def));
+    write_atomically(file, file.ends_with(".wkt") ? to_wkt(shapes) : to_geojson(shapes));
+    say("wrote             {} blocks to {}\n", shapes.size(), printable(file, 200));
 }
 
 void describe_insitu(const Model& model, const InsituSummary& insitu)
@@ -72,6 +81,10 @@ int check_command(const CheckOptions& options)
     say("smallest free     {:.6g} kg\n", smallest);
     if (rock.joints > 0)
         say("joints            {}\n", describe_cuts(rock));
+    for (const std::string& line : describe_sets(rock))
+        say("                  {}\n", line);
+    if (!options.blocks_file.empty())
+        write_blocks(options.blocks_file, loaded.file.def);
     say("time step         {:.6g} s\n", model.time_step);
     say("step of Eq. (32)  {:.6g} s\n", model.paper_time_step);
     say("stable limit      {:.6g} s (2/omega_max of the present contacts)\n", simulation.critical_step());

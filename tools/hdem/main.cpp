@@ -100,6 +100,12 @@ void add_check(CLI::App& app, CheckOptions& options)
     CLI::App* check = app.add_subcommand("check", "Read a case and generate its blocks, without running it");
     check->add_option("case", options.case_file, "Case file (TOML)")->required();
     check->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");
+    check
+        ->add_option("--write-blocks", options.blocks_file,
+                     "Write all blocks to this file: .wkt, which blocks_file reads again, or .geojson")
+        ->check(
+            [](const std::string& file)
+            { return file.ends_with(".wkt") || file.ends_with(".geojson") ? "" : "give a name that ends in .wkt or .geojson"; });
     check->add_flag("--blocks", options.list_blocks, "List all blocks: name, material, area, centroid, fixed or free");
 }
 

@@ -67,6 +67,7 @@ struct CheckOptions
 {
     std::string case_file;
     std::vector<std::string> overrides;
+    std::string blocks_file;  ///< for all blocks, "" = none
     bool list_blocks = false;
 };
 int check_command(const CheckOptions& options);

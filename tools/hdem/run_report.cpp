@@ -159,6 +159,35 @@ std::string describe_cuts(const RockMass& rock)
                        rock.dead_ends, rock.cuts, refused, rock.skipped_cuts, rock.merged_slivers);
 }
 
+namespace
+{
+/// "spacing 1.21 m (1.2)": what came out, and the mean of the distribution.
+std::string drawn_text(const char* name, const DrawnNumber& drawn, const char* unit)
+{
+    return drawn.count == 0 ? "" : fmt::format(", {} {:.7g}{} ({:.10g})", name, drawn.mean(), unit, drawn.expected);
+}
+}  // namespace
+
+std::vector<std::string> describe_sets(const RockMass& rock)
+{
+    std::vector<std::string> lines;
+    for (const DrawnSet& set : rock.sets)
+    {
+        std::string line = fmt::format("{}: {} {}", printable(set.name), set.joints, set.name == "voronoi" ? "edges" : "joints");
+        line += drawn_text("dip", set.dip, " deg");
+        line += drawn_text("spacing", set.spacing, " m");
+        line += drawn_text(set.name == "voronoi" ? "edge" : "trace", set.trace, " m");
+        line += drawn_text("gap", set.gap, " m");
+        line += fmt::format(", {:.6g} m in the domain", set.length);
+        for (const auto& [length, what] :
+             {std::pair(set.dead_ends, "dropped as dead ends"), std::pair(set.welded, "welded to join slivers")})
+            if (length > 0.0 && set.length > 0.0)
+                line += fmt::format(", {:.6g} m ({:.3g} %) {}", length, 100.0 * length / set.length, what);
+        lines.push_back(line);
+    }
+    return lines;
+}
+
 void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation)
 {
     const Model& model = simulation.model();
@@ -173,6 +202,8 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
     const RockMass& rock = start.loaded.setup.rock;
     if (rock.joints > 0)
         log.line("joints    " + describe_cuts(rock));
+    for (const std::string& line : describe_sets(rock))
+        log.line("          " + line);
     log.line(fmt::format("contacts  {} pairs of faces near each other, {} closed points", state.contacts.size(),
                          simulation.count_contacts().closed()));
     log.line(fmt::format("method    {}; threshold scale {:.4g}", name_of(state.method), model.threshold_scale));
@@ -205,6 +236,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     RunSummary s;
     s.case_name = fs::path(start.record.case_file).filename().string();
     s.title = model.title;
+    s.joint_sets = start.loaded.setup.rock.sets;
     s.method = name_of(state.method);
     s.threads = simulation.threads();
     s.thread_use = summarise_threads(simulation.thread_choice());

@@ -24,6 +24,9 @@ struct Session
 /// Traces, cuts and what became of them, in one line.
 [[nodiscard]] std::string describe_cuts(const RockMass& rock);
 
+/// A line for each joint set, the Voronoi cells and the traces of a file: what was drawn, and the share that was dropped.
+[[nodiscard]] std::vector<std::string> describe_sets(const RockMass& rock);
+
 void print_banner(Log& log, const RunStart& start, const RunOptions& options, Simulation& simulation);
 
 /// @param wall_seconds of the whole run, over all restarts

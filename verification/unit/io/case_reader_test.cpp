@@ -59,7 +59,8 @@ TEST(CaseReader, ReadsEveryDocumentedDefaultBack)
     int defaults = 0;
     for (const SectionSpec& section : case_schema())
     {
-        if (section.kind != SectionKind::table || section.name == "domain" || section.name == "insitu")
+        if (section.kind != SectionKind::table || section.name == "domain" || section.name == "insitu" ||
+            section.name == "voronoi")  // these need more than their defaults
             continue;
         std::string text = two_blocks + "[" + section.name + "]\n";
         for (const KeySpec& key : section.keys)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 HDEM = Path(sys.argv[1]).resolve()
 TUNNEL = Path(sys.argv[2]).resolve() / "paper_tunnel" / "tunnel.toml"
+MAPPED = Path(sys.argv[2]).resolve() / "rockmass" / "mapped.toml"
 FALL = 20000  # cycles after the excavation, while blocks fall
 
 
@@ -102,6 +103,24 @@ class Determinism(unittest.TestCase):
 
     def test_hybrid(self):
         self.expect_same("hybrid", "2348")
+
+    def test_rock_that_is_drawn(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_determinism_") as folder:
+            def run(name, *arguments):
+                done = subprocess.run([HDEM, "run", *arguments, "-o", Path(folder) / name, "--quiet"],
+                                      env=os.environ | {"OMP_WAIT_POLICY": "passive"}, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                return json.loads((Path(folder) / name / "summary.json").read_text(encoding="utf-8"))
+
+            one = run("1", MAPPED, "--threads", "1", "--set", "output.checkpoint_every=150")
+            self.assertGreater(one["joint_sets"][1]["dead_ends_share"], 0.0)
+            self.assertGreater(one["blocks"], 300)
+            for threads in "23":
+                self.assertEqual(run(threads, MAPPED, "--threads", threads)["state_hash"], one["state_hash"], f"{threads} threads")
+            again = run("again", "--restart", Path(folder) / "1" / "checkpoint.previous.h5")
+            self.assertEqual(again["state_hash"], one["state_hash"], "from a checkpoint, where the rock is drawn once more")
+            other = run("other", MAPPED, "--set", "generator.seed=6")
+            self.assertNotEqual(other["state_hash"], one["state_hash"])
 
     def test_where_stages_change_the_step(self):
         one = short_stages("1")

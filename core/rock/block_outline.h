@@ -1,0 +1,21 @@
+#pragma once
+/// Outlines of blocks that are unions of convex parts.
+
+#include "core/rock/block_cutter.h"
+
+#include <vector>
+
+namespace hdem
+{
+struct OutlineEdge
+{
+    Vec2 from = {0.0, 0.0};  ///< [m]
+    Vec2 to = {0.0, 0.0};    ///< [m]
+    EdgeTag tag;
+
+    [[nodiscard]] double length() const { return (to - from).norm(); }
+};
+
+/// Outer edges one after another, ring by ring; edges that go straight on along one chord are one.
+[[nodiscard]] std::vector<std::vector<OutlineEdge>> outline_of(const std::vector<CutPolygon>& parts, double tolerance);
+}  // namespace hdem

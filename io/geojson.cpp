@@ -1,0 +1,321 @@
+#include "io/geojson.h"
+
+#include "io/scanner.h"
+#include "io/toml_tree.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace hdem
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_features = 1'000'000;
+constexpr std::size_t most_points = 10'000'000;
+constexpr std::size_t most_problems = 50;
+
+/// Walks features and gives lists of points to `use`; all problems are collected.
+class Walker
+{
+  public:
+    Walker(std::string key, std::string file, std::string what)
+        : key_(std::move(key)),
+          file_(std::move(file)),
+          what_(std::move(what))
+    {
+    }
+
+    std::vector<Problem> problems;
+
+    /// Nothing where the text is no JSON.
+    Json parse(const std::string& text)
+    {
+        try
+        {
+            return Json::parse(text);
+        }
+        catch (const Json::parse_error& error)
+        {
+            const auto line = 1 + std::count(text.begin(),
+                                             text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
+            problems.push_back({Problem::Severity::error, key_,
+                                fmt::format("{}:{}: {}: (not valid JSON). Export it once more as GeoJSON.", file_, line, what_)});
+            return {};
+        }
+    }
+
+    /// Calls use(geometry, properties, number) for each feature.
+    template <class Use>
+    void for_each_feature(const Json& document, const Use& use)
+    {
+        const std::string type = text_of(document, "type");
+        if (type == "FeatureCollection" && document.contains("features") && document["features"].is_array())
+        {
+            for (const Json& feature : document["features"])
+                visit(feature, use);
+        }
+        else if (!document.is_null())
+            visit(document, use);
+        if (count_ == 0 && problems.empty())
+            complain("has no feature", "Export lines or polygons.");
+    }
+
+    void complain(const std::string& why, const std::string& remedy)
+    {
+        if (problems.size() < most_problems)
+            problems.push_back(
+                {Problem::Severity::error, key_, fmt::format("{}: {}: feature {} ({}). {}", file_, what_, count_, why, remedy)});
+    }
+
+    /// Points of a ring or a line; nothing when they are wrong, which is said.
+    Polygon points(const Json& list)
+    {
+        Polygon out;
+        if (!list.is_array())
+        {
+            complain("coordinates are not a list", "Export it once more.");
+            return {};
+        }
+        for (const Json& point : list)
+        {
+            const bool is_point = point.is_array() && point.size() >= 2 && point[0].is_number() && point[1].is_number();
+            const Vec2 at = is_point ? Vec2(point[0].get<double>(), point[1].get<double>()) : Vec2(0.0, 0.0);
+            if (!is_point || !at.allFinite())
+            {
+                complain("point " + std::to_string(out.size() + 1) + " is not [x, y]", "Export it once more.");
+                return {};
+            }
+            if (at.cwiseAbs().maxCoeff() > farthest_coordinate)
+            {
+                complain(fmt::format("point {} is farther than {} m from the origin", out.size() + 1, farthest_coordinate),
+                         "Move the model nearer to the origin.");
+                return {};
+            }
+            out.push_back(at);
+        }
+        points_ += out.size();
+        if (points_ > most_points)
+            complain(fmt::format("more than {} points", most_points), "Make the model smaller.");
+        return out;
+    }
+
+    static std::string text_of(const Json& object, const char* name)
+    {
+        return object.is_object() && object.contains(name) && object[name].is_string() ? object[name].get<std::string>() : "";
+    }
+
+    [[nodiscard]] int count() const { return static_cast<int>(count_); }
+    [[nodiscard]] bool is_over() const
+    {
+        return problems.size() >= most_problems || count_ > most_features || points_ > most_points;
+    }
+
+  private:
+    template <class Use>
+    void visit(const Json& feature, const Use& use)
+    {
+        if (is_over())
+            return;
+        ++count_;
+        const bool is_feature = text_of(feature, "type") == "Feature";
+        const Json& geometry = is_feature && feature.contains("geometry") ? feature["geometry"] : feature;
+        static const Json none = Json::object();
+        const Json& properties = is_feature && feature.contains("properties") && feature["properties"].is_object()
+                                     ? feature["properties"]
+                                     : none;
+        if (!geometry.is_object() || !geometry.contains("coordinates"))
+            complain("has no coordinates", "Remove it, or export it once more.");
+        else
+            use(geometry, properties);
+    }
+
+    std::string key_, file_, what_;
+    std::size_t count_ = 0;
+    std::size_t points_ = 0;
+};
+
+/// fixed = true, or text as in files of WKT: "fixed", "x rotation".
+bool read_fixed(const Json& value, BlockDef& block)
+{
+    if (value.is_null() || (value.is_boolean() && !value.get<bool>()))
+        return true;
+    if (value.is_boolean())
+        return block.fix_x = block.fix_y = block.fix_rotation = true;
+    if (!value.is_string())
+        return false;
+    std::istringstream words(value.get<std::string>());
+    for (std::string word; words >> word;)
+    {
+        if (word != "fixed" && word != "x" && word != "y" && word != "rotation")
+            return false;
+        block.fix_x = block.fix_x || word == "fixed" || word == "x";
+        block.fix_y = block.fix_y || word == "fixed" || word == "y";
+        block.fix_rotation = block.fix_rotation || word == "fixed" || word == "rotation";
+    }
+    return true;
+}
+
+/// "fixed", "x rotation", or "" where nothing is.
+std::string fixed_text(const BlockDef& block)
+{
+    if (block.fix_x && block.fix_y && block.fix_rotation)
+        return "fixed";
+    std::string text = block.fix_x ? "x" : "";
+    for (const auto& [is_fixed, word] : {std::pair(block.fix_y, "y"), std::pair(block.fix_rotation, "rotation")})
+        if (is_fixed)
+            text += (text.empty() ? "" : " ") + std::string(word);
+    return text;
+}
+
+Json ring_json(const Polygon& ring)
+{
+    Json points = Json::array();
+    for (std::size_t i = 0; i <= ring.size(); ++i)
+        points.push_back({ring[i % ring.size()].x(), ring[i % ring.size()].y()});
+    return points;
+}
+
+/// A closed ring without its last point; empty when something is wrong, which is said.
+Polygon ring_of(Walker& walk, const Json& polygon)
+{
+    if (!polygon.is_array() || polygon.empty())
+    {
+        walk.complain("has no ring", "Export it once more.");
+        return {};
+    }
+    if (polygon.size() > 1)
+    {
+        walk.complain("has a hole", "Blocks have no holes: cut the ring into two polygons.");
+        return {};
+    }
+    Polygon ring = walk.points(polygon[0]);
+    if (ring.empty())
+        return {};
+    if (ring.size() < 4 || ring.front() != ring.back())
+    {
+        walk.complain("its ring is not closed", "Repeat the first point at the end.");
+        return {};
+    }
+    ring.pop_back();
+    return ring;
+}
+}  // namespace
+
+bool is_geojson(const std::string& file_name)
+{
+    return file_name.ends_with(".geojson") || file_name.ends_with(".json");
+}
+
+TraceFile read_geojson_traces(const std::string& text, const std::string& file_name)
+{
+    TraceFile result;
+    Walker walk("domain.traces_file", file_name, "traces");
+    const auto keep = [&](const Json& coordinates)
+    {
+        const Polygon line = walk.points(coordinates);
+        const auto twice = std::adjacent_find(line.begin(), line.end());
+        if (line.size() < 2 && walk.problems.empty())
+            walk.complain(fmt::format("has {} points, a trace has at least 2", line.size()), "Give its two ends.");
+        else if (twice != line.end())
+            walk.complain(fmt::format("points {} and {} are the same", twice - line.begin() + 1, twice - line.begin() + 2),
+                          "Remove one of them.");
+        else if (line.size() > 1)
+            result.traces.push_back(line);
+    };
+    walk.for_each_feature(walk.parse(text),
+                          [&](const Json& geometry, const Json&)
+                          {
+                              const std::string type = Walker::text_of(geometry, "type");
+                              if (type == "LineString")
+                                  keep(geometry["coordinates"]);
+                              else if (type == "MultiLineString" && geometry["coordinates"].is_array())
+                                  for (const Json& line : geometry["coordinates"])
+                                      keep(line);
+                              else
+                                  walk.complain("is a " + printable(type) + ", not a LineString or MultiLineString",
+                                                "Export lines only.");
+                          });
+    result.problems = std::move(walk.problems);
+    return result;
+}
+
+PolygonFile read_geojson_blocks(const std::string& text, const std::string& file_name, std::size_t first_number)
+{
+    PolygonFile result;
+    Walker walk("blocks_file", file_name, "blocks");
+    const auto keep = [&](const Json& polygon, const Json& properties, std::size_t part)
+    {
+        BlockDef block;
+        block.polygon = ring_of(walk, polygon);
+        block.name = Walker::text_of(properties, "name");
+        if (block.name.empty())
+            block.name = "block" + std::to_string(first_number + result.blocks.size() + 1);
+        else if (part > 0)
+            block.name += "." + std::to_string(part + 1);
+        if (const std::string material = Walker::text_of(properties, "material"); !material.empty())
+            block.material = material;
+        if (properties.contains("fixed") && !read_fixed(properties["fixed"], block))
+            walk.complain("fixed does not say what is fixed", "Write true, \"fixed\", or a list of x, y, rotation.");
+        if (!block.polygon.empty())
+            result.blocks.push_back({std::move(block), 0});
+    };
+    walk.for_each_feature(walk.parse(text),
+                          [&](const Json& geometry, const Json& properties)
+                          {
+                              const std::string type = Walker::text_of(geometry, "type");
+                              const Json& coordinates = geometry["coordinates"];
+                              if (type == "Polygon")
+                                  keep(coordinates, properties, 0);
+                              else if (type == "MultiPolygon" && coordinates.is_array())
+                                  for (std::size_t i = 0; i < coordinates.size(); ++i)
+                                      keep(coordinates[i], properties, i);
+                              else
+                                  walk.complain("is a " + printable(type) + ", not a Polygon or MultiPolygon",
+                                                "Export polygons only.");
+                          });
+    result.problems = std::move(walk.problems);
+    return result;
+}
+
+std::string to_geojson(std::span<const BlockShape> blocks)
+{
+    Json features = Json::array();
+    for (const BlockShape& shape : blocks)
+    {
+        Json rings = Json::array({ring_json(shape.block.polygon)});
+        for (const Polygon& hole : shape.holes)
+            rings.push_back(ring_json(hole));
+        const std::string fixed = fixed_text(shape.block);
+        features.push_back({{"type", "Feature"},
+                            {"properties",
+                             {{"name", shape.block.name},
+                              {"material", shape.block.material},
+                              {"fixed", fixed.empty() ? Json(false) : Json(fixed)},
+                              {"area", shape.area},
+                              {"excavation", shape.excavation},
+                              {"edges", shape.edges}}},
+                            {"geometry", {{"type", "Polygon"}, {"coordinates", std::move(rings)}}}});
+    }
+    const Json document = {{"type", "FeatureCollection"}, {"features", std::move(features)}};
+    return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_wkt(std::span<const BlockShape> blocks)
+{
+    std::ostringstream out;
+    for (const BlockShape& shape : blocks)
+    {
+        out << "# edges: " << fmt::format("{}", fmt::join(shape.edges, "; ")) << '\n';
+        if (!shape.holes.empty())
+            out << "# this block has " << shape.holes.size() << " holes, which are not written\n";
+        write_polygons(out, std::span(&shape.block, 1));
+    }
+    return out.str();
+}
+}  // namespace hdem

@@ -1,0 +1,132 @@
+#include "io/block_shapes.h"
+#include "io/geojson.h"
+#include "io/load_case.h"
+#include "verification/unit/core/rock/region_cases.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+namespace hdem
+{
+namespace
+{
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST(GeoJson, LinesAreTraces)
+{
+    const TraceFile file = read_geojson_traces(R"({"type": "FeatureCollection", "name": "mapped", "features": [
+        {"type": "Feature", "properties": {"set": 1}, "geometry": {"type": "LineString", "coordinates": [[0, 2], [8, 5.5]]}},
+        {"type": "Feature", "properties": null,
+         "geometry": {"type": "MultiLineString", "coordinates": [[[3, 0, 7], [4, 3, 7]], [[6, 9], [7, 9], [8, 8]]]}}]})",
+                                               "t.geojson");
+    EXPECT_THAT(file.problems, IsEmpty());
+    ASSERT_THAT(file.traces, SizeIs(3));
+    EXPECT_THAT(file.traces[0], ElementsAre(Vec2(0, 2), Vec2(8, 5.5)));
+    EXPECT_THAT(file.traces[1], ElementsAre(Vec2(3, 0), Vec2(4, 3)));
+}
+
+TEST(GeoJson, PolygonsAreBlocks)
+{
+    const PolygonFile file = read_geojson_blocks(R"({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"name": "ground", "material": "shale", "fixed": true},
+         "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
+        {"type": "Feature", "properties": {"fixed": "x rotation"},
+         "geometry": {"type": "MultiPolygon", "coordinates": [[[[2, 0], [3, 0], [3, 1], [2, 0]]]]}}]})",
+                                                 "b.geojson", 4);
+    EXPECT_THAT(file.problems, IsEmpty());
+    ASSERT_THAT(file.blocks, SizeIs(2));
+    EXPECT_EQ(file.blocks[0].block.name, "ground");
+    EXPECT_EQ(file.blocks[0].block.material, "shale");
+    EXPECT_TRUE(file.blocks[0].block.fix_y);
+    EXPECT_EQ(file.blocks[1].block.name, "block6");
+    EXPECT_TRUE(file.blocks[1].block.fix_x && !file.blocks[1].block.fix_y && file.blocks[1].block.fix_rotation);
+}
+
+TEST(GeoJson, SaysWhatIsWrongAndWhere)
+{
+    const auto trace = [](const std::string& text)
+    {
+        const TraceFile file = read_geojson_traces(text, "t.geojson");
+        return file.problems.empty() ? "" : file.problems.front().text;
+    };
+    const auto line = [&](const std::string& points) { return trace(R"({"type": "LineString", "coordinates": )" + points + "}"); };
+    EXPECT_EQ(line("[[0, 0], [1, 1]]"), "") << "a bare geometry will do";
+    EXPECT_THAT(trace("{\n\"type\": \n"), HasSubstr("t.geojson:3: traces: (not valid JSON)"));
+    EXPECT_THAT(line("[[0, 0]]"), HasSubstr("t.geojson: traces: feature 1 (has 1 points, a trace has at least 2)"));
+    EXPECT_THAT(line("[[0, 0], [\"1\", 1]]"), HasSubstr("point 2 is not [x, y]"));
+    EXPECT_THAT(line("[[0, 0], [1e9, 1]]"), HasSubstr("point 2 is farther than"));
+    EXPECT_THAT(line("[[0, 0], [1, 1], [1, 1]]"), HasSubstr("points 2 and 3 are the same"));
+    EXPECT_THAT(trace(R"({"type": "Point", "coordinates": [1, 2]})"), HasSubstr("is a Point, not a LineString"));
+    EXPECT_THAT(trace(R"({"type": "FeatureCollection", "features": []})"), HasSubstr("has no feature"));
+    EXPECT_THAT(trace("[1, 2]"), HasSubstr("has no coordinates"));
+    const auto block = [](const std::string& rings, const std::string& fixed)
+    {
+        const PolygonFile file = read_geojson_blocks(R"({"type": "Feature", "properties": {"fixed": )" + fixed +
+                                                         R"(}, "geometry": {"type": "Polygon", "coordinates": )" + rings + "}}",
+                                                     "b.geojson");
+        return file.problems.empty() ? "" : file.problems.front().text;
+    };
+    EXPECT_EQ(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "false"), "");
+    EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "\"z\""), HasSubstr("fixed does not say what is fixed"));
+    EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 1]]]", "false"), HasSubstr("its ring is not closed"));
+    EXPECT_THAT(block("[[[0, 0], [9, 0], [9, 9], [0, 0]], [[2, 1], [3, 1], [3, 2], [2, 1]]]", "false"), HasSubstr("has a hole"));
+}
+
+const std::string mapped = "[domain]\nwidth = 12.0\nheight = 9.0\nfixed = [\"bottom\"]\n"
+                           "[[joint_set]]\nname = \"beds\"\ndip_deg = 8.0\nspacing = 1.7\n"
+                           "[[joint_set]]\nname = \"cross\"\ndip_deg = 85.0\nspacing = 1.5\ntrace = 3.0\ngap = 1.0\n"
+                           "[[excavation]]\nname = \"hole\"\nshape = \"circle\"\nposition = [6, 4]\ndiameter = 2.5\n";
+
+/// Blocks written and read again are the same blocks.
+TEST(BlockShapes, AreReadAgain)
+{
+    const test::ScratchFolder folder("block_shapes");
+    std::ofstream(folder / "case.toml") << mapped << test::laws;
+    const LoadedCase loaded = load_case(folder / "case.toml");
+    const std::vector<BlockShape> shapes = block_shapes(loaded.file.def, generate_rock_mass(loaded.file.def));
+    ASSERT_EQ(static_cast<Index>(shapes.size()), loaded.setup.model.blocks());
+    std::ofstream(folder / "b.wkt") << to_wkt(shapes);
+    std::ofstream(folder / "b.geojson") << to_geojson(shapes);
+    for (const char* name : {"b.wkt", "b.geojson"})
+    {
+        std::ofstream(folder / "again.toml") << "blocks_file = \"" << name << "\"\n" << test::laws;
+        const LoadedCase again = load_case(folder / "again.toml");
+        ASSERT_EQ(again.setup.model.blocks(), loaded.setup.model.blocks()) << name;
+        for (Index b = 0; b < again.setup.model.blocks(); ++b)
+        {
+            const Index as_cut = loaded.setup.model.slot_of_user[b], as_read = again.setup.model.slot_of_user[b];
+            EXPECT_EQ(again.setup.model.name[as_read], loaded.setup.model.name[as_cut]);
+            EXPECT_NEAR(again.setup.model.area[as_read], loaded.setup.model.area[as_cut], 1e-12);
+            EXPECT_EQ(again.setup.state.blocks.is_free(as_read), loaded.setup.state.blocks.is_free(as_cut));
+        }
+    }
+}
+
+TEST(BlockShapes, SayWhatEachEdgeWasCutBy)
+{
+    const test::ScratchFolder folder("block_edges");
+    std::ofstream(folder / "case.toml") << mapped << test::laws;
+    const LoadedCase loaded = load_case(folder / "case.toml");
+    const auto document = nlohmann::json::parse(to_geojson(block_shapes(loaded.file.def, generate_rock_mass(loaded.file.def))));
+    std::map<std::string, int> seen;
+    for (const auto& feature : document["features"])
+    {
+        const auto& properties = feature["properties"];
+        EXPECT_EQ(properties["edges"].size() + 1, feature["geometry"]["coordinates"][0].size());
+        for (const auto& edge : properties["edges"])
+            ++seen[edge.get<std::string>()];
+        EXPECT_EQ(properties["excavation"] == "hole", properties["name"].get<std::string>().starts_with("hole"));
+    }
+    for (const char* name : {"domain", "beds", "cross", "excavation"})
+        EXPECT_GT(seen[name], 3) << name;
+    EXPECT_EQ(seen.size(), 4u);
+}
+}  // namespace
+}  // namespace hdem
