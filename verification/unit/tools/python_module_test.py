@@ -356,6 +356,31 @@ def test_stage_set_as_in_the_case(tmp_path):
     assert added.state_hash == expected and added.is_done
 
 
+def test_stage_set_beside_walls_and_several_joints(tmp_path):
+    """A stage that changes joints gives them, and what comes behind them, other numbers in memory."""
+    rock = {"domain": {"width": 6.0, "height": 5.0, "fixed": ["bottom"]},
+            "joint_set": [{"dip_deg": 23.0, "spacing": 1.1, "joint": "bedding"}, {"dip_deg": -60.0, "spacing": 1.3}],
+            "boundary": [{"side": side, "kind": "roller"} for side in ("left", "right")],
+            "excavation": [{"name": "hole", "shape": "circle", "position": [3.0, 2.5], "diameter": 1.6}],
+            "material": {"rock": {"density": 2600.0}},
+            "joint": {"default": {"normal_stiffness": 1e9, "shear_stiffness": 5e8, "friction_angle_deg": 30.0},
+                      "bedding": {"normal_stiffness": 2e9, "shear_stiffness": 5e8, "friction_angle_deg": 25.0, "cohesion": 2e3}},
+            "stage": [{"cycles": 600}, {"excavate": ["hole"], "cycles": 1500}, {"name": "weak", "cycles": 800}]}
+    texts = ["joint.default.friction_angle_deg = 8.0", "joint.bedding.cohesion = 0.0", "joint.bedding.normal_stiffness = 1.5e9"]
+    file = tmp_path / "case.toml"
+    file.write_text(hdem.to_toml({**rock, "stage": [*rock["stage"][:2], {**rock["stage"][2], "set": texts}]}))
+    simulation = hdem.Simulation(hdem.Case(rock), threads=2)
+    simulation.run(stages=2)
+    assert (simulation.contacts()["joint"] == -1).any() and simulation.walls.sum() == 2
+    simulation.set("joint.default.friction_angle_deg", 8.0)
+    simulation.set("joint.bedding.cohesion", 0.0)
+    simulation.set("joint.bedding.normal_stiffness", 1.5e9)
+    simulation.run()
+    assert simulation.state_hash == program_hash(tmp_path, file, "--threads", 1)["state_hash"]
+    walls = simulation.contacts()[simulation.contacts()["joint"] == -1]
+    assert np.abs(walls["shear_force"]).max() == 0.0
+
+
 def test_cohesion_given_later_needs_contacts_that_are_told_apart():
     simulation = hdem.Simulation(hdem.Case(pile()), threads=1)
     simulation.run(stages=1)
