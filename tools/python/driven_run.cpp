@@ -268,7 +268,10 @@ void DrivenRun::write_checkpoint(const std::string& folder)
     else
         for (const HistoryDef& history : now.model().histories)
             record.history_axes.push_back(HistorySampler(now.model(), history).axis());
-    std::filesystem::create_directories(folder);
+    std::error_code obstacle;
+    std::filesystem::create_directories(folder, obstacle);
+    if (obstacle)
+        throw RunError(fmt::format("{}: cannot be made ({}). Give another folder.", folder, obstacle.message()));
     hdem::write_checkpoint(folder, record, now.model(), now.state());
 }
 

@@ -25,8 +25,8 @@ RunOptions options_of(const std::optional<std::string>& folder, const std::optio
             .command_line = {"python3", "import hdem"}};
 }
 
-/// A stage as a dictionary: what summary.json says of it, without wall time.
-py::dict stage_dict(const StageResult& stage, const Model& model)
+/// A stage as a dictionary.
+py::dict stage_dict(const StageResult& stage, bool is_over, const Model& model)
 {
     std::vector<std::string> names;
     for (const Index user : stage.not_at_rest)
@@ -36,8 +36,9 @@ py::dict stage_dict(const StageResult& stage, const Model& model)
     dict["first_cycle"] = stage.first_cycle;
     dict["cycles"] = stage.cycles;
     dict["time"] = stage.time;
+    dict["is_over"] = is_over;
     dict["converged"] = stage.at_rest;
-    dict["met_end"] = stage.met_end();
+    dict["met_end"] = is_over && stage.met_end();
     dict["not_at_rest"] = names;
     dict["to_come"] = stage.to_come;
     return dict;
@@ -46,8 +47,9 @@ py::dict stage_dict(const StageResult& stage, const Model& model)
 py::list stage_list(const DrivenRun& run)
 {
     py::list list;
-    for (const StageResult& stage : run.results())
-        list.append(stage_dict(stage, run.simulation().model()));
+    const std::vector<StageResult>& stages = run.results();
+    for (const StageResult& stage : stages)
+        list.append(stage_dict(stage, run.is_over() || &stage != &stages.back(), run.simulation().model()));
     return list;
 }
 
@@ -181,8 +183,10 @@ void bind_run(py::module_& module)
     PYBIND11_NUMPY_DTYPE(ContactRow, blocks, joint, end, regime, point, normal, length, normal_force, shear_force, gap, closure,
                          slip, plastic_slip, broken);
     RunType type(module, "Run");
-    type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"));
-    type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"));
+    type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"),
+             py::call_guard<py::gil_scoped_release>());
+    type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"),
+             py::call_guard<py::gil_scoped_release>());
     type.def("_run", &run_piece, py::arg("cycles"), py::arg("stages"), py::arg("callback"), py::arg("every"));
     type.def(
         "contacts", [](const DrivenRun& run, bool also_open) { return contact_table(run.look(), also_open); },

@@ -56,8 +56,8 @@ class Simulation(_core.Run):
         callback(simulation) is called after each cycle that is a multiple of `every`; False ends the run there. In it the state may be read and
         motions assigned. An exception of it, and Ctrl-C (KeyboardInterrupt), end the run between two cycles; the state is whole, and run() goes
         on from there. Where there is a folder a checkpoint is then written.
-        Returns all stages that have begun, each a dict: name, first_cycle, cycles, time [s] at its end, converged, met_end, not_at_rest (names
-        of blocks), to_come (texts). Raises RunError where the run cannot go on.
+        Returns all stages that have begun, each a dict: name, first_cycle, cycles, time [s] of the run at its end or now, is_over, converged,
+        met_end (an end that the case asks for), not_at_rest (names of blocks), to_come (texts). Raises RunError where the run cannot go on.
         """
         return self._run(cycles, stages, callback, every)
 
@@ -97,7 +97,8 @@ class Simulation(_core.Run):
         """One more stage behind the last: the keys of [[stage]], as a dict or by name, e.g. add_stage(cycles=2000, set={"joint.default.cohesion": 0}).
 
         `set` changes numbers of joints and materials from that stage on: a dict, or texts as in the case. The changed case stands in case_text
-        and goes into checkpoints: what was done can be run again by `hdem run`, with the same bits.
+        and goes into checkpoints: what was done can be run again by `hdem run`, with the same bits. Lines in
+        messages about the changed case are those of case_text.
         """
         table = {**(stage or {}), **keys}
         if isinstance(table.get("set"), Mapping):

@@ -78,6 +78,7 @@ def test_pieces_callbacks_and_views_change_no_bit(tunnel):
     seen = []
     simulation.run(cycles=137, callback=lambda s: seen.append(s.cycle), every=50)
     assert seen == [50, 100] and simulation.cycle == 137
+    assert [(r["cycles"], r["is_over"], r["met_end"]) for r in simulation.results] == [(137, False, False)]
     simulation.run(stages=1)
     assert (simulation.cycle, simulation.stage, simulation.is_over, simulation.is_done) == (400, 0, True, False)
     simulation.run(callback=lambda s: seen.append(float(s.motion_view["x"][0])), every=100)
@@ -309,6 +310,35 @@ def test_ctrl_c_ends_a_run_between_cycles(tunnel):
     simulation.run(cycles=10)
 
 
+def test_interrupted_run_leaves_a_checkpoint(tmp_path, tunnel):
+    def interrupt(s):
+        raise KeyboardInterrupt
+    simulation = hdem.Simulation(hdem.Case(TUNNEL, set=SHORT), folder=tmp_path / "run", threads=1)
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(callback=interrupt, every=450)
+    assert simulation.cycle == 450
+    del simulation
+    code, said = program("run", "--restart", tmp_path / "run", "--quiet")
+    assert code in (0, 4), said
+    summary = json.loads((tmp_path / "run/summary.json").read_text())
+    assert (summary["state_hash"], summary["cycles"]) == (tunnel["state_hash"], 1200)
+
+
+def test_files_of_a_dict_lie_beside_its_name(tmp_path):
+    (tmp_path / "more.csv").write_text("name,x,y\nextra,-3,0\nextra,-2,0\nextra,-2,1\nextra,-3,1\n")
+    with pytest.raises(hdem.CaseError, match="more.csv"):
+        hdem.Case(pile(blocks_file="more.csv"))
+    case = hdem.Case(pile(blocks_file="more.csv"), name=tmp_path / "case.toml")
+    assert case.names[-1] == "extra"
+    simulation = hdem.Simulation(case, threads=1)
+    simulation.run(cycles=10)
+    (tmp_path / "more.csv").unlink()    # the run has it
+    simulation.write_checkpoint(str(tmp_path))
+    simulation.add_stage(cycles=5)
+    simulation.run()
+    assert hdem.Simulation.from_checkpoint(tmp_path / "checkpoint.h5").names == simulation.names
+
+
 def test_others_may_not_look_while_cycles_run():
     simulation = hdem.Simulation(hdem.Case(TUNNEL, set=SHORT), threads=1)
     worker = threading.Thread(target=simulation.run)
@@ -465,6 +495,8 @@ def test_checkpoints_go_both_ways(tmp_path, tunnel):
     with pytest.raises(hdem.CaseError, match="no stage has begun"):
         simulation.write_checkpoint(str(tmp_path / "c"))
     simulation.run(cycles=500)
+    with pytest.raises(hdem.RunError, match="cannot be made"):
+        simulation.write_checkpoint("/proc/none")
     simulation.write_checkpoint(str(tmp_path / "c"))
     code, said = program("run", "--restart", tmp_path / "c", "--quiet")
     assert code in (0, 4), said
