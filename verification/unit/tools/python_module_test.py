@@ -558,6 +558,20 @@ def test_example_runs(tmp_path):
     assert (tmp_path / "seeds.png").stat().st_size > 10000
 
 
+def test_wheel_holds_the_package(tmp_path):
+    import importlib.util
+    import zipfile
+    if not all(importlib.util.find_spec(name) for name in ("pip", "setuptools", "wheel")):
+        pytest.skip("no pip, setuptools or wheel")
+    package = Path(hdem.__file__).parent
+    done = subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "-q", "-w", tmp_path,
+                           Path(EXAMPLE).parent.parent], capture_output=True, text=True, env={**os.environ, "HDEM_BUILD": str(package.parent.parent)})
+    assert done.returncode == 0, done.stderr
+    wheel, = tmp_path.glob("hdem-*.whl")
+    files = {name for name in zipfile.ZipFile(wheel).namelist() if name.startswith("hdem/")}
+    assert files == {f"hdem/{file.name}" for file in package.iterdir() if file.is_file()} and "hdem/py.typed" in files
+
+
 def test_stubs_name_what_is_there():
     import ast
     stubs = ast.parse((Path(hdem.__file__).parent / "_core.pyi").read_text())
