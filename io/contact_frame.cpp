@@ -1,5 +1,6 @@
 #include "core/contact/contact_report.h"
 #include "core/water/water_forces.h"
+#include "io/contact_slip.h"
 #include "io/frame_writer.h"
 #include "io/vtkhdf.h"
 
@@ -11,24 +12,6 @@ namespace hdem
 {
 namespace
 {
-/// How far the rock of a block that is now at `place` has moved since the stage began [m].
-Vec2 displacement_at(const Blocks& blocks, Index block, const Vec2& place)
-{
-    const BlockMotion& now = blocks.motion[block];
-    const Vec2 arm = place - Vec2(now.x, now.y);
-    const double turn = now.angle - blocks.reference_angle[block];
-    const double c = std::cos(turn);
-    const double s = std::sin(turn);
-    return blocks.displacement(block) + arm - Vec2(c * arm.x() + s * arm.y(), c * arm.y() - s * arm.x());
-}
-
-/// Of the second block against the shear axis, relative to the first, in the middle of the contact [m].
-double slip_of(const Blocks& blocks, const ContactReport& contact)
-{
-    const Vec2 middle = 0.5 * (contact.point[0] + contact.point[1]);
-    const Vec2 moved = displacement_at(blocks, contact.second, middle) - displacement_at(blocks, contact.first, middle);
-    return -moved.dot(contact.shear_axis());
-}
 /// What joint laws with a memory remember, the mean of both points.
 void write_memories(Hdf5Writer& file, const Model& model, const State& state, const std::vector<Index>& numbers,
                     const std::vector<ContactReport>& contacts)

@@ -167,6 +167,12 @@ void RunRecorder::write_results()
     results_.write(frames_.frames(), frames_.kinds());
 }
 
+void RunRecorder::take_case(const std::string& text, const std::vector<std::string>& overrides)
+{
+    results_.provenance().case_text = text;
+    results_.provenance().overrides = overrides;
+}
+
 void RunRecorder::save()
 {
     if (!has_tables_)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <future>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hdem
@@ -26,6 +27,8 @@ class RunRecorder : public Observer
     void observe(const Model& model, const State& state) override;
     void end_stage(const Model& model, const State& state) override;
 
+    /// The case that results are of has changed: stages to come.
+    void take_case(const std::string& text, const std::vector<std::string>& overrides);
     /// Rows that are still in memory go to the disk: what a checkpoint needs beside it.
     void save();
     /// What histories between two blocks remember, one for each history; for a checkpoint.

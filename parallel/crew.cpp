@@ -1,5 +1,7 @@
 #include "parallel/crew.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #ifdef _OPENMP
 #include <omp.h>
@@ -11,6 +13,15 @@ namespace
 {
 /// Is this thread at work in a team? Then it works alone in another one.
 thread_local bool is_in_team = false;
+#ifdef _OPENMP
+thread_local std::unique_ptr<Crew> crew;
+
+/// A process that forks leaves the crew behind: the child has its memory, but none of its threads, which nobody may wait for or join.
+void abandon_crew()
+{
+    static_cast<void>(crew.release());
+}
+#endif
 }  // namespace
 
 #ifdef _OPENMP
@@ -74,7 +85,8 @@ void Crew::run(int threads, const TeamWork& work) noexcept
 
 void run_in_crew(int threads, const TeamWork& work)
 {
-    thread_local std::unique_ptr<Crew> crew;
+    static const int watches_forks = ::pthread_atfork(nullptr, nullptr, abandon_crew);
+    static_cast<void>(watches_forks);
     if (is_in_team)
         return work.run(work.work, Team(0, 1));
     if (!crew || crew->asked() < threads)

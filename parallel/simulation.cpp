@@ -368,6 +368,22 @@ void Simulation::note_outcome(const StageOutcome& outcome, const std::vector<Ind
         state_.not_at_rest.push_back({.stage = state_.stage, .block = block});
 }
 
+void Simulation::change_motion(const std::function<void(std::vector<BlockMotion>&)>& change)
+{
+    const double stored = stored_energy(model_, state_).total();
+    const double changes = state_.ledger.contact_changes;
+    change(state_.blocks.motion);
+    wake_all(state_.blocks);
+    state_.rest_changed = true;
+    state_.is_calm = false;
+    state_.flies_ahead = false;
+    state_.quiet_since = -1.0;
+    state_.statics_taken = false;
+    state_.blocks.step.next = model_.time_step;
+    renew_contacts();
+    state_.ledger.load_work += stored_energy(model_, state_).total() - stored - (state_.ledger.contact_changes - changes);
+}
+
 void Simulation::advance(std::int64_t cycles)
 {
     for (const std::int64_t end = state_.cycle + cycles; state_.cycle < end;)

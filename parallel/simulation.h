@@ -58,6 +58,11 @@ class Simulation
     /// How the present stage ended, and the user's numbers of blocks that were not at rest, ascending; before the next one begins.
     void note_outcome(const StageOutcome& outcome, const std::vector<Index>& not_at_rest);
 
+    /// Between cycles somebody outside puts blocks elsewhere or gives them other velocities: `change` writes poses and velocities. All blocks take part again,
+    /// contacts are found anew. The energy that this brings is work of loads.
+    /// @pre  what `change` writes is finite; c and s belong to the angle; what is fixed stays where it is
+    void change_motion(const std::function<void(std::vector<BlockMotion>&)>& change);
+
     /// Throws RunError in the cycle in which springs begin to act that are too stiff for the step.
     void advance(std::int64_t cycles);
     /// Throws RunError: see state_check.h. Looks at the ledger.

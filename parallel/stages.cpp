@@ -255,18 +255,26 @@ StageOutcome outcome_of(const StageResult& result)
 }
 }  // namespace
 
-std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper)
+std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper,
+                                    const StagePart& part)
 {
     const State& state = simulation.state();
     std::vector<StageResult> results = earlier_results(simulation.model(), state);
-    bool goes_on = state.stage_begun;
-    if (!goes_on)
+    bool goes_on = state.stage_begun && part.over == nullptr;
+    if (!state.stage_begun)
         show(simulation, observers, true);
     StageRunner runner(simulation, observers, keeper);
     const auto stages = static_cast<Index>(simulation.model().stages.size());
     if (keeper != nullptr)
         simulation.ask_in_statics([keeper] { return keeper->is_to_stop(); });
-    for (Index i = state.stage; i < stages && !runner.broken_off(); ++i)
+    Index first = state.stage;
+    if (part.over != nullptr)
+    {
+        results.push_back(*part.over);
+        if (++first < std::min(stages, part.end))
+            simulation.note_outcome(outcome_of(results.back()), results.back().not_at_rest);
+    }
+    for (Index i = first; i < std::min(stages, part.end) && !runner.broken_off(); ++i)
     {
         const auto begun = std::chrono::steady_clock::now();
         try
@@ -284,7 +292,7 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
         {
             results.push_back(runner.leave());
         }
-        if (i + 1 < stages && !runner.broken_off())
+        if (i + 1 < std::min(stages, part.end) && !runner.broken_off())
             simulation.note_outcome(outcome_of(results.back()), results.back().not_at_rest);
     }
     return results;

@@ -5,6 +5,7 @@
 #include "core/statics/static_result.h"
 #include "parallel/simulation.h"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,7 +48,16 @@ struct StageResult
     std::optional<StaticResult> statics;
 };
 
-/// Run all stages, or those that are left to a state that comes from a checkpoint, and show the state to the observers. It is checked for
-/// non-finite values and overlaps at least every thousand cycles. A stage that the keeper breaks off is the last of the results.
-std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper = nullptr);
+/// Which stages a call runs.
+struct StagePart
+{
+    Index end = std::numeric_limits<Index>::max();  ///< the first that is not run
+    const StageResult* over = nullptr;              ///< of the state's stage, where an earlier call has run it to its end
+};
+
+/// Run all stages, or those that are left to a state that comes from a checkpoint or from an earlier call, and show the state to the observers. It is
+/// checked for non-finite values and overlaps at least every thousand cycles. A stage that the keeper breaks off is the last of the results.
+/// However a run is cut into calls its bits are the same.
+std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper = nullptr,
+                                    const StagePart& part = {});
 }  // namespace hdem

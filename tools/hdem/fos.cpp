@@ -1,6 +1,5 @@
 /// hdem fos: the factor of safety by strength reduction.
 
-#include "core/boundary/resolve_boundaries.h"
 #include "io/digest.h"
 #include "io/run_recorder.h"
 #include "io/text_file.h"
@@ -136,26 +135,6 @@ void write_failure(const fs::path& folder, const RunStart& start, const RunOptio
     recorder.finish(end.model, end.state);
 }
 
-/// What moves by itself is never at rest: there is no factor of safety.
-void refuse_driven(const CaseDef& def)
-{
-    const auto refuse = [](const std::string& what)
-    {
-        throw InputError(
-            Problem{.key = {},
-                    .text = fmt::format("hdem fos: {} (a motion is prescribed: the rock is never at rest). End it before the "
-                                        "last stage.",
-                                        what)});
-    };
-    for (const BoundaryDef& side : def.boundaries)
-        if (side.kind == BoundaryKind::velocity && !side.velocity.isZero() && acts_in(side, def.stages.back().name))
-            refuse(fmt::format("boundary \"{}\": velocity", printable(side.name)));
-    for (const LoadDef& load : def.loads)
-        if ((load.velocity_x || load.velocity_y || load.angular_velocity) && !load.interval.until_cycle &&
-            !load.interval.until_time)
-            refuse("load: velocity");
-}
-
 class Fos
 {
   public:
@@ -172,28 +151,18 @@ class Fos
 
     int find()
     {
-        Moment last{run_.simulation->model(), run_.simulation->state()};
-        FosOutcome outcome{.def = run_.start.loaded.file.def.factor_of_safety};
-        const bool found_rest = !run_.stages.back().sought_rest || run_.stages.back().at_rest;
-        const std::vector<Index> gave_way = blocks_that_gave_way(last, found_rest, outcome.def.least_size);
-        outcome.gave_way = names_of_blocks(last.model, gave_way);
-        const bool runs_anew = !gave_way.empty() && outcome.def.begin == FactorStart::last_stage;
-        const Reference reference = find_reference(last, gave_way, runs_anew ? moment_before(before_, run_) : std::nullopt,
-                                                   threads_);
-        const Model& model = reference.moment.model;
-        outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
-                                       greatest_factor, weakens_bolts(outcome.def));
-        begin(outcome);
+        const Moment last{run_.simulation->model(), run_.simulation->state()};
         const SignalWatch signals;
-        FactorSetting setting{.def = outcome.def, .bound = {}, .threads = threads_, .store = &file_};
-        if (outcome.bound.end == StrengthBound::End::found)
-            setting.bound = outcome.bound.factor;
-        setting.show = [&](const FactorTrial& trial) { log_.line(trial_row(trial)); };
-        setting.stop = signals.token();
-        outcome.factor = find_safety_factor(reference.moment, setting);
-        outcome.warnings = fos_warnings(outcome, reference.moment, last.state.method);
-        show_failure(outcome, reference.moment);
-        end(outcome, model);
+        auto [outcome, reference] = find_factor(last, {.def = run_.start.loaded.file.def.factor_of_safety,
+                                                       .found_rest = !run_.stages.back().sought_rest || run_.stages.back().at_rest,
+                                                       .before = [&] { return moment_before(before_, run_); },
+                                                       .threads = threads_,
+                                                       .store = &file_,
+                                                       .begin = [&](const FosOutcome& found) { begin(found); },
+                                                       .show = [&](const FactorTrial& trial) { log_.line(trial_row(trial)); },
+                                                       .stop = signals.token()});
+        show_failure(outcome, reference);
+        end(outcome, reference.model);
         return outcome.factor.as_given.is_closed() ? exit_done : exit_no_convergence;
     }
 

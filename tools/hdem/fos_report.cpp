@@ -180,19 +180,24 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
     return warnings;
 }
 
+Json trial_json(const FactorTrial& t, const Model& model)
+{
+    return {{"search", name_of(t.search)},
+            {"factor", t.trial.factor},
+            {"verdict", name_of(t.trial.end)},
+            {"reason", t.trial.reason},
+            {"displacement", t.trial.displacement},
+            {"cycles", t.trial.cycles},
+            {"time", t.trial.time},
+            {"failing_blocks", names_of_blocks(model, t.trial.failing)}};
+}
+
 Json fos_json(const FosOutcome& outcome, const Model& model)
 {
     const SafetyFactor& f = outcome.factor;
     Json trials = Json::array();
     for (const FactorTrial& t : f.trials)
-        trials.push_back({{"search", name_of(t.search)},
-                          {"factor", t.trial.factor},
-                          {"verdict", name_of(t.trial.end)},
-                          {"reason", t.trial.reason},
-                          {"displacement", t.trial.displacement},
-                          {"cycles", t.trial.cycles},
-                          {"time", t.trial.time},
-                          {"failing_blocks", names_of_blocks(model, t.trial.failing)}});
+        trials.push_back(trial_json(t, model));
     const Trial* const first = f.first_failure();
     Json json = bracket_json(f.as_given);
     json["bound"] = outcome.bound.end == StrengthBound::End::found ? Json(outcome.bound.factor) : Json(nullptr);

@@ -1,9 +1,7 @@
 #pragma once
 /// What `hdem fos` says of the factor of safety.
 
-#include "core/limit/strength_bound.h"
-#include "parallel/reference_state.h"
-#include "parallel/safety_factor.h"
+#include "tools/hdem/fos_search.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,16 +11,6 @@
 
 namespace hdem
 {
-/// All that was found.
-struct FosOutcome
-{
-    FactorOfSafetyDef def;
-    StrengthBound bound;
-    SafetyFactor factor;
-    std::vector<std::string> gave_way{};  ///< names of blocks that did not stand in the last stage
-    std::vector<std::string> warnings{};
-};
-
 /// Heading of the rows, and one row.
 [[nodiscard]] std::string trial_heading();
 [[nodiscard]] std::string trial_row(const FactorTrial& trial);
@@ -36,6 +24,8 @@ struct FosOutcome
 /// What users must know of the answer.
 [[nodiscard]] std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method);
 
+/// A trial as it stands there.
+[[nodiscard]] nlohmann::ordered_json trial_json(const FactorTrial& trial, const Model& model);
 /// Key factor_of_safety of summary.json.
 [[nodiscard]] nlohmann::ordered_json fos_json(const FosOutcome& outcome, const Model& model);
 /// Put it into FOLDER/summary.json, which the run has written.

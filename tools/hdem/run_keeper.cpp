@@ -76,6 +76,13 @@ void RunKeeper::finish(const Simulation& simulation)
     save(simulation);
 }
 
+void RunKeeper::take_case(const RunRecord& record)
+{
+    record_.case_text = record.case_text;
+    record_.files = record.files;
+    record_.overrides = record.overrides;
+}
+
 void RunKeeper::save(const Simulation& simulation)
 {
     const Clock::time_point begin = Clock::now();

@@ -34,6 +34,12 @@ class RunKeeper : public Keeper
 
     /// The run has come to its end.
     void finish(const Simulation& simulation);
+    /// More stages were added to a run that had come to its end.
+    void go_on() { record_.finished = false; }
+    /// A checkpoint of this moment.
+    void save_now(const Simulation& simulation) { save(simulation); }
+    /// The text of the case has changed: stages to come.
+    void take_case(const RunRecord& record);
 
     /// Exit code of a run that was broken off; nothing for one that was not.
     [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }

@@ -39,17 +39,23 @@ std::vector<std::string> overrides_of(const RunOptions& options)
     return texts;
 }
 
+/// What is known of a case once it has been read.
+void take_case(LoadedCase loaded, RunStart& start)
+{
+    start.loaded = std::move(loaded);
+    start.record.case_file = start.loaded.file.source.file();
+    start.record.case_text = start.loaded.file.source.text();
+    start.record.files = start.loaded.file.files;
+    start.record.begin = timestamp();
+}
+
 RunStart start_anew(const RunOptions& options)
 {
     RunStart start;
     start.folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem()) : fs::path(options.folder);
     start.record.overrides = overrides_of(options);
     start.lock = std::make_unique<RunLock>(start.folder);
-    start.loaded = load_case(options.case_file, parsed(start.record.overrides));
-    start.record.case_file = options.case_file;
-    start.record.case_text = start.loaded.file.source.text();
-    start.record.files = start.loaded.file.files;
-    start.record.begin = timestamp();
+    take_case(load_case(options.case_file, parsed(start.record.overrides)), start);
     return start;
 }
 
@@ -186,6 +192,29 @@ RunStart start_again(const RunOptions& options)
 RunStart start_run(const RunOptions& options)
 {
     return options.restart.empty() ? start_anew(options) : start_again(options);
+}
+
+RunStart start_loaded(LoadedCase loaded, std::vector<std::string> overrides, const RunOptions& options)
+{
+    RunStart start;
+    start.folder = options.folder;
+    start.record.overrides = std::move(overrides);
+    if (!options.folder.empty())
+        start.lock = std::make_unique<RunLock>(start.folder);
+    take_case(std::move(loaded), start);
+    return start;
+}
+
+RunStart read_moment(const fs::path& checkpoint)
+{
+    const CheckpointReader reader(checkpoint);
+    RunStart start;
+    start.restarted = true;
+    start.record = reader.record();
+    const RunRecord& record = start.record;
+    start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
+    start.loaded.setup.state = reader.state(start.loaded.setup.model);
+    return start;
 }
 
 void clear_for_run(const RunStart& start, bool overwrite)

@@ -27,6 +27,12 @@ struct RunStart
 /// Throws InputError for what the user must change, also when another run is in the folder.
 RunStart start_run(const RunOptions& options);
 
+/// The same of a case that has been read already; --set stands in it. Its folder is options.folder.
+RunStart start_loaded(LoadedCase loaded, std::vector<std::string> overrides, const RunOptions& options);
+
+/// A case and the state that a checkpoint file holds, without the folder of the run. Throws InputError.
+RunStart read_moment(const std::filesystem::path& checkpoint);
+
 /// Throws InputError when the folder holds another run that was cut short and nothing says that it may go. Removes checkpoints and results of
 /// an older run: they must not be taken for those of this one. A run that goes on in its folder finds it as it left it.
 void clear_for_run(const RunStart& start, bool overwrite);

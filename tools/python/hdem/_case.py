@@ -1,0 +1,64 @@
+"""A case: read, checked, its blocks made."""
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from . import _core
+from ._toml import to_toml, toml_value
+
+
+def override_texts(changes: Mapping[str, Any] | Iterable[str]) -> list[str]:
+    """{"generator.seed": 3} or ["generator.seed=3"] -> ["generator.seed=3"]"""
+    if isinstance(changes, str):
+        raise TypeError('set: a list of texts "key=value", or a dict, is needed')
+    if isinstance(changes, Mapping):
+        return [f"{key}={toml_value(value, key)}" for key, value in changes.items()]
+    return [str(change) for change in changes]
+
+
+class Case(_core.Case):
+    """A case that has been read, and the blocks that it makes.
+
+    source  name of a case file, or a dict with the keys of one (io/case_format.md)
+    set     values laid over it, as --set of the program: {"joint.default.cohesion": 0, "stage[1].max_cycles": 2000}, or texts "key=value"
+    name    of a dict in messages; files that it names (blocks_file, ...) are looked up beside it
+
+    Raises CaseError with all problems at once. Lines and columns in messages about a dict are those of `text`.
+    All arrays are copies, one row a block, in the order of the case.
+    """
+
+    def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any], *, set: Mapping[str, Any] | Iterable[str] = (),
+                 name: str | os.PathLike[str] = "case.toml") -> None:
+        if isinstance(source, Mapping):
+            super().__init__(to_toml(source), os.fspath(name), override_texts(set))
+        else:
+            super().__init__(None, os.fspath(source), override_texts(set))
+        self._is_read = True
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The text as a dict of its own, without what `set` says."""
+        return tomllib.loads(self.text)
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+        return len(self.names)
+
+    def __reduce__(self) -> tuple[Any, ...]:    # for other processes: it is read again there
+        return _read_again, (self.text, self.file, self.overrides)
+
+    def __repr__(self) -> str:
+        if not getattr(self, "_is_read", False):
+            return "<hdem.Case that could not be read>"
+        return f"<hdem.Case {self.file!r}: {self.blocks} blocks, stages {', '.join(self.stage_names)}>"
+
+
+def _read_again(text: str, file: str, overrides: list[str]) -> Case:
+    case = Case.__new__(Case)
+    _core.Case.__init__(case, text, file, overrides)
+    case._is_read = True
+    return case

@@ -1,0 +1,141 @@
+"""A run."""
+from __future__ import annotations
+
+import json
+import os
+import tomllib
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from . import _core
+from ._case import Case
+from ._toml import to_toml, toml_value
+
+REGIMES = ("open", "stick", "slip", "impulse")    # by the number in contacts()["regime"]
+
+
+class Simulation(_core.Run):
+    """A case and its present state.
+
+    case       what to run; it is copied, and may be used again
+    folder     write there what `hdem run -o` writes: frames, results.h5, checkpoints, run.log, summary.json. None: nothing is written
+    threads    fixed number, or None: as many as are fastest at the moment. Results do not depend on it
+    overwrite  begin anew where a run in the folder was cut short
+
+    Arrays are copies with one row a block, row i is block i of the case: a block keeps its number for ever, also once it is removed (`present`
+    says so) and however the program sorts blocks in memory. motion_view and force_view are no copies; see there how long they hold.
+    One simulation is used by one thread at a time; several may run in several threads, as cycles run without Python's lock.
+    """
+
+    def __init__(self, case: Case, *, folder: str | os.PathLike[str] | None = None, threads: int | None = None,
+                 overwrite: bool = False) -> None:
+        super().__init__(case, None if folder is None else os.fspath(folder), threads, overwrite)
+        self._is_there = True
+
+    @classmethod
+    def from_checkpoint(cls, file: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
+        """The state in a checkpoint file, with the case that it holds. Nothing is written."""
+        return cls._loaded(os.fspath(file), False, threads)
+
+    @classmethod
+    def restart(cls, folder: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
+        """Go on with the run in a folder, and write there, as `hdem run --restart`."""
+        return cls._loaded(os.fspath(folder), True, threads)
+
+    @classmethod
+    def _loaded(cls, checkpoint: str, writes: bool, threads: int | None) -> Simulation:
+        simulation = cls.__new__(cls)
+        _core.Run.__init__(simulation, checkpoint, writes, threads)
+        simulation._is_there = True
+        return simulation
+
+    def run(self, *, cycles: int | None = None, stages: int | None = None, callback: Callable[[Simulation], object] | None = None,
+            every: int = 1000) -> list[dict[str, Any]]:
+        """Run what is left of the case, or so many stages of it (the running one counts), or at most so many cycles.
+
+        callback(simulation) is called after each cycle that is a multiple of `every`; False ends the run there. In it the state may be read and
+        motions assigned. An exception of it, and Ctrl-C (KeyboardInterrupt), end the run between two cycles; the state is whole, and run() goes
+        on from there. Where there is a folder a checkpoint is then written.
+        Returns all stages that have begun, each a dict: name, first_cycle, cycles, time [s] of the run at its end or now, is_over, converged,
+        met_end (an end that the case asks for), not_at_rest (names of blocks), to_come (texts). Raises RunError where the run cannot go on.
+        """
+        return self._run(cycles, stages, callback, every)
+
+    def contacts(self, also_open: bool = False) -> Any:
+        """Points of contacts as a structured array, a copy; closed ones, or all of faces near each other.
+
+        blocks        (2,) int32, numbers of the first and the second block
+        joint         int32, position in joint_names; -1: a wall of [[boundary]]
+        end           uint8, 0 or 1: a contact has two points
+        regime        uint8, position in hdem.REGIMES
+        point         (2,) where it is [m]
+        normal        (2,) from the first to the second block [-]; the shear axis is it turned left
+        length        of the contact that this point bears [m]; force / length is its stress
+        normal_force  compression positive [N]
+        shear_force   on the second block along the shear axis [N]
+        gap           between the faces where the blocks are now, below 0: they overlap [m]
+        closure       of the normal spring in the last cycle, with what in-situ stress presses it [m]
+        slip          of the second block against the shear axis since the stage began, in the middle of the contact [m]
+        plastic_slip  that the law remembers, signed as shear_force [m]; 0 of laws without memory
+        broken        0 intact, 1 broken, or met after the start: cohesion and tension are gone
+
+        Forces and closures are those of the last cycle, places and gaps those after it.
+        """
+        return super().contacts(also_open)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """summary.json, once all stages have run into a folder; else an empty dict."""
+        return json.loads(self._summary or "{}")
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The case as a dict of its own, with stages that were added, without its overrides."""
+        return tomllib.loads(self.case_text)
+
+    def add_stage(self, stage: Mapping[str, Any] | None = None, **keys: Any) -> None:
+        """One more stage behind the last: the keys of [[stage]], as a dict or by name, e.g. add_stage(cycles=2000, set={"joint.default.cohesion": 0}).
+
+        `set` changes numbers of joints and materials from that stage on: a dict, or texts as in the case. The changed case stands in case_text
+        and goes into checkpoints: what was done can be run again by `hdem run`, with the same bits. Lines in
+        messages about the changed case are those of case_text.
+        """
+        table = {**(stage or {}), **keys}
+        if isinstance(table.get("set"), Mapping):
+            table["set"] = [f"{key} = {toml_value(value, key)}" for key, value in table["set"].items()]
+        case = self.case
+        case.setdefault("stage", []).append(table)
+        self._take_case(to_toml(case), self.case_overrides)
+
+    def set(self, key: str, value: Any) -> None:
+        """A number of a joint or material from the next stage on, e.g. set("joint.default.friction_angle_deg", 25), as `set` of that stage."""
+        case = self.case
+        number = self.stage + (1 if self.stage_begun else 0)
+        if number >= len(case.get("stage", [])):
+            raise ValueError(f"set {key}: no stage is left to begin. Add one: add_stage(..., set={{{key!r}: {value!r}}}).")
+        case["stage"][number].setdefault("set", []).append(f"{key} = {toml_value(value, key)}")
+        self._take_case(to_toml(case), self.case_overrides)
+
+    def end_stage(self) -> None:
+        """The running stage ends with the present cycle; run() goes on with the next one."""
+        case = self.case
+        done = self.stage_cycles
+        if not self.stage_begun or self.is_over or done < 1:
+            raise ValueError("end_stage(): no stage is running. Run some cycles first.")
+        table = case["stage"][self.stage]
+        key = "max_cycles" if "until" in table else "cycles"
+        for limit in ("cycles", "duration", "max_cycles"):
+            table.pop(limit, None)
+        table[key] = done
+        prefix = f"stage[{self.stage}]."
+        overrides = [text for text in self.case_overrides
+                     if text.split("=")[0].strip() not in (prefix + "cycles", prefix + "duration", prefix + "max_cycles")]
+        self._take_case(to_toml(case), overrides)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a Simulation cannot be copied or sent to another process: write_checkpoint() there, from_checkpoint() here")
+
+    def __repr__(self) -> str:
+        if not getattr(self, "_is_there", False):
+            return "<hdem.Simulation that could not begin>"
+        return f"<hdem.Simulation {self.case_file!r}: cycle {self.cycle}, stage {self.stage}>"
