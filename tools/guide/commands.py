@@ -2,7 +2,7 @@
 """Runs the commands of the guide's pages as a reader would, one page after another.
 
     tools/guide/commands.py [PAGE...]            short forms, as the tests do; without names all pages
-    tools/guide/commands.py --long [PAGE...]     as they stand: half an hour for all pages on two cores
+    tools/guide/commands.py --long [PAGE...]     as they stand: ten minutes and more for all pages
     tools/guide/commands.py --list               what is run, and what is not and why
     tools/guide/commands.py --long --pictures gallery    and keeps the pictures that the page shows, in docs/pictures
 
