@@ -19,7 +19,7 @@ def rows_of(folder, plan):
         row = {"run": number, **chosen, STATE: "missing"}
         of_run = folder_of(folder, number)
         try:
-            summary = read_summary(of_run)
+            summary = read_summary(of_run, plans.needs_of(plan))
             row |= {name: value for name, value in flat(summary or {}).items() if name not in row}
             runs = is_running(of_run, LOCK) or is_running(folder / CLAIMS, of_run.name)
             row[STATE] = "running" if runs else "done" if summary is not None else "cut short" if of_run.exists() else "missing"

@@ -13,21 +13,24 @@ def folder_of(folder, number):
     return folder / f"run_{number:06d}"
 
 
-def read_summary(folder):
-    """None without one: the run has not come to its end."""
+FACTOR = "factor_of_safety"    # in the summary of a search by hdem fos that is done; before, it is that of the stages alone
+
+
+def read_summary(folder, needs=None):
+    """None without one, or without the key that it `needs`: the run has not come to its end."""
     try:
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     except FileNotFoundError:
         return None
     if not isinstance(summary, dict):
         raise ValueError("not a table of values")
-    return summary
+    return summary if needs is None or needs in summary else None
 
 
-def checked_summary(folder):
+def checked_summary(folder, needs=None):
     """The same, with an error that says what to do."""
     try:
-        return read_summary(folder)
+        return read_summary(folder, needs)
     except ValueError as error:
         raise SweepError(f"{folder / SUMMARY}: damaged ({error}). Remove it to run this again.") from None
 

@@ -5,11 +5,12 @@ import random
 from decimal import Decimal, InvalidOperation
 
 from . import designs
-from .common import SweepError
+from .common import FACTOR, SweepError
 from .criterion import Criterion
 
 PLAN = "plan.json"
 MOST_RUNS = 100000
+COMMANDS = ("run", "fos")
 
 
 def values_of(text):
@@ -50,6 +51,8 @@ def designed(options, varied):
 
 def bisection(options):
     """The chain of each run, or nothing."""
+    if options.bisect is not None and options.command_of_hdem != "run":
+        raise SweepError(f"--command {options.command_of_hdem}: cannot be bisected; it is a search itself.")
     if options.bisect is None:
         if options.fails or options.tolerance is not None:
             raise SweepError("--fails and --tolerance belong to --bisect here. Give --fails to work or collect.")
@@ -83,6 +86,8 @@ def make(options):
         raise SweepError(f"{file}: there is a plan already. Give another folder, or remove it.")
     options.output.mkdir(parents=True, exist_ok=True)
     plan = {"case": str(options.case.resolve()), "runs": [dict(zip(keys, row)) for row in rows], **chain}
+    if options.command_of_hdem != "run":
+        plan["command"] = options.command_of_hdem
     if options.design:
         plan["design"] = {"kind": options.design, "seed": options.design_seed}
     file.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
@@ -93,11 +98,20 @@ def make(options):
 def read(folder):
     try:
         plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-        if not isinstance(plan["case"], str) or not all(isinstance(chosen, dict) for chosen in plan["runs"]) or not isinstance(plan.get("bisect", {}), dict):
+        if not isinstance(plan["case"], str) or not all(isinstance(chosen, dict) for chosen in plan["runs"]) or not isinstance(plan.get("bisect", {}), dict) or command_of(plan) not in COMMANDS:
             raise ValueError("case or runs are damaged")
         return plan
     except (OSError, ValueError, TypeError, KeyError) as error:
         raise SweepError(f"{folder / PLAN}: cannot be read ({error}). Make it with `sweep plan`.") from None
+
+
+def command_of(plan):
+    return plan.get("command", "run")
+
+
+def needs_of(plan):
+    """The key without which a summary is not that of the whole run."""
+    return FACTOR if command_of(plan) == "fos" else None
 
 
 def order_of(plan):

@@ -2,6 +2,7 @@
 import subprocess
 
 from . import chains
+from .plans import command_of, needs_of
 from .common import DONE, INTERRUPTED, NOT_CONVERGED, SweepError, checked_summary, folder_of
 
 
@@ -17,7 +18,7 @@ class Starter:
         if self.stopped_by is not None:
             return 128 + self.stopped_by
         try:
-            process = subprocess.Popen([self.program, "run", *words, *self.for_hdem], start_new_session=self.apart, pass_fds=keeps)
+            process = subprocess.Popen([self.program, *words, *self.for_hdem], start_new_session=self.apart, pass_fds=keeps)
         except OSError as error:
             raise SweepError(f"{self.program}: cannot be run ({error}). Build it, or give it with --program or the variable HDEM.") from None
         self.running.add(process)
@@ -40,31 +41,32 @@ class Starter:
             self.tell(process)
 
 
-def exit_code_of(folder):
+def exit_code_of(folder, needs=None):
     """That of a run that is done; None for all others."""
-    summary = checked_summary(folder)
+    summary = checked_summary(folder, needs)
     return None if summary is None else DONE if summary.get("converged", True) else NOT_CONVERGED
 
 
-def run_in(folder, case, values, start):
+def run_in(folder, plan, values, start):
     """hdem's exit code; what is done is left alone. `start`: Starter.run, or the like."""
-    known = exit_code_of(folder)
+    known = exit_code_of(folder, needs_of(plan))
     if known is not None:
         return known
-    if (folder / "checkpoint.h5").exists():
-        return start(["--restart", str(folder)])
-    return start([case, "-o", str(folder), *(word for key, value in values.items() for word in ("--set", f"{key}={value}"))])
+    command = command_of(plan)
+    if command == "run" and (folder / "checkpoint.h5").exists():    # fos goes on with the same words
+        return start(["run", "--restart", str(folder)])
+    return start([command, plan["case"], "-o", str(folder), *(word for key, value in values.items() for word in ("--set", f"{key}={value}"))])
 
 
 def run_one(sweep, plan, number, start):
     """Exit code of a run, or of a chain of them."""
     folder, values = folder_of(sweep, number), plan["runs"][number - 1]
     if "bisect" not in plan:
-        return run_in(folder, plan["case"], values, start)
+        return run_in(folder, plan, values, start)
     known = exit_code_of(folder)
     if known is not None:
         return known
-    return chains.follow(folder, plan["bisect"], lambda step, chosen: run_in(step, plan["case"], values | chosen, start))
+    return chains.follow(folder, plan["bisect"], lambda step, chosen: run_in(step, plan, values | chosen, start))
 
 
 def what_did(code):

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 
 from . import estimates, plans, runs
-from .common import DONE, SUMMARY, SweepError, flat, folder_of, read_summary
+from .common import DONE, SweepError, flat, folder_of, read_summary
 from .criterion import Criterion
 
 CLAIMS = "claims"
@@ -42,7 +42,8 @@ class Enough:
     by now the share would be that of the fast ones.
     """
 
-    def __init__(self, options):
+    def __init__(self, options, needs=None):
+        self.needs = needs
         self.width, self.at_least, self.level = options.until_width, options.at_least, options.level
         self.criterion = Criterion(options.fails)
         if self.width is not None and not options.fails:
@@ -53,7 +54,7 @@ class Enough:
 
     def answer(self, sweep, number):
         if number not in self.known:
-            summary = read_summary(folder_of(sweep, number))
+            summary = read_summary(folder_of(sweep, number), self.needs)
             if summary is None:
                 return None
             row = flat(summary)
@@ -80,7 +81,7 @@ class Worker:
     def __init__(self, options, plan):
         self.options, self.plan = options, plan
         self.order = plans.order_of(plan)
-        self.enough = Enough(options)
+        self.enough = Enough(options, plans.needs_of(plan))
         self.start = runs.Starter(options.program, options.for_hdem, apart=True)
         self.lock, self.waiting = threading.Lock(), iter(self.order)
         self.codes, self.elsewhere, self.stopped, self.error = [], 0, False, None
@@ -113,7 +114,7 @@ class Worker:
     def report(self):
         counts = Counter(map(runs.what_did, self.codes))
         counts["with another worker"] = self.elsewhere
-        left = sum(not (folder_of(self.options.folder, number) / SUMMARY).exists() for number in self.order)
+        left = sum(read_summary(folder_of(self.options.folder, number), plans.needs_of(self.plan)) is None for number in self.order)
         print(f"{len(self.order)} runs: {told(counts) or 'none looked at'}; {left} without an outcome")
         if self.stopped:
             print(f"enough is known: {self.enough.share}, no wider than {self.options.until_width:g}")

@@ -43,7 +43,8 @@ with open(Path(__file__).resolve().parent / "calls", "a") as calls:
     calls.write(f"{folder.name} {x:g} {seed}\\n")
 if os.environ.get("STOP") == f"{x:g}":
     sys.exit(int(os.environ["CODE"]))
-(folder / "summary.json").write_text(json.dumps({"converged": True, "fallen": ["b"] * int(x > 23.7 + seed), "moved": 10.0 * x + seed, "title": "none", "nothing": None}))
+more = {"factor_of_safety": {"factor": x / 10, "trials": []}} if sys.argv[1] == "fos" and "FACTOR" in os.environ else {}
+(folder / "summary.json").write_text(json.dumps(more | {"converged": True, "fallen": ["b"] * int(x > 23.7 + seed), "moved": 10.0 * x + seed, "title": "none", "nothing": None}))
 '''
 
 
@@ -185,6 +186,15 @@ class Work(Scratch):
     def test_exit_code_is_that_of_the_worst(self):
         self.plan("--vary", "x=1:4")
         self.assertIn("3 done, 1 failed; 1 without", self.work(code=1, STOP="3", CODE="1").replace("1 failed, 3 done", "3 done, 1 failed").replace("2 done, 1 failed, 1 done", "3 done, 1 failed"))
+
+    def test_factor_of_safety_is_awaited(self):
+        self.plan("--vary", "x=10,30", "--command", "fos")
+        self.work()
+        self.assertEqual(self.sweep("collect", "s", code=1).split(":")[1].strip(), "0 of 2 runs done, 2 cut short", "its stages alone are not the search")
+        self.work(FACTOR="1")
+        self.assertEqual(len(self.calls()), 4)
+        self.assertIn("1 of 2 failed", self.sweep("collect", "s", "--fails", "factor_of_safety.factor<1.2", "--of", "factor_of_safety.factor"))
+        self.assertIn("cannot be bisected", self.sweep("plan", "case.toml", "-o", "t", "--command", "fos", *Chains.WORDS, code=2))
 
     def test_two_workers_share_a_plan(self):
         self.plan("--vary", "x=1:40")
