@@ -9,10 +9,10 @@ LOCK = ".lock"
 LONGEST = 4096    # bytes of what the file says
 
 
-def is_running(folder):
+def is_running(folder, name=LOCK):
     """Asked of the lock, not of the file: that of a run that was killed stays behind."""
     try:
-        descriptor = os.open(Path(folder) / LOCK, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        descriptor = os.open(Path(folder) / name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
         return False
     try:

@@ -1,0 +1,46 @@
+"""What all parts of tools/sweep share: the error that users see, folders of runs, what summary.json says."""
+import json
+
+DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 130, 143)    # exit codes of hdem
+SUMMARY = "summary.json"
+
+
+class SweepError(Exception):
+    """Told to the user in one line."""
+
+
+def folder_of(folder, number):
+    return folder / f"run_{number:06d}"
+
+
+FACTOR = "factor_of_safety"    # in the summary of a search by hdem fos that is done; before, it is that of the stages alone
+
+
+def read_summary(folder, needs=None):
+    """None without one, or without the key that it `needs`: the run has not come to its end."""
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return None
+    if not isinstance(summary, dict):
+        raise ValueError("not a table of values")
+    return summary if needs is None or needs in summary else None
+
+
+def checked_summary(folder, needs=None):
+    """The same, with an error that says what to do."""
+    try:
+        return read_summary(folder, needs)
+    except ValueError as error:
+        raise SweepError(f"{folder / SUMMARY}: damaged ({error}). Remove it to run this again.") from None
+
+
+def flat(summary):
+    """Numbers and texts by name; energies as energy.NAME, lists as their length."""
+    row = {}
+    for key, value in summary.items():
+        if isinstance(value, dict):
+            row |= {f"{key}.{name}": len(inner) if isinstance(inner, list) else inner for name, inner in value.items()}
+        else:
+            row[key] = len(value) if isinstance(value, list) else value
+    return row

@@ -1,0 +1,123 @@
+"""The plan of a sweep: which values each run has."""
+import itertools
+import json
+import random
+from decimal import Decimal, InvalidOperation
+
+from . import designs
+from .common import FACTOR, SweepError
+from .criterion import Criterion
+
+PLAN = "plan.json"
+MOST_RUNS = 100000
+COMMANDS = ("run", "fos")
+
+
+def values_of(text):
+    """1,2,5 as they are; 1:3 -> 1, 2, 3; 0:1:0.5 -> 0, 0.5, 1, without round-off."""
+    if ":" not in text:
+        return text.split(",")
+    try:
+        begin, end, step = (list(map(Decimal, text.split(":"))) + [Decimal(1)])[:3]
+        count = int((end - begin) / step) + 1
+    except (InvalidOperation, ZeroDivisionError, ValueError, OverflowError):
+        count = 0
+    if not 1 <= count <= MOST_RUNS or text.count(":") > 2:
+        raise SweepError(f"{text}: not a range. Write from:to or from:to:step, at most {MOST_RUNS} values.")
+    return [str(begin + i * step) for i in range(count)]
+
+
+def split_key(option, text):
+    key, equals, values = text.partition("=")
+    if not equals or not key or not values:
+        raise SweepError(f"{option} {text}: not KEY=VALUES. Write e.g. generator.seed=1:20.")
+    return key, values
+
+
+def combinations(varied):
+    """Every value with every other: the grid."""
+    lists = [values_of(values) for _, values in varied]
+    runs = [list(chosen) for chosen in itertools.islice(itertools.product(*lists), MOST_RUNS + 1)]
+    if len(runs) > MOST_RUNS:
+        raise SweepError(f"more than {MOST_RUNS} runs. Give fewer values.")
+    return runs
+
+
+def designed(options, varied):
+    if options.runs is None or not 1 <= options.runs <= MOST_RUNS:
+        raise SweepError(f"--design {options.design}: needs --runs, 1 to {MOST_RUNS}.")
+    return designs.sample(options.design, [values for _, values in varied], options.runs, options.design_seed)
+
+
+def bisection(options):
+    """The chain of each run, or nothing."""
+    if options.bisect is not None and options.command_of_hdem != "run":
+        raise SweepError(f"--command {options.command_of_hdem}: cannot be bisected; it is a search itself.")
+    if options.bisect is None:
+        if options.fails or options.tolerance is not None:
+            raise SweepError("--fails and --tolerance belong to --bisect here. Give --fails to work or collect.")
+        return {}
+    key, text = split_key("--bisect", options.bisect)
+    low, high = designs.numbers_of(text, text.split(":"), 2)
+    if not options.fails:
+        raise SweepError("--bisect: needs --fails, e.g. --fails detached_blocks>0.")
+    Criterion(options.fails)
+    if low >= high or not options.tolerance or not 1e-12 * (high - low) <= options.tolerance <= high - low:
+        raise SweepError(f"--bisect {options.bisect}: needs LOW below HIGH and a --tolerance between them.")
+    return {"bisect": {"key": key, "low": low, "high": high, "tolerance": options.tolerance, "fails": options.fails}}
+
+
+def make(options):
+    varied = [split_key("--vary", text) for text in options.vary]
+    keys = [key for key, _ in varied]
+    chain = bisection(options)
+    twice = next((key for key in keys if keys.count(key) > 1 or key == chain.get("bisect", {}).get("key")), None)
+    if twice:
+        raise SweepError(f"{twice}: varies twice. Give each key once.")
+    if not varied and not chain:
+        raise SweepError("nothing varies. Give --vary KEY=VALUES.")
+    if options.design is None and options.runs is not None:
+        raise SweepError("--runs: belongs to --design. Without one all combinations are run.")
+    rows = designed(options, varied) if options.design else combinations(varied)
+    if not options.case.exists():
+        raise SweepError(f"{options.case}: no such file. Give a case.")
+    file = options.output / PLAN
+    if file.exists():
+        raise SweepError(f"{file}: there is a plan already. Give another folder, or remove it.")
+    options.output.mkdir(parents=True, exist_ok=True)
+    plan = {"case": str(options.case.resolve()), "runs": [dict(zip(keys, row)) for row in rows], **chain}
+    if options.command_of_hdem != "run":
+        plan["command"] = options.command_of_hdem
+    if options.design:
+        plan["design"] = {"kind": options.design, "seed": options.design_seed}
+    file.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
+    print(f"{len(rows)} runs planned in {options.output}")
+    return 0
+
+
+def read(folder):
+    try:
+        plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
+        if not isinstance(plan["case"], str) or not all(isinstance(chosen, dict) for chosen in plan["runs"]) or not isinstance(plan.get("bisect", {}), dict) or command_of(plan) not in COMMANDS:
+            raise ValueError("case or runs are damaged")
+        return plan
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        raise SweepError(f"{folder / PLAN}: cannot be read ({error}). Make it with `sweep plan`.") from None
+
+
+def command_of(plan):
+    return plan.get("command", "run")
+
+
+def needs_of(plan):
+    """The key without which a summary is not that of the whole run."""
+    return FACTOR if command_of(plan) == "fos" else None
+
+
+def order_of(plan):
+    """Numbers of the runs in the order in which they are worked off, so that any first part of them stands for all: a grid is shuffled, always in the same way.
+    Designs are in such an order as they are."""
+    numbers = list(range(1, len(plan["runs"]) + 1))
+    if "design" not in plan:
+        random.Random(1).shuffle(numbers)
+    return numbers
