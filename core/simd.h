@@ -18,7 +18,8 @@ namespace hdem
 {
 inline constexpr int lanes = 4;
 
-struct Mask
+/// (Aligned in all files alike: a compiler without AVX gives vectors of 32 bytes 16 only, and contact_forces_wide.cpp is compiled with it.)
+struct alignas(32) Mask
 {
     using V = std::int64_t __attribute__((vector_size(32)));
     V v;  ///< per lane: 0 or -1
@@ -27,7 +28,7 @@ struct Mask
     void clear(int lane) { v[lane] = 0; }
 };
 
-struct Pack
+struct alignas(32) Pack
 {
     static constexpr int width = lanes;
     using V = double __attribute__((vector_size(32)));

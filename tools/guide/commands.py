@@ -79,7 +79,8 @@ def squeezed(text):
 
 
 def environment(program):
-    return os.environ | {"HDEM": str(program), "PATH": f"{program.parent}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "tools"), "MPLBACKEND": "Agg"}
+    modules = f"{ROOT / 'tools'}:{program.parent.parent / 'python'}"    # hdem_io and, where it was built, hdem
+    return os.environ | {"HDEM": str(program), "PATH": f"{program.parent}:{os.environ['PATH']}", "PYTHONPATH": modules, "MPLBACKEND": "Agg"}
 
 
 def run_page(page, folder, program, is_long, say=print):
