@@ -44,7 +44,12 @@ void CycleRunner::renew_contacts(const Model& model, State& state, const Team& t
 {
     StageClock clock(samples_of(team).sampled, 1.0);
     rebuild_.run(model, state, team);
-    team.alone([&] { prepare(model, state); });
+    team.alone(
+        [&]
+        {
+            prepare(model, state);
+            prepare_sums(state, team.threads());
+        });
     clock.lap(CycleStage::broad);
 }
 
@@ -98,9 +103,33 @@ void CycleRunner::prepare(const Model& model, const State& state)
     }
     work_.loads.resize(state.contacts.stale.size());
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
+    sums_for_ = 0;
+    left_out_ = false;
+    has_loads_ = false;
     prepared_ = true;
     prepared_stage_ = state.stage;
     first_evaluation_ = state.cycle;
+}
+
+void CycleRunner::prepare_sums(const State& state, int threads)
+{
+    sums_for_ = threads;
+    sums_run_ = state.contacts.size() >= least_for_sums_;
+    if (!sums_run_)
+        return;
+    std::vector<IndexRange> shares;
+    for (int member = 0; member < threads; ++member)
+    {
+        const IndexRange parts = Team(member, threads).share(static_cast<Index>(partition_.contacts.size()));
+        const Index begin = shares.empty() ? 0 : shares.back().end;
+        shares.push_back({begin, parts.begin < parts.end ? partition_.contacts[parts.end - 1].range.end : begin});
+    }
+    sums_.prepare(shares, state.blocks.size(), work_.block_contacts);
+    for (BlockPart& part : partition_.blocks)
+        part.summed = sums_.others(part.range);
+    part_loads_.resize(static_cast<std::size_t>(threads));
+    for (ContactLoads& loads : part_loads_)
+        loads.resize(largest_part);
 }
 
 void CycleRunner::prepare_forces(const Model& model, const State& state)
@@ -190,6 +219,12 @@ bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first
 {
     StageSamples& samples = samples_of(team);
     const ScopedTime time(samples.all);
+    team.alone(
+        [&]
+        {
+            if (sums_for_ != team.threads())
+                prepare_sums(state, team.threads());
+        });
     bool stable = true;
     for (std::int64_t now = first; now < end && stable && !state.contacts_outdated; ++now)
     {
@@ -248,7 +283,13 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
 
     evaluate(model, state, team, clock);
     clock.lap(CycleStage::force);
-    team.barrier();
+    team.barrier(
+        [&]
+        {
+            has_loads_ = !sums_run();
+            if (sums_run())
+                std::swap(state.blocks.force, sums_.sums);
+        });
     clock.lap(CycleStage::wait);
     bool goes_on = !has_stiff_contacts_ || find_unstable_contact() == no_index;
     for (const ContactPart& part : partition_.contacts)
@@ -324,7 +365,10 @@ void CycleRunner::leave_out(const State& state, const Team& team)
     for (Index i = block_parts.begin; i < block_parts.end; ++i)
         find_active_blocks(partition_.blocks[i].range, work_.block_contacts, state.contacts, state.blocks,
                            partition_.blocks[i].active);
-    team.barrier();
+    const auto misses = [](const auto& part)
+    { return part.active.size() != 1 || part.active[0].begin != part.range.begin || part.active[0].end != part.range.end; };
+    team.barrier(
+        [&] { left_out_ = std::ranges::any_of(partition_.contacts, misses) || std::ranges::any_of(partition_.blocks, misses); });
 }
 
 void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
@@ -345,9 +389,20 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         RegimeRule rule = rules_.contact;
         if (rule.closing != Closing::whole_cycles)
             rule.closing = closing_of(part.answer, state.blocks.step.next);
-        for (const IndexRange& range : part.active)
-            part.tally = evaluate_contacts(range, model, rule, state.blocks, state.contacts, work_.loads,
-                                           part.tally);  // Eqs. (1)-(10), (24)-(28)
+        // Eqs. (1)-(10), (24)-(28)
+        if (sums_run())
+        {
+            ContactLoads& loads = part_loads_[team.member()];
+            loads.first = part.range.begin;
+            sums_.begin(part.range, model, state.blocks.present, work_.external);
+            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, loads, part.tally);
+            sums_.add(part.range, state.contacts, loads, rules_.damping.needs_joint(), work_.loads);
+        }
+        else if (!has_loads_)
+            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, work_.loads, part.tally);
+        else
+            for (const IndexRange& range : part.active)
+                part.tally = evaluate_contacts(range, model, rule, state.blocks, state.contacts, work_.loads, part.tally);
         if (!part.stiff.empty())
             part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);
         part.ledger.friction += sum(part.tally.friction);

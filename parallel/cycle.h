@@ -1,6 +1,7 @@
 #pragma once
 /// The stages of a cycle in their order, and which thread does what.
 
+#include "core/contact/block_forces.h"
 #include "core/model/model.h"
 #include "core/motion/rest.h"
 #include "core/stage/rules.h"
@@ -25,7 +26,14 @@ class CycleRunner
     using FindRules = StageRules (*)(const Model&, const State&);
 
     /// @param find_rules  of the stage, asked again before each call's cycles
-    explicit CycleRunner(FindRules find_rules = resolve_rules) : find_rules_(find_rules) {}
+    /// @param least_for_sums  contacts from which on forces are summed as they are found (RunningSums), where nothing is left out: the same bits
+    explicit CycleRunner(FindRules find_rules = resolve_rules, Index least_for_sums = large_model)
+        : least_for_sums_(least_for_sums),
+          find_rules_(find_rules)
+    {
+    }
+    /// From here on the loads of contacts fit no cache: their way through memory costs more than sums that are formed contact by contact (parallel/README.md).
+    static constexpr Index large_model = 100000;
 
     /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.
     /// The same bits on any number of threads, and however a run is cut into calls.
@@ -71,6 +79,8 @@ class CycleRunner
     void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team);
+    void prepare_sums(const State& state, int threads);
+    [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);
@@ -79,6 +89,13 @@ class CycleRunner
                             StageClock& clock);
 
     Workspace work_;
+    RunningSums sums_;
+    int sums_for_ = 0;                      ///< threads that share the contacts
+    std::vector<ContactLoads> part_loads_;  ///< of a part, for each thread
+    Index least_for_sums_;                  ///< contacts
+    bool left_out_ = false;                 ///< some contact or block is
+    bool sums_run_ = false;                 ///< in this stretch of cycles, while nothing is left out
+    bool has_loads_ = false;                ///< work_.loads are those of all contacts
     LinerSolvers liner_solvers_;
     ContactRebuild rebuild_;
     Partition partition_;

@@ -20,9 +20,13 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
     part.ledger = {};
     part.rest_changed = false;
     add_work_before(part.pushed, work_.constant, state, part.ledger);
-    for (const IndexRange& range : part.active)
-        sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(),
-                   state.blocks);  // Eqs. (7), (8)
+    const auto sum_up = [&](IndexRange range)
+    { sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(), state.blocks); };
+    if (!sums_run())
+        std::ranges::for_each(part.active, sum_up);  // Eqs. (7), (8)
+    else
+        for (const Index b : part.summed)  // others have their sums
+            sum_up({b, b + 1});
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
     if (!part.bolted.empty())

@@ -8,7 +8,6 @@ namespace hdem
 {
 namespace
 {
-constexpr Index contacts_a_part = 128;  ///< a multiple of `lanes`; 35 kB with their blocks
 constexpr Index blocks_a_part = 64;
 
 template <typename Part>
@@ -59,7 +58,7 @@ void find_colours(const State& state, Partition& partition)
 
 void make_partition(const State& state, bool with_colours, Partition& partition)
 {
-    cut(state.contacts.size(), contacts_a_part, partition.contacts);
+    cut(state.contacts.size(), largest_part, partition.contacts);
     cut(state.blocks.size(), blocks_a_part, partition.blocks);
     partition.colours.clear();
     if (with_colours)

@@ -13,6 +13,8 @@ namespace hdem
 {
 /// Contacts that follow each other. Contacts are sorted by their blocks, and blocks along a space-filling curve, so that a part is a patch of
 /// the model that fits a cache. Its size does not depend on the number of threads.
+inline constexpr Index largest_part = 128;  ///< contacts; a multiple of that of any pack; 35 kB with their blocks
+
 struct ContactPart
 {
     IndexRange range;
@@ -32,6 +34,7 @@ struct BlockPart
 {
     IndexRange range;
     std::vector<IndexRange> active;  ///< blocks that are not left out
+    std::vector<Index> summed;       ///< blocks whose sums do not form contact by contact, see RunningSums
     std::vector<Index> flying;       ///< blocks with nothing near them
     std::vector<Index> pushed;       ///< blocks on which constant forces of sides act
     std::vector<Index> walls;        ///< that move

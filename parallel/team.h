@@ -25,10 +25,11 @@ class Team
     [[nodiscard]] int threads() const { return threads_; }
 
     /// This member's share of `count` pieces of work, consecutive ones. Which thread does a piece never changes its result.
-    [[nodiscard]] IndexRange share(Index count) const
+    [[nodiscard]] IndexRange share(Index count) const { return share(count, member_); }
+    [[nodiscard]] IndexRange share(Index count, int member) const
     {
         const auto cut = [&](int i) { return static_cast<Index>(static_cast<std::int64_t>(count) * i / threads_); };
-        return {cut(member_), cut(member_ + 1)};
+        return {cut(member), cut(member + 1)};
     }
 
     /// Wait for the others; what they wrote before is seen after.
@@ -36,6 +37,15 @@ class Team
     {
         if (threads_ > 1)
             meeting_->barrier.pass(threads_);
+    }
+    /// The same; one of them runs `last` before anybody goes on.
+    template <typename Last>
+    void barrier(const Last& last) const
+    {
+        if (threads_ > 1)
+            meeting_->barrier.pass(threads_, last);
+        else
+            last();
     }
 
     /// Run work(i) for each of `count` pieces, each on whichever member is free; all wait at the end. For pieces that have nothing to do with each other.

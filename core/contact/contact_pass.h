@@ -149,16 +149,16 @@ template <typename P>
 {
     const P x = touch.ex * sums.f_t - touch.ey * sums.f_m;
     const P y = touch.ey * sums.f_t + touch.ex * sums.f_m;
-    store_loads(x, y, sums.moment_ref, sums.moment_inc, sums.strength - sums.used, swapped, &loads.load[2 * i]);
+    store_loads(x, y, sums.moment_ref, sums.moment_inc, sums.strength - sums.used, swapped, &loads.load[2 * (i - loads.first)]);
     const MaskOf<P> springs = touching & !impulsive;
     const P mobilised = select(sums.strength > P(0.0), sums.used / sums.strength, 1.0);
-    store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, &loads.use[i]);
+    store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, &loads.use[i - loads.first]);
 }
 
 /// Ask for the memory of contacts that come later: processors see by themselves that ContactLanes follow each other, but too late. Where contacts are in no cache of a
 /// core's own a pass takes up to twice as long without (parallel/README.md).
 template <typename P>
-[[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, ContactLoads& loads, Index i)
+[[gnu::always_inline]] inline void fetch_ahead(const Blocks& blocks, Contacts& contacts, Index i)
 {
     constexpr Index ahead = 16;
     const Index at = std::min(i + ahead, static_cast<Index>(contacts.stale.size()) - P::width);
@@ -166,9 +166,10 @@ template <typename P>
     const char* const lane = reinterpret_cast<const char*>(&contacts.lane[at / lanes]);
     for (std::size_t b = 0; b < P::width / lanes * sizeof(ContactLanes); b += 64)
         __builtin_prefetch(lane + b, 1);
-    const char* const load = reinterpret_cast<const char*>(&loads.load[2 * at]);
-    for (std::size_t b = 0; b < 2 * P::width * sizeof(BlockLoad); b += 64)
-        __builtin_prefetch(load + b, 1);
+    for (int k = 0; k < P::width; ++k)
+        __builtin_prefetch(&blocks.motion[contacts.ref[at + k]]);
+    for (int k = 0; k < P::width; ++k)
+        __builtin_prefetch(&blocks.motion[contacts.inc[at + k]]);
 }
 
 /// evaluate_contacts for packs of one width. `range` begins and ends at multiples of it, or of `lanes` with the last contact.
@@ -186,7 +187,7 @@ template <ContactLaw law, Joints joints, typename P>
         ContactLanes& l = contacts.lane[i / lanes];
         const Index* const at_ref = &contacts.ref[i];
         const Index* const at_inc = &contacts.inc[i];
-        fetch_ahead<P>(contacts, loads, i);
+        fetch_ahead<P>(blocks, contacts, i);
         const BasicEdgePair<P> edges = load_edges<P>(l);
         const BasicMotion<P> ref = load_motions<P>(blocks.motion, at_ref);
         const BasicMotion<P> inc = load_motions<P>(blocks.motion, at_inc);

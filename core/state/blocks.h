@@ -5,6 +5,7 @@
 #include "core/types.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hdem
@@ -42,7 +43,8 @@ struct alignas(64) BlockForce
     float mobilised = -1.0F;  ///< greatest share of a joint's shear strength in use at its force points; -1: no force point [-]
     float t_x = 1.0F;         ///< direction of that joint [-]
     float t_y = 0.0F;
-    std::uint32_t contacts = 0;  ///< ContactBits
+    std::uint32_t contacts = 0;                                   ///< ContactBits
+    double joint_load = std::numeric_limits<double>::infinity();  ///< squared, of that joint: scratch while it is looked for [N2]
 };
 
 /// Inverse mass and inertia, zero where the motion is prescribed.

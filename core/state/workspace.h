@@ -28,10 +28,12 @@ struct alignas(16) JointUse
     std::uint32_t contacts = 0;  ///< ContactBits
 };
 
+/// Of contacts that follow each other.
 struct ContactLoads
 {
     std::vector<BlockLoad> load;  ///< two a contact: on the block of part_a, on that of part_b
     std::vector<JointUse> use;    ///< one a contact
+    Index first = 0;              ///< the contact with which they begin
 
     void resize(std::size_t contacts)
     {

@@ -3,6 +3,8 @@
 #include "verification/unit/small_run.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace hdem
 {
@@ -146,5 +148,37 @@ TEST(ChangingThreads, GiveTheSameFallOfLooseBlocks)
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(2, 3, 4, 8));
+
+/// Forces that are summed as they are found, by several threads, and by lists: also where blocks are left out and wake again.
+TEST(SumsAsFound, GiveTheBitsOfSumsByLists)
+{
+    CaseDef rock = scenes::joints(12.0, 12.0, 1.0, 3.0);
+    rock.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {6.0, 6.0}, .diameter = 4.0}};
+    rock.stages = {{.name = "dig", .until_converged = true, .max_cycles = 100'000, .excavate = {"tunnel"}}};
+    CaseDef rubble = scenes::turned(scenes::pile(30, 5), 23.0);
+    rubble.contact.method = Method::impulse;
+    for (const CaseDef& scene : {rock, rubble})
+    {
+        const CaseRun start(scene);
+        int at_rest = 0;
+        State by_lists = start.state();
+        std::vector<State> as_found(3, by_lists);
+        CycleRunner lists(resolve_rules, std::numeric_limits<Index>::max());
+        std::array<CycleRunner, 3> sums{CycleRunner(resolve_rules, 0), CycleRunner(resolve_rules, 0),
+                                        CycleRunner(resolve_rules, 0)};
+        for (int piece = 0; piece < 40; ++piece)
+        {
+            ASSERT_EQ(lists.run(start.model(), by_lists, 100, 1), no_index);
+            for (int threads = 1; threads <= 3; ++threads)
+            {
+                ASSERT_EQ(sums[threads - 1].run(start.model(), as_found[threads - 1], 100, threads), no_index);
+                ASSERT_EQ(state_hash(start.model(), as_found[threads - 1]), state_hash(start.model(), by_lists))
+                    << "cycle " << by_lists.cycle << ", " << threads << " threads";
+            }
+            at_rest += static_cast<int>(std::ranges::count(by_lists.blocks.rest, left_out));
+        }
+        EXPECT_EQ(at_rest > 100, scene.contact.method != Method::impulse) << at_rest;
+    }
+}
 }  // namespace
 }  // namespace hdem

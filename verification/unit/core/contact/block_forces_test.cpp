@@ -1,0 +1,90 @@
+/// Sums that form contact by contact have the bits of sums over lists, however contacts are shared out.
+#include "core/contact/block_forces.h"
+#include "core/contact/contact_forces.h"
+#include "verification/unit/case_run.h"
+
+#include <tuple>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+auto fields(const BlockForce& f)
+{
+    return std::tie(f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y, f.contacts);
+}
+
+/// Contacts cut at multiples of eight into about as many shares, some of them empty.
+std::vector<IndexRange> cut(Index contacts, Index shares)
+{
+    std::vector<IndexRange> ranges{{0, 0}};
+    for (Index i = 1; i <= shares; ++i)
+        ranges.push_back({ranges.back().end, i == shares ? contacts : contacts * i / shares / 8 * 8});
+    return ranges;
+}
+
+class RunningSumsTest : public testing::Test
+{
+  protected:
+    RunningSumsTest() : run_(scenes::turned(scenes::pile(60, 6), 23.0)) {}
+
+    /// @return  blocks that needed sum_forces
+    Index expect_same(Index shares, bool find_joint)
+    {
+        const Model& model = run_.model();
+        State now = run_.state();
+        std::vector<Triple> external(static_cast<std::size_t>(now.blocks.size()));
+        for (Index b = 0; b < now.blocks.size(); ++b)
+            external[b] = {0.1 * b, 1.0 / (1.0 + b), 3.0 * b};
+        BlockContacts list;
+        list_block_contacts(now.contacts, now.blocks.size(), list);
+        ContactLoads all, kept;
+        all.resize(now.contacts.stale.size());
+        kept.resize(now.contacts.stale.size());
+        const RegimeRule rule{.law = ContactLaw::by_speed};
+        State other = now;
+        static_cast<void>(evaluate_contacts({0, now.contacts.size()}, model, rule, now.blocks, now.contacts, all));
+        sum_forces({0, now.blocks.size()}, model, list, all, external, find_joint, now.blocks);
+
+        RunningSums running;
+        const std::vector<IndexRange> ranges = cut(other.contacts.size(), shares);
+        running.prepare(ranges, other.blocks.size(), list);
+        for (const IndexRange& range : ranges)
+        {
+            ContactLoads loads;
+            loads.resize(static_cast<std::size_t>(range.size()) + 8);
+            loads.first = range.begin;
+            static_cast<void>(evaluate_contacts(range, model, rule, other.blocks, other.contacts, loads));
+            running.begin(range, model, other.blocks.present, external);
+            running.add(range, other.contacts, loads, find_joint, kept);
+        }
+        std::swap(other.blocks.force, running.sums);
+        const std::vector<Index> others = running.others({0, other.blocks.size()});
+        for (const Index b : others)
+            sum_forces({b, b + 1}, model, list, kept, external, find_joint, other.blocks);
+        for (Index b = 0; b < now.blocks.size(); ++b)
+            EXPECT_EQ(fields(now.blocks.force[b]), fields(other.blocks.force[b])) << "block " << b << " of " << shares << " shares";
+        return static_cast<Index>(others.size());
+    }
+
+    CaseRun run_;
+};
+
+TEST_F(RunningSumsTest, HaveTheBitsOfSumsOverLists)
+{
+    Index cut_through = 0;
+    for (int i = 0; i < 10; ++i)
+    {
+        run_.advance(1500);
+        const Index of_one = expect_same(1, true);
+        EXPECT_EQ(expect_same(1, false), of_one);
+        EXPECT_GE(expect_same(2, true), of_one);
+        cut_through += expect_same(5, true) - of_one;
+        expect_same(5, false);
+    }
+    EXPECT_GT(cut_through, 20) << "blocks with contacts in several shares";
+}
+}  // namespace
+}  // namespace hdem
