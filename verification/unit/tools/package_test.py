@@ -174,6 +174,11 @@ class Package(unittest.TestCase):
         self.assertTrue(Path(file).is_relative_to(modules), file)
         self.assertEqual(state, self.hash)
 
+    def test_a_law_of_ones_own_finds_its_header(self):
+        if not shutil.which("cc"):
+            self.skipTest("no C compiler")
+        said("cc", "-fsyntax-only", "-I", self.usr / "include/hdem/core/joint", self.documents / "examples/verification/cases/joint/weakening_law.c")
+
     def test_man_page_completion_and_guide(self):
         page = gzip.decompress((self.usr / "share/man/man1/hdem.1.gz").read_bytes()).decode()
         self.assertIn(f'"hdem {VERSION}', page)
