@@ -8,7 +8,7 @@ namespace hdem
 {
 struct Version
 {
-    std::string_view number;      ///< "0.1.0"
+    std::string_view number;      ///< "0.2.0"
     std::string_view commit;      ///< full git hash, "unknown" without a git checkout
     bool dirty = false;           ///< tracked files differed from the commit
     std::string_view compiler;    ///< "GNU 12.2.0"
@@ -19,6 +19,6 @@ struct Version
 /// Of the library this program is linked with.
 [[nodiscard]] const Version& version();
 
-/// One line for a screen or a log, e.g. "hdem 0.1.0 (1a2b3c4d5e, changed; GNU 12.2.0, Release)".
+/// One line for a screen or a log, e.g. "hdem 0.2.0 (1a2b3c4d5e, changed; GNU 12.2.0, Release)".
 [[nodiscard]] std::string version_line();
 }  // namespace hdem

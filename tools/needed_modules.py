@@ -5,8 +5,9 @@
 """
 import importlib
 import sys
+from pathlib import Path
 
-REMEDY = "run tools/setup, or use /usr/bin/python3"
+IN_SOURCES = (Path(__file__).parent / "setup").exists()
 
 
 def missing_of(names):
@@ -20,11 +21,17 @@ def missing_of(names):
     return missing
 
 
-def need(*names, remedy=REMEDY):
+def remedy_for(missing):
+    """Where hdem is installed there is no tools/setup."""
+    first = "run tools/setup" if IN_SOURCES else f"install {' '.join(f'python3-{name}' for name in missing)}"
+    return f"{first}, or use /usr/bin/python3"
+
+
+def need(*names, remedy=None):
     """Ends the program when one of them is missing. From here on the screen takes any text."""
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="backslashreplace")    # a name in another alphabet, or a path in none
     missing = missing_of(names)
     if missing:
-        print(f"error: needs the Python module{'s' if len(missing) > 1 else ''} {', '.join(missing)}: {remedy}", file=sys.stderr)
+        print(f"error: needs the Python module{'s' if len(missing) > 1 else ''} {', '.join(missing)}: {remedy or remedy_for(missing)}", file=sys.stderr)
         sys.exit(2)

@@ -13,3 +13,12 @@ configure_package_config_file(tools/cmake/hdemConfig.cmake.in ${PROJECT_BINARY_D
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hdemConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hdemConfig.cmake ${PROJECT_BINARY_DIR}/hdemConfigVersion.cmake DESTINATION ${package_dir})
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# What users of the program read and copy. The cases stand in folders like those of the sources, so that commands of the guide run in a copy.
+set(examples ${CMAKE_INSTALL_DOCDIR}/examples)
+install(FILES CITATION.cff io/hdf5_format.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(DIRECTORY verification/cases DESTINATION ${examples}/verification COMPONENT documents)
+install(DIRECTORY tools/guide/cases DESTINATION ${examples}/tools/guide COMPONENT documents)
+install(DIRECTORY tools/python/examples DESTINATION ${examples}/tools/python COMPONENT documents FILES_MATCHING PATTERN "*.py")
+install(FILES tools/sweep.slurm tools/sweep_many.slurm DESTINATION ${examples}/tools COMPONENT documents)
+install(FILES core/joint/hdem_joint_law.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hdem/core/joint COMPONENT documents)    # for laws in shared libraries

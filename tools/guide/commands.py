@@ -79,7 +79,8 @@ def squeezed(text):
 
 
 def environment(program):
-    modules = f"{ROOT / 'tools'}:{program.parent.parent / 'python'}"    # hdem_io and, where it was built, hdem
+    prefix = program.parent.parent
+    modules = f"{ROOT / 'tools'}:{prefix / 'share/hdem'}:{prefix / 'python'}"    # hdem_io and, where it was built, hdem
     return os.environ | {"HDEM": str(program), "PATH": f"{program.parent}:{os.environ['PATH']}", "PYTHONPATH": modules, "MPLBACKEND": "Agg"}
 
 
