@@ -1,0 +1,64 @@
+/// The bare force loop: yardstick/force_loop/wall/<blocks>/<threads>.
+
+#include "perf/counters.h"
+#include "perf/force_loop.h"
+#include "perf/limits.h"
+#include "perf/scene_run.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hdem::perf
+{
+namespace
+{
+constexpr std::int64_t pieces = 10;
+
+void run_loop(benchmark::State& bench, Index blocks, const std::string& family, int threads)
+{
+    ForceLoop loop(static_cast<Index>(std::lround(std::sqrt(blocks))));
+    const auto cycles = std::max<std::int64_t>(10, 4'000'000 / blocks);
+    loop.advance(cycles / 5 + 1, threads);
+    Limits limits(threads, blocks >= 100'000);
+    Elapsed time;
+    for (auto _ : bench)
+    {
+        for (std::int64_t piece = 0; piece < pieces; ++piece)
+        {
+            limits.look();
+            const Stopwatch watch;
+            loop.advance(cycles * (piece + 1) / pieces - cycles * piece / pieces, threads);
+            time += watch.elapsed();
+        }
+        bench.SetIterationTime(time.wall);
+    }
+    if (loop.closed_points() != loop.contact_points())
+        return bench.SkipWithError("points have opened: the speed would be that of fewer points");
+    if (std::abs(loop.supported_share() - 1.0) > 0.2)
+        return bench.SkipWithError("the wall does not stand on its floor");
+    const auto updates = static_cast<double>(loop.contact_points() * cycles);
+    report_points(bench, updates);
+    limits.report_operations(bench, updates, time);
+    bench.counters["contact_points"] = static_cast<double>(loop.contact_points());
+    bench.counters["blocks"] = static_cast<double>(loop.blocks());
+    report_hash(bench, family, loop.hash());
+}
+
+[[maybe_unused]] const bool registered = []
+{
+    for (const Index blocks : {1'000, 10'000, 100'000, 1'000'000})
+        for (const int threads : thread_counts())
+        {
+            const std::string family = "yardstick/force_loop/wall/" + std::to_string(blocks);
+            benchmark::RegisterBenchmark((family + '/' + std::to_string(threads)).c_str(),
+                                         [=](benchmark::State& bench) { run_loop(bench, blocks, family, threads); })
+                ->UseManualTime()
+                ->Iterations(1)
+                ->Unit(benchmark::kMillisecond);
+        }
+    return true;
+}();
+}  // namespace
+}  // namespace hdem::perf
