@@ -3,11 +3,11 @@
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/stage/properties.h"
+#include "core/state/fields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 #include <utility>
 
 namespace hdem
@@ -16,14 +16,28 @@ namespace
 {
 constexpr std::int64_t longest_run = 1'000'000'000'000'000;  // [cycles]; sums of two such numbers do not overflow
 
-bool are_finite(std::initializer_list<double> values)
+/// All numbers of these lists (core/state/fields.h)?
+template <typename Record, typename... Lists>
+bool are_finite(const Record& record, const Lists&... lists)
 {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+    bool all = true;
+    const auto look = [&](const auto& number) { all = all && std::isfinite(number); };
+    (fields::for_each(lists, record, look), ...);
+    return all;
+}
+
+/// The same, infinity included.
+template <typename Record, typename List>
+bool are_numbers(const Record& record, const List& list)
+{
+    bool all = true;
+    fields::for_each(list, record, [&](const auto& number) { all = all && !std::isnan(number); });
+    return all;
 }
 
 bool is_finite(const BlockMotion& m)
 {
-    return are_finite({m.x, m.y, m.c, m.s, m.vx, m.vy, m.w, m.angle});
+    return are_finite(m, fields::motion);
 }
 
 /// A unit vector but for round-off.
@@ -57,10 +71,7 @@ std::optional<Damage> damage_of_stages(const Model& model, const State& state)
     if (state.ends.size() != model.stages[static_cast<std::size_t>(state.stage)].ends.size())
         return Damage{"/state/ends", "not the ends of the stage"};
     const auto is_watch = [&](const EndWatch& w)
-    {
-        return w.since_cycle <= state.cycle && w.since_time <= state.time && std::isfinite(w.low) && std::isfinite(w.high) &&
-               std::isfinite(w.axis_x) && std::isfinite(w.axis_y);
-    };
+    { return w.since_cycle <= state.cycle && w.since_time <= state.time && are_finite(w, fields::watch_values); };
     if (!std::ranges::all_of(state.ends, is_watch))
         return Damage{"/state/ends", "not what a look leaves behind"};
     for (std::size_t i = 0; i < state.stages_done.size(); ++i)
@@ -126,7 +137,7 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
         if (!is_finite(state.rebuilt_at[i]) || !is_rotation(state.rebuilt_at[i]))
             return Damage{"/blocks/rebuilt_at", "not a place and a rotation"};
         const BlockForce& f = blocks.force[i];
-        if (!are_finite({f.x, f.y, f.moment, f.mobilised, f.t_x, f.t_y}) || std::isnan(f.reserve) ||  // a bolt may never yield
+        if (!are_finite(f, fields::force, fields::joint_use) || std::isnan(f.reserve) ||  // a bolt may never yield
             f.contacts > (contact_force | contact_impulse))
             return Damage{"/blocks/force", "not a force"};
         if (!(blocks.stable_step[i] >= 0.0))
@@ -150,22 +161,20 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
     {
         if (f.block <= last || f.block >= blocks.size())
             return Damage{"/blocks/released", "not ascending numbers of blocks"};
-        if (!are_finite({f.x, f.y, f.moment}))
+        if (!are_finite(f, fields::released_force))
             return Damage{"/blocks/released_force", "not a force"};
         last = f.block;
     }
     if (state.water.size() != (model.water.given ? blocks.present.size() : 0))
         return Damage{"/blocks/water", "not one force a block"};
     for (const Triple& f : state.water)
-        if (!are_finite({f.x, f.y, f.w}))
+        if (!are_finite(f, fields::triple))
             return Damage{"/blocks/water", "not a force"};
     for (const BoltRecord& b : state.support.bolts)
-        if (static_cast<std::uint8_t>(b.status) >= bolt_states ||
-            !are_finite({b.force, b.shear_force, b.greatest_force, b.elongation, b.stored, b.spent}))
+        if (static_cast<std::uint8_t>(b.status) >= bolt_states || !are_finite(b, fields::bolt_record))
             return Damage{"/bolts/record", "not the record of a bolt"};
     for (const LinerRecord& l : state.support.liners)
-        if (l.installed > 1 || l.since < 0 || l.since > state.cycle || l.hinges < 0 ||
-            !are_finite({l.thrust, l.moment, l.displacement, l.parted, l.stored, l.spent}))
+        if (l.installed > 1 || l.since < 0 || l.since > state.cycle || l.hinges < 0 || !are_finite(l, fields::liner_record))
             return Damage{"/liners/record", "not the record of a liner"};
     if (!std::ranges::all_of(state.support.history, [](double value) { return std::isfinite(value); }))
         return Damage{"/bolts/history", "not a finite number"};
@@ -192,19 +201,14 @@ bool has_features_of_its_parts(const Model& model, const Contact& contact)
 
 bool has_finite_numbers(const Contact& contact)
 {
-    const EdgePair& e = contact.edges;
     const auto is_finite_point = [](const PointHistory& p)
     {
-        const JointMemory& m = p.memory;
-        return are_finite({p.normal_force, p.shear_force, p.rest_overlap, p.overlap, p.tilt_force, p.preload, p.energy, p.stiffness,
-                           m.slip, m.state, m.turn, m.opening, m.broken}) &&
+        return are_finite(p, fields::forces, fields::preload, fields::springs) && are_finite(p.memory, fields::memory) &&
                p.regime <= Regime::impulse;
     };
-    return are_finite({e.tx, e.ty, e.start_t, e.start_m, e.length, e.p0x, e.p0y, e.p1x, e.p1y, contact.length_floor,
-                       contact.last_length}) &&
-           contact.length_floor > 0.0 && contact.last_length >= 0.0 && !std::isnan(contact.moved_limit) &&
-           std::none_of(contact.seen.begin(), contact.seen.end(), [](float value) { return std::isnan(value); }) &&
-           is_finite_point(contact.point[0]) && is_finite_point(contact.point[1]);
+    return are_finite(contact.edges, fields::edges) && are_finite(contact, fields::lengths) && contact.length_floor > 0.0 &&
+           contact.last_length >= 0.0 && are_numbers(contact, fields::search) && is_finite_point(contact.point[0]) &&
+           is_finite_point(contact.point[1]);
 }
 
 std::optional<Damage> damage_of_contacts(const Model& model, const State& state)

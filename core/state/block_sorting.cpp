@@ -2,6 +2,7 @@
 
 #include "core/geometry/space_curve.h"
 #include "core/model/block_order.h"
+#include "core/state/fields.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -97,16 +98,7 @@ void sort_blocks(Model& model, State& state)
     const Moved moved(model, sorted.shapes, from);
     model = std::move(sorted);
 
-    Blocks& blocks = state.blocks;
-    permute(from, blocks.motion);
-    permute(from, blocks.force);
-    permute(from, blocks.inertia);
-    permute(from, blocks.stable_step);
-    permute(from, blocks.rest);
-    permute(from, blocks.margin);
-    permute(from, blocks.present);
-    permute(from, blocks.reference_position);
-    permute(from, blocks.reference_angle);
+    fields::for_each(fields::block_arrays, state.blocks, [&](auto& array) { permute(from, array); });
     permute(from, state.rebuilt_at);
     if (!state.water.empty())
         permute(from, state.water);

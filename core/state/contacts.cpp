@@ -1,6 +1,9 @@
 #include "core/state/contacts.h"
 
+#include "core/state/fields.h"
+
 #include <limits>
+#include <type_traits>
 
 namespace hdem
 {
@@ -41,108 +44,67 @@ void Contacts::reserve(Index n)
     memory_lane.reserve(has_memory ? groups : 0);
 }
 
+namespace
+{
+/// Use each number of contact `i` together with its place in the arrays.
+template <typename AnyContacts, typename AnyContact, typename Use>
+void for_each_number(AnyContacts& contacts, Index i, AnyContact& contact, const Use& use)
+{
+    const Index at = i % lanes;
+    auto& lane = contacts.lane[i / lanes];
+    fields::for_each_pair(fields::features, contact, contacts, [&](auto& number, auto& array) { use(number, array[i]); });
+    fields::for_each_pair(fields::swapped, contact, contacts, [&](auto& number, auto& array) { use(number, array[i]); });
+    const auto use_lane = [&](auto& number, auto& places) { use(number, places[at]); };
+    fields::for_each_pair(fields::lengths, contact, lane, use_lane);
+    fields::for_each_pair(fields::search, contact, lane, use_lane);
+    fields::for_each_pair(fields::edges, contact.edges, lane, use_lane);
+    for (int k = 0; k < 2; ++k)
+    {
+        auto& point = contact.point[k];
+        const auto use_point = [&](auto& number, auto& places) { use(number, places[k][at]); };
+        fields::for_each_pair(fields::forces, point, lane, use_point);
+        fields::for_each_pair(fields::regime, point, contacts, [&](auto& number, auto& arrays) { use(number, arrays[k][i]); });
+        if (contacts.has_preload)
+            fields::for_each_pair(fields::preload, point, contacts.preload_lane[i / lanes], use_point);
+        if (!contacts.has_memory)
+            continue;
+        auto& memory = contacts.memory_lane[i / lanes].point[k];
+        fields::for_each_pair(fields::memory, point.memory, memory, use_lane);
+        fields::for_each_pair(fields::springs, point, memory, use_lane);
+    }
+}
+
+/// to = from, also from a byte to what it stands for.
+constexpr auto assign = [](auto& to, const auto& from) { to = static_cast<std::remove_reference_t<decltype(to)>>(from); };
+}  // namespace
+
 EdgePair Contacts::edges(Index i) const
 {
-    const ContactLanes& l = lane[i / lanes];
-    const Index k = i % lanes;
-    return {l.tx[k], l.ty[k], l.start_t[k], l.start_m[k], l.length[k], l.p0x[k], l.p0y[k], l.p1x[k], l.p1y[k]};
+    EdgePair pair;
+    fields::for_each_pair(fields::edges, pair, lane[i / lanes],
+                          [&](double& number, const ContactLanes::Lane& places) { number = places[i % lanes]; });
+    return pair;
 }
 
 JointMemory Contacts::memory(int end, Index i) const
 {
-    if (!has_memory)
-        return {};
-    const MemoryLanes::Point& m = memory_lane[i / lanes].point[end];
-    const Index at = i % lanes;
-    return {m.slip[at], m.state[at], m.turn[at], m.opening[at], m.broken[at]};
+    JointMemory memory;
+    if (has_memory)
+        fields::for_each_pair(fields::memory, memory, memory_lane[i / lanes].point[end],
+                              [&](double& number, const ContactLanes::Lane& places) { number = places[i % lanes]; });
+    return memory;
 }
 
 Contact Contacts::get(Index i) const
 {
-    const ContactLanes& l = lane[i / lanes];
-    const Index at = i % lanes;
-    Contact contact{.part_a = part_a[i],
-                    .part_b = part_b[i],
-                    .ref = ref[i],
-                    .inc = inc[i],
-                    .ref_edge = ref_edge[i],
-                    .inc_edge = inc_edge[i],
-                    .law = law[i],
-                    .swapped = swapped[i] != 0,
-                    .moved_limit = l.moved_limit[at],
-                    .seen = {l.seen[0][at], l.seen[1][at], l.seen[2][at], l.seen[3][at]},
-                    .length_floor = l.length_floor[at],
-                    .last_length = l.last_length[at],
-                    .edges = edges(i),
-                    .point = {}};
-    for (int k = 0; k < 2; ++k)
-    {
-        PointHistory& point = contact.point[k];
-        point.normal_force = l.normal_force[k][at];
-        point.shear_force = l.shear_force[k][at];
-        point.rest_overlap = l.rest_overlap[k][at];
-        point.regime = static_cast<Regime>(regime[k][i]);
-        point.overlap = l.overlap[k][at];
-        point.tilt_force = l.tilt_force[k][at];
-        point.preload = preload(k, i);
-        if (!has_memory)
-            continue;
-        point.memory = memory(k, i);
-        point.energy = memory_lane[i / lanes].point[k].energy[at];
-        point.stiffness = memory_lane[i / lanes].point[k].stiffness[at];
-    }
+    Contact contact;
+    for_each_number(*this, i, contact, [](auto& number, const auto& place) { assign(number, place); });
     return contact;
 }
 
 void Contacts::put(Index i, const Contact& contact)
 {
-    ContactLanes& l = lane[i / lanes];
-    const Index at = i % lanes;
-    part_a[i] = contact.part_a;
-    part_b[i] = contact.part_b;
-    ref[i] = contact.ref;
-    inc[i] = contact.inc;
-    ref_edge[i] = contact.ref_edge;
-    inc_edge[i] = contact.inc_edge;
-    law[i] = contact.law;
     stale[i] = 0;
-    swapped[i] = contact.swapped ? 1 : 0;
-    l.moved_limit[at] = contact.moved_limit;
-    for (int k = 0; k < 4; ++k)
-        l.seen[k][at] = contact.seen[k];
-    l.length_floor[at] = contact.length_floor;
-    l.last_length[at] = contact.last_length;
-    const EdgePair& e = contact.edges;
-    l.tx[at] = e.tx;
-    l.ty[at] = e.ty;
-    l.start_t[at] = e.start_t;
-    l.start_m[at] = e.start_m;
-    l.length[at] = e.length;
-    l.p0x[at] = e.p0x;
-    l.p0y[at] = e.p0y;
-    l.p1x[at] = e.p1x;
-    l.p1y[at] = e.p1y;
-    for (int k = 0; k < 2; ++k)
-    {
-        l.normal_force[k][at] = contact.point[k].normal_force;
-        l.shear_force[k][at] = contact.point[k].shear_force;
-        l.overlap[k][at] = contact.point[k].overlap;
-        l.rest_overlap[k][at] = contact.point[k].rest_overlap;
-        l.tilt_force[k][at] = contact.point[k].tilt_force;
-        regime[k][i] = static_cast<std::uint8_t>(contact.point[k].regime);
-        if (has_preload)
-            preload_lane[i / lanes].preload[k][at] = contact.point[k].preload;
-        if (!has_memory)
-            continue;
-        MemoryLanes::Point& m = memory_lane[i / lanes].point[k];
-        const JointMemory& from = contact.point[k].memory;
-        m.slip[at] = from.slip;
-        m.state[at] = from.state;
-        m.turn[at] = from.turn;
-        m.opening[at] = from.opening;
-        m.broken[at] = from.broken;
-        m.energy[at] = contact.point[k].energy;
-        m.stiffness[at] = contact.point[k].stiffness;
-    }
+    for_each_number(*this, i, contact, [](const auto& number, auto& place) { assign(place, number); });
 }
 }  // namespace hdem

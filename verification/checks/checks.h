@@ -24,7 +24,7 @@ struct Check
 
 inline constexpr std::array<const char*, 3> all_methods{"force", "impulse", "hybrid"};
 
-std::vector<Check> static_test_checks();
+std::vector<Check> static_block_checks();
 std::vector<Check> bounce_checks();
 std::vector<Check> transition_checks();
 std::vector<Check> tunnel_checks();

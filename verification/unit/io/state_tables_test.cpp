@@ -1,0 +1,210 @@
+/// Each number of a state is in the checkpoint.
+
+#include "core/rock/build_model.h"
+#include "core/state/state_tables.h"
+#include "io/checkpoint.h"
+#include "parallel/simulation.h"
+#include "verification/scenes/scenes.h"
+#include "verification/unit/sample_joints.h"
+#include "verification/unit/small_run.h"
+
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace hdem
+{
+namespace
+{
+using test::ScratchFolder;
+
+/// A tunnel in rock under stress and water, with bolts, a lining, joints that remember, and forces of what is excavated still to be taken off.
+CaseDef with_everything()
+{
+    CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 3.0);
+    scene.contact.method = Method::hybrid;
+    scene.joints = {test::sample_joints()[0]};
+    scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
+    scene.water = {.given = true, .table = {{0.0, 14.0}, {12.0, 6.0}}};
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {6.0, 6.0}, .diameter = 4.0}};
+    BoltDef& bolt = scene.bolts.emplace_back();
+    bolt.name = "bolt";
+    bolt.kind = BoltKind::grouted;
+    bolt.around = "tunnel";
+    bolt.length = 3.0;
+    bolt.along = 1.5;
+    bolt.spacing = 1.5;
+    bolt.stage = "dig";
+    bolt.area = 2e-4;
+    bolt.bond_stiffness = 1e7;
+    bolt.bond_strength = 2e3;
+    LinerDef& liner = scene.liners.emplace_back();
+    liner.name = "shotcrete";
+    liner.around = "tunnel";
+    liner.stage = "dig";
+    liner.thickness = 0.1;
+    liner.modulus = 1e10;
+    liner.normal_stiffness = 1e9;
+    StageDef dig{.name = "dig", .until_converged = true, .max_cycles = 900, .relax_cycles = 600};
+    dig.excavate = {"tunnel"};
+    dig.ends = {{.text = "cycles > 800", .quantity = EndQuantity::cycles, .limit = 800.0}};
+    scene.stages = {{.name = "gravity", .cycles = 50}, dig};
+    return scene;
+}
+
+/// The last bit of a number, or the next value.
+template <typename T>
+T changed(T value)
+{
+    if constexpr (std::is_same_v<T, double>)
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
+    else if constexpr (std::is_same_v<T, float>)
+        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1u);
+    else if constexpr (std::is_same_v<T, bool>)
+        return !value;
+    else
+        return static_cast<T>(static_cast<std::int64_t>(value) ^ 1);
+}
+
+/// One number of a state by its place among all of them: first it is changed, later it is read.
+struct Pick
+{
+    int wanted = 0;
+    bool change = false;
+    int at = 0;
+    std::string name = {};
+    double value = 0.0;
+
+    template <typename T>
+    void look(const std::string& where, T& number)
+    {
+        if (at++ != wanted)
+            return;
+        name = where;
+        if (change)
+            number = changed(number);
+        value = static_cast<double>(number);
+    }
+};
+
+/// Goes through all numbers of one row of each table: of the row after the first, where there is one.
+/// @param told  also those that decide nothing
+void pick_from(State& state, bool told, Pick& pick)
+{
+    const auto value = [&](const char* name, auto& number) { pick.look(name, number); };
+    const auto row = [&](auto, const char* name, auto& rows, const auto& list)
+    {
+        ASSERT_FALSE(rows.empty()) << name;
+        fields::for_each(list, rows[rows.size() / 2], [&](auto& number) { pick.look(name, number); });
+    };
+    tables::for_each_of_run(state, value);
+    tables::for_each_of_ends(state, row);
+    tables::for_each_of_blocks(state, row);
+    tables::for_each_of_excavations(state, row);
+    tables::for_each_of_support(state.support, row);
+    const Index middle = state.contacts.size() / 2;
+    Contact contact = state.contacts.get(middle);
+    std::uint8_t stale = state.contacts.stale[middle];
+    tables::for_each_of_contact(state.contacts.has_preload, state.contacts.has_memory,
+                                [&](auto, const char* name, const auto& list)
+                                { fields::for_each(list, contact, [&](auto& number) { pick.look(name, number); }); });
+    pick.look("/contacts/stale", stale);
+    if (pick.change)
+    {
+        state.contacts.put(middle, contact);
+        state.contacts.stale[middle] = stale;
+    }
+    if (!told)
+        return;
+    tables::for_each_counter(state, value);
+    tables::for_each_told(state, row);
+    for (const LedgerTerm& term : ledger_terms)
+        pick.look(term.name, state.ledger.*term.value);
+}
+
+class StateTables : public testing::Test
+{
+  protected:
+    static void SetUpTestSuite()
+    {
+        hdem::Setup setup = build_model(with_everything());
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        simulation.begin_stage(0);
+        simulation.advance(50);
+        simulation.note_outcome({.cycles = 50}, {2});
+        simulation.begin_stage(1);
+        simulation.advance(300);
+        model_ = new Model(simulation.model());
+        state_ = new State(simulation.state());
+        state_->came_loose = {
+            {.stage = 1, .block = 3}};  // as static solutions leave them, which there are none of with such joints
+        state_->statics = {{.stage = 1, .end = StaticEnd::balanced, .iterations = 7, .residual = 1e-9}};
+    }
+    static void TearDownTestSuite()
+    {
+        delete model_;
+        delete state_;
+    }
+
+    /// The state with one number changed.
+    static State with_change(Pick& pick, bool told)
+    {
+        State state = *state_;
+        pick.change = true;
+        pick_from(state, told, pick);
+        return state;
+    }
+    static int count(bool told)
+    {
+        Pick none{.wanted = -1};
+        State state = *state_;
+        pick_from(state, told, none);
+        return none.at;
+    }
+
+    static inline Model* model_ = nullptr;
+    static inline State* state_ = nullptr;
+};
+
+/// What a checkpoint gives back; nothing where it refuses the state as damaged, which it does only because it has read the change.
+std::optional<State> saved_and_loaded(const State& state, const Model& model, const ScratchFolder& folder)
+{
+    RunRecord record;
+    record.history_axes.resize(model.histories.size(), Vec2(0.0, 0.0));
+    write_checkpoint(folder.path(), record, model, state);
+    hdem::Setup setup = build_model(with_everything());
+    try
+    {
+        return CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+    }
+    catch (const InputError&)
+    {
+        return std::nullopt;
+    }
+}
+
+TEST_F(StateTables, AreAllInTheCheckpoint)
+{
+    const ScratchFolder folder("state_tables");
+    ASSERT_TRUE(saved_and_loaded(*state_, *model_, folder).has_value());
+    const int numbers = count(true);
+    EXPECT_GT(numbers, 150);
+    int refused = 0;
+    for (int i = 0; i < numbers; ++i)
+    {
+        Pick pick{.wanted = i};
+        const State state = with_change(pick, true);
+        std::optional<State> loaded = saved_and_loaded(state, *model_, folder);
+        if (!loaded)
+        {
+            ++refused;
+            continue;
+        }
+        Pick read{.wanted = i};
+        pick_from(*loaded, true, read);
+        EXPECT_EQ(read.value, pick.value) << pick.name << ", number " << i;
+    }
+    EXPECT_LT(refused, numbers / 4);
+}
+}  // namespace
+}  // namespace hdem
