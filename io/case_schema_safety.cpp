@@ -10,7 +10,8 @@ namespace
 constexpr const char* about =
     "What `hdem fos` does after all stages have run: the strength of joints is divided by a factor F until blocks fail. All of the "
     "strength of every law is divided (cohesion, tan φ, tension, residual values, the whole envelope of curved laws); dilation, "
-    "stiffness and in-situ stress stay. Each trial begins from the same state of rest under great strength, with springs and "
+    "stiffness and in-situ stress stay, and so do the forces of water. Each trial begins from the same state of rest under great "
+    "strength, with springs and "
     "quasi-static damping whatever the case's method. It is stable when the rock comes to rest and no block has moved farther than "
     "`displacement`; failed when one has and does not slow down.";
 

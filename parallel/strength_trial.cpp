@@ -24,12 +24,20 @@ double creep_time(const Model& model, double way, double tolerance, double facto
     return 0.25 * std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
 }
 
+/// The forces of water stay those of the start, as F is that of the rock as it stands: found anew as blocks move, they would push less on what has
+/// begun to fail.
+Model with_water_as_it_is(Model model)
+{
+    model.water.given = false;
+    return model;
+}
+
 class TrialRun
 {
   public:
     TrialRun(const Moment& start, const TrialRule& rule, const ThreadRule& threads)
         : rule_(rule),
-          simulation_(trial_model(start, rule.reduction), start.state, threads)
+          simulation_(with_water_as_it_is(trial_model(start, rule.reduction)), start.state, threads)
     {
         simulation_.begin_stage(start.state.stage);
         watch_.emplace(rule.failure, simulation_.model(), simulation_.state());
@@ -168,7 +176,10 @@ Trial run_trial(const Moment& start, const TrialRule& rule, const ThreadRule& th
     TrialRun run(start, rule, threads);
     Trial trial = run.run(stop);
     if (end != nullptr)
+    {
         end->emplace(Moment{run.simulation().model(), run.simulation().state()});
+        (*end)->model.water.given = start.model.water.given;
+    }
     return trial;
 }
 }  // namespace hdem

@@ -126,6 +126,38 @@ TEST(SafetyFactor, IsTheSameWithStifferJoints)
     EXPECT_NEAR(found.stiffer->middle(), found.as_given.middle(), 0.01);
 }
 
+/// A wall between two waters, with a table that falls through it: as it slides it comes below the lower part of the table.
+TEST(SafetyFactor, WaterPushesAsItDoesAtTheStart)
+{
+    const Case c = started(once + R"(
+[material.rock]
+density = 2400.0
+[joint.default]
+normal_stiffness = 5e9
+shear_stiffness = 2e9
+friction_angle_deg = 35.0
+[contact]
+method = "force"
+[water]
+table = [[-30, 7], [0, 7], [9, 2], [40, 2]]
+[[block]]
+name = "ground"
+polygon = [[-30, -3], [40, -3], [40, 0], [-30, 0]]
+fixed = true
+[[block]]
+name = "wall"
+polygon = [[0, 0], [9, 0], [9, 10], [0, 10]]
+[[stage]]
+until = "converged"
+max_cycles = 50000
+)");
+    const SafetyFactor found = factor_of(c);
+    const double weight = 2400.0 * 9.81 * 90.0, uplift = 9810.0 * 4.5 * 9.0, push = 9810.0 * 0.5 * (49.0 - 4.0);
+    EXPECT_NEAR(found.as_given.middle(), (weight - uplift) * std::tan(35.0 * degree) / push, 0.01);
+    ASSERT_TRUE(found.failure);
+    EXPECT_TRUE(found.failure->model.water.given) << "for its pictures";
+}
+
 /// Blocks do not move when their joints are made stiffer: forces and places are those of before.
 TEST(SafetyFactor, StiffeningKeepsForces)
 {

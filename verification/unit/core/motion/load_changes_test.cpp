@@ -176,6 +176,28 @@ TEST(LoadChanges, OfWallsAndTargetsFollowTheirFactor)
     EXPECT_LT(ledger_residual(servo), 1e-6);
 }
 
+/// Steps vary from the first cycle on in which nothing changes any more. What is stable then has to be known in that cycle.
+TEST(LoadChanges, TimeGoesOnOnceTheyAreOver)
+{
+    CaseDef scene = pressed_squares({.table = {{0.0, 0.5}, {777.0, 1.0}}});
+    scene.insitu = {.given = true, .stress = StressDef{.xx = -1e6, .yy = -1e6}};
+    scene.stages = {{.name = "press", .until_converged = true, .max_cycles = 100'000}};
+    for (const Method method : {Method::force, Method::hybrid, Method::impulse})
+    {
+        scene.contact.method = method;
+        CaseRun run(scene);
+        run.advance(777);
+        for (int n = 777; n < 1100; ++n)
+        {
+            const double before = run.state().time;
+            run.advance();
+            ASSERT_GT(run.state().time, before) << "cycle " << n << ", method " << name_of(method);
+        }
+        EXPECT_TRUE(std::isfinite(stored_energy(run.model(), run.state()).kinetic)) << "method " << name_of(method);
+        EXPECT_NEAR(pressure_below(run), 2e6, 2e5);
+    }
+}
+
 /// The speed-ups of a stage that looks for rest come once nothing changes any more, and it does not end before.
 TEST(LoadChanges, KeepAllBlocksAwakeUntilTheyAreOver)
 {
