@@ -153,7 +153,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
             best = name;
         }
     }
-    return best;
+    return printable(best);
 }
 
 void CaseProblems::add(const std::string& key, const std::string& object, const std::string& said, const std::string& why,
@@ -236,7 +236,10 @@ std::vector<Complaint> find_complaint(const KeySpec& key, const TomlNode& value)
 
 std::string quoted_list(const std::vector<std::string>& names)
 {
-    return fmt::format("\"{}\"", fmt::join(names, "\", \""));
+    std::vector<std::string> shown;
+    for (const std::string& name : names)
+        shown.push_back(printable(name));
+    return fmt::format("\"{}\"", fmt::join(shown, "\", \""));
 }
 
 std::string describe_type(const KeySpec& key)

@@ -22,6 +22,18 @@
 
 namespace hdem
 {
+namespace
+{
+/// Of excavated blocks and of sides that have ended.
+void end_released_forces(State& state, CycleRunner& runner)
+{
+    if (state.released.empty())
+        return;
+    state.released.clear();
+    runner.take_contacts();  // what they gave in the last cycle acts no more
+}
+}  // namespace
+
 Simulation::Simulation(Model model, State state, const ThreadRule& threads)
     : model_(std::move(model)),
       state_(std::move(state)),
@@ -155,7 +167,7 @@ void Simulation::begin_stage(Index stage)
     if (state_.stage_begun && def.relax_cycles > 0 && model_.stages[before].relax_to > 0.0)
         keep_released_forces(model_, state_);
     else
-        state_.released.clear();
+        end_released_forces(state_, runner_);
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
@@ -169,6 +181,7 @@ void Simulation::begin_stage(Index stage)
     state_.statics_due = false;
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
+    std::ranges::fill(state_.blocks.stable_step, 0.0);  // of another stage; looked at where steps first vary
     wake_all(state_.blocks);
     if (def.relax_cycles > 0)
         release_tractions(model_, before, stage, state_);
@@ -293,7 +306,7 @@ void Simulation::advance(std::int64_t cycles)
         if (const Index stiff = runner_.run(model_, state_, stop - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
         if (!are_forces_released(model_, state_) && model_.stages[static_cast<std::size_t>(state_.stage)].relax_to == 0.0)
-            state_.released.clear();
+            end_released_forces(state_, runner_);
         if (runner_.found_deep_overlap())
             refuse_overlap(model_, state_);
         if (model_.water.given && state_.cycle % water_every == 0)

@@ -69,7 +69,8 @@ Edge edge_of(const Vec2& from, const Vec2& to)
     return {from.x(), from.y(), to.x(), to.y()};
 }
 
-/// A piece's edges with their tags, without the vertices at which it goes straight on along one chord.
+/// A piece's edges with their tags, without the vertices at which it goes straight on along one chord. Where lines meet within round-off of
+/// one point they leave a piece whose edges all lie on one chord: nothing is left of it.
 /// @param edges of all pieces of the cell: one that is there the other way round too lies inside the cell
 CutPolygon tagged(const Polygon& piece, const std::set<Edge>& edges, const Stretches& stretches, std::int32_t source,
                   Chords& chords)
@@ -104,8 +105,13 @@ std::vector<CutPolygon> parts_of(const std::vector<Polygon>& pieces, const Stret
             edges.insert(edge_of(piece[i], piece[next(i, piece.size())]));
     std::vector<CutPolygon> parts;
     for (const Polygon& piece : pieces)
-        for (CutPolygon& part : convex_parts(tagged(piece, edges, stretches, source, chords)))
+    {
+        const CutPolygon outline = tagged(piece, edges, stretches, source, chords);
+        if (outline.vertices.size() < 3)
+            continue;
+        for (CutPolygon& part : convex_parts(outline))
             parts.push_back(std::move(part));
+    }
     give_chords(parts, chords);
     return parts;
 }
@@ -124,7 +130,8 @@ CutMass traced_mass(const Polygon& domain, const TraceCells& traces, std::int32_
         stretches.add(segment.from, segment.to, {own, mass.chords.add(segment.from, segment.to)});
     }
     for (const std::vector<Polygon>& pieces : traces.cells)
-        mass.blocks.push_back({parts_of(pieces, stretches, source, mass.chords), no_index, no_index});
+        if (std::vector<CutPolygon> parts = parts_of(pieces, stretches, source, mass.chords); !parts.empty())
+            mass.blocks.push_back({std::move(parts), no_index, no_index});
     return mass;
 }
 }  // namespace hdem

@@ -28,7 +28,7 @@ class LinerMaker
   public:
     LinerMaker(const LinerPlan& plan, const Blocks& blocks, const Model& model) : plan_(plan), blocks_(blocks), model_(model)
     {
-        longest_ = plan.def->segment.value_or(thicknesses * plan.def->thickness);
+        longest_ = longest_segment(*plan.def);
     }
 
     std::optional<Liner> make()
@@ -147,6 +147,11 @@ class LinerMaker
     Liner liner_;
 };
 }  // namespace
+
+double longest_segment(const LinerDef& def)
+{
+    return def.segment.value_or(thicknesses * def.thickness);
+}
 
 std::optional<Liner> resolve_liner(const LinerPlan& plan, const Blocks& blocks, const Model& model)
 {

@@ -18,6 +18,9 @@ struct LinerPlan
     const std::vector<std::uint8_t>* gone = nullptr;  ///< per block: it is not there any more in its stage
 };
 
+/// Greatest distance of its nodes [m].
+[[nodiscard]] double longest_segment(const LinerDef& def);
+
 /// Its nodes stand where the block behind it changes, at corners, and no farther apart than `segment`. A stretch whose ends are one point is closed there.
 /// @return  nothing where no block lies behind any of it
 [[nodiscard]] std::optional<Liner> resolve_liner(const LinerPlan& plan, const Blocks& blocks, const Model& model);

@@ -16,6 +16,17 @@ namespace
 {
 constexpr double gap_share = 1e-3;     // of the mean block size: so much may lie between two blocks, or before a head
 constexpr double bridge_share = 0.01;  // of the longest segment: length of a bar's piece at a joint
+constexpr double most_bolts = 1e5;     // of one pattern
+constexpr double most_pieces = 1e6;    // of all bolts and liners together: more would fill the memory before anything is said
+
+double length_of(const std::vector<Polygon>& lines)
+{
+    double length = 0.0;
+    for (const Polygon& line : lines)
+        for (std::size_t i = 1; i < line.size(); ++i)
+            length += (line[i] - line[i - 1]).norm();
+    return length;
+}
 
 class SupportResolver
 {
@@ -56,6 +67,9 @@ class SupportResolver
         if (!def.around.empty())
             plan.stretches = stretches_of(outline_polygon(*std::ranges::find(def_.excavations, def.around, &ExcavationDef::name)),
                                           def.arc);
+        if (!may_have(key + (def.segment ? ".segment" : ".thickness"), "liner \"" + def.name + "\": ", longest_segment(def),
+                      length_of(plan.stretches)))
+            return;
         std::optional<Liner> liner = resolve_liner(plan, blocks_, model_);
         if (!liner)
         {
@@ -86,11 +100,35 @@ class SupportResolver
         }
     }
 
+    /// Is there room for the pieces of so long a bolt or liner? Then they are counted, else it is said once.
+    bool may_have(const std::string& key, const std::string& object, double segment, double length)
+    {
+        const bool had_room = pieces_ <= most_pieces;
+        pieces_ += std::ceil(length / segment);
+        if (pieces_ <= most_pieces)
+            return true;
+        if (had_room)
+            problems_.push_back({.key = key,
+                                 .text = object + "segment = " + text(segment) + " m (makes " + text(length / segment) +
+                                         " pieces of " + text(length) + " m; all bolts and liners together may have " +
+                                         text(most_pieces) + "). Give a greater one."});
+        return false;
+    }
+
     void add_pattern(const BoltDef& bolt)
     {
         const auto excavation = std::ranges::find(def_.excavations, bolt.around, &ExcavationDef::name);
+        const Polygon outline = outline_polygon(*excavation);
+        const double wanted = length_of(stretches_of(outline, bolt.arc)) / bolt.along;
+        if (!(wanted <= most_bolts))
+        {
+            problems_.push_back({.key = key_ + ".along",
+                                 .text = object_ + "along = " + text(bolt.along) + " m (makes " + text(wanted) +
+                                         " bolts; a pattern may have " + text(most_bolts) + "). Give a greater one."});
+            return;
+        }
         int number = 0, left_out = 0;
-        for (const BoltLine& line : bolts_around(outline_polygon(*excavation), bolt))
+        for (const BoltLine& line : bolts_around(outline, bolt))
         {
             std::vector<Problem> reasons;
             add(bolt, bolt.name + "." + std::to_string(++number), line, &reasons);
@@ -133,6 +171,9 @@ class SupportResolver
                 return fail(".from", "from " + place(path[i].to) + " to " + place(path[i + 1].from) +
                                          " m there is no block (it would have no rock around it). Move it, or end it there.");
         Bolt bolt = with_numbers(from, name, length);
+        if (from.kind == BoltKind::grouted &&
+            !may_have(key_ + (from.segment ? ".segment" : ".bond_stiffness"), object_, longest_piece(from, bolt), length))
+            return;
         bolt.axis = (end - head) / length;
         if (from.kind == BoltKind::anchored)
             bolt.links.push_back(link(path.front(), path.back(), head, end));
@@ -200,9 +241,15 @@ class SupportResolver
         }
     }
 
+    /// Of a grouted bolt [m].
+    static double longest_piece(const BoltDef& from, const Bolt& bolt)
+    {
+        return from.segment.value_or(0.1 * std::sqrt(bolt.section_stiffness / bolt.bond_stiffness));
+    }
+
     static void add_segments(const BoltDef& from, const std::vector<PathPiece>& path, Bolt& bolt)
     {
-        const double longest = from.segment.value_or(0.1 * std::sqrt(bolt.section_stiffness / bolt.bond_stiffness));
+        const double longest = longest_piece(from, bolt);
         const double unbonded = from.free_length.value_or(0.0);
         const auto add = [&](std::size_t part, double begin, double end, bool is_bonded)
         {
@@ -232,6 +279,7 @@ class SupportResolver
     std::vector<Problem> problems_;
     std::string key_, object_;
     Index stage_ = 0;
+    double pieces_ = 0.0;  ///< of all bolts and liners so far
     std::vector<std::uint8_t> gone_;
 };
 }  // namespace

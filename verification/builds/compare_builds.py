@@ -17,6 +17,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 CASES = HERE.parent / "cases"
+sys.path.insert(0, str(HERE.parent / "faults"))
+from random_support import scene_of    # noqa: E402
 
 CLANG = ["-DCMAKE_C_COMPILER=clang", "-DCMAKE_CXX_COMPILER=clang++"]
 # A machine whose libm has no fused multiply-add: glibc chooses its functions by the processor, at run time.
@@ -27,6 +29,7 @@ BUILDS = {
     "release": ["--preset", "release"],
     "portable": ["--preset", "ci"],
     "O2": ["--preset", "ci", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"],
+    "four lanes": ["--preset", "ci", "-DHDEM_HAS_WIDE_FLAGS=OFF"],    # as on a processor without AVX-512
     "O1-checks": ["--preset", "ci", "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DHDEM_CHECKS=ON"],
     "x86-64-v3": ["--preset", "ci", "-DCMAKE_CXX_FLAGS=-march=x86-64-v3"],
     "clang": ["--preset", "ci", *CLANG],
@@ -39,14 +42,18 @@ def tunnel_stages(*stages):
 
 
 class Scene:
-    """A case, its settings, and what its summary must say so that the scene is the one that is meant."""
+    """A case, its settings, and what its summary must say so that the scene is the one that is meant. `text` instead of a file."""
 
-    def __init__(self, case, settings, shows):
-        self.case, self.settings, self.shows = case, settings, shows
+    def __init__(self, case, settings, shows, text=None):
+        self.case, self.settings, self.shows, self.text = case, settings, shows, text
 
     def command(self, program, folder):
+        case = self.case
+        if self.text:
+            case = folder.with_suffix(".toml")
+            case.write_text(self.text, encoding="utf-8")
         sets = [word for setting in self.settings for word in ("--set", setting)]
-        return [program, "run", self.case, "-o", folder, "--overwrite", "--quiet", "--threads", "1", *sets]
+        return [program, "run", case, "-o", folder, "--overwrite", "--quiet", "--threads", "1", *sets]
 
 
 SCENES = {
@@ -65,6 +72,13 @@ SCENES = {
     "rubble": Scene(HERE / "rubble.toml", [], lambda s: s["energy"]["impulse_loss"] > 0 and s["energy"]["friction"] > 0),
     "rubble by impulses": Scene(HERE / "rubble.toml", ["contact.method=impulse"], lambda s: s["energy"]["impulse_loss"] > 0),
     "rubble by springs": Scene(HERE / "rubble.toml", ["contact.method=force"], lambda s: s["energy"]["impulse_loss"] == 0),
+    "cavern": Scene(CASES / "cavern/cavern.toml", [tunnel_stages('excavate=["heading"], relax_cycles=300, until="converged", max_cycles=1500')],
+                    lambda s: s["energy"]["insitu"] != 0 and s["energy"]["bond_breaking"] > 0),
+    "supported": Scene(CASES / "cavern/supported.toml", [f"stage[{i}].{key}" for i in range(8) for key in ("relax_cycles=200", "max_cycles=500")],
+                       lambda s: s["energy"]["support"] > 0),
+    "mapped": Scene(CASES / "rockmass/mapped.toml", [], lambda s: len(s["joint_sets"]) > 2),
+    "slope": Scene(CASES / "slope/slope.toml", ["stage[0].max_cycles=3000"], lambda s: s["energy"]["water"] != 0),
+    **{f"random {number}": Scene(None, [], lambda s: True, scene_of(number).text) for number in range(10000, 10024, 2)},
     "hooks": Scene(HERE / "hooks.toml", [], lambda s: s["detached_blocks"] and s["energy"]["impulse_loss"] > 0),
 }
 

@@ -2,7 +2,7 @@
 """Kills runs with SIGKILL at random moments, and looks at what they leave behind.
 
     kill_runs.py HDEM [--kills 100] [--seed 1]             HDEM: the program; one scene, killed and restarted again and again
-    kill_runs.py HDEM --random [--kills 1000] [--seed 1]   each run is another random scene (random_scene.py)
+    kill_runs.py HDEM --random [--kills 1000] [--seed 1]   each run is another random scene (random_scene.py, random_support.py)
     kill_runs.py HDEM --random --scene 17 [--kills 12]     only this scene
     kill_runs.py HDEM --case woken_by_stage.toml           only this case, whose checkpoints are by cycles
 
@@ -30,7 +30,7 @@ except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
 
-from random_scene import Scene
+from random_support import scene_of
 
 KILLS_A_SCENE = 12
 LONGEST = 20.0    # seconds: scenes that take longer are left out
@@ -193,7 +193,7 @@ def main():
     problems, kills, runs, left_out, manners = [], 0, 0, 0, {}
     while kills < options.kills or runs == 0:
         number = options.scene if options.scene is not None else options.seed * 10000 + runs + left_out
-        scene = GivenScene(options.case) if options.case else Scene(number) if options.random else TheScene()
+        scene = GivenScene(options.case) if options.case else scene_of(number) if options.random else TheScene()
         with tempfile.TemporaryDirectory() as scratch:
             killer = Killer(options, random.Random(number + 10 ** 7 * options.seed), Path(scratch), scene)
             name = f"scene {number}" if options.random else f"run {runs}"

@@ -1,12 +1,20 @@
 #!/usr/bin/python3
 """Random scenes for runs that are cut short: what a case file can say about joints, methods, stages, loads and output, in many mixtures.
 
-    random_scene.py SEED    prints the case file of a seed
+    random_scene.py SEED    prints the case file of a seed; even ones have more in them (random_support.py)
 
 Scene N is always the same. A scene takes about a second, so that it can be killed and restarted many times.
 """
 import random
 import sys
+
+
+def toml(value):
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {toml(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
 
 
 class Scene:
@@ -19,6 +27,7 @@ class Scene:
         self.interval = self.chance.choice((23, 50, 100, 200, 350))
         self.lines = [f'title = "Random scene {seed}"']
         self.names = ["loose1", "loose2"]
+        self.choose()
         self.write_rock()
         self.write_loose_blocks()
         self.write_laws()
@@ -27,11 +36,12 @@ class Scene:
         self.write_output()
         self.text = "\n".join(self.lines) + "\n"
 
+    def choose(self):
+        """What a scene with more in it (random_support.py) decides first."""
+
     def add(self, header, **values):
         self.lines.append(header)
-        for key, value in values.items():
-            said = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
-            self.lines.append(f"{key} = " + said.replace("'", '"'))
+        self.lines += [f"{key} = {toml(value)}" for key, value in values.items()]
 
     def between(self, least, most):
         return round(self.chance.uniform(least, most), 3)
@@ -39,19 +49,29 @@ class Scene:
     def write_rock(self):
         self.width = self.between(20.5, 23.0) if self.static else self.between(7.0, 12.0)
         self.height = self.between(20.5, 23.0) if self.static else self.between(6.0, 10.0)
-        self.add("[domain]", width=self.width, height=self.height, fixed=["left", "right", "bottom"])
+        self.add("[domain]", width=self.width, height=self.height, fixed=self.fixed_sides())
         first = self.chance.randint(-40, 40)
         for number in range(2 if self.static else self.chance.choice((2, 2, 3))):
             dip = (first + number * self.chance.randint(50, 75) + 90) % 180 - 90
             spacing = self.between(1.1, 1.4) if self.static else self.between(0.9, 1.3)
-            self.add("[[joint_set]]", dip_deg=float(dip), spacing=spacing, deviation_deg=self.chance.choice((0.0, 3.0)),
-                     persistence=self.chance.choice((1.0, 1.0, 0.8)))
+            given = {"dip_deg": float(dip), "spacing": spacing, "deviation_deg": self.chance.choice((0.0, 3.0)),
+                     "persistence": self.chance.choice((1.0, 1.0, 0.8))}
+            self.add("[[joint_set]]", **(given | self.more_of_set(number)))
         self.add("[generator]", seed=self.chance.randint(1, 10 ** 6), smallest_block_area=0.1)
         shape = self.chance.choice(("circle", "horseshoe", "rectangle"))
         size = self.between(0.25, 0.4) * self.height
         sides = {"diameter": size} if shape == "circle" else {"width": size, "height": size}
         self.add("[[excavation]]", name="tunnel", shape=shape, position=[0.5 * self.width, 0.4 * self.height],
                  inside=self.chance.choice(("jointed", "one_block")), **sides)
+
+    def fixed_sides(self):
+        return ["left", "right", "bottom"]
+
+    def more_of_set(self, _number):
+        return {}
+
+    def more_of_stage(self, _number, _last):
+        return {}
 
     def write_loose_blocks(self):
         """Two blocks that fall on the rock; the second one sometimes hangs until a stage frees it."""
@@ -89,6 +109,7 @@ class Scene:
                 stage["free"] = ["loose2"]
             if number > 1 and not self.static and self.chance.random() < 0.3:
                 stage["method"] = self.chance.choice(("force", "impulse", "hybrid"))
+            stage |= self.more_of_stage(number, last)
             self.add("[[stage]]", name=f"part{number}", **stage)
 
     def write_loads(self):
@@ -110,4 +131,5 @@ class Scene:
 
 
 if __name__ == "__main__":
-    print(Scene(int(sys.argv[1])).text, end="")
+    from random_support import scene_of
+    print(scene_of(int(sys.argv[1])).text, end="")

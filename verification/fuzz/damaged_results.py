@@ -3,8 +3,8 @@
 
     damaged_results.py HDEM TOOLS [--results N] [--frames N] [--draw-every N] [--seed N] [--keep FOLDER]
 
-A results.h5, a frame of blocks or one of contacts of a small run is changed byte by byte or object by object (hdf5_changes.py) and read as
-hdem_io.py does; of those that are read, one in N becomes a picture and a page. The reading is done by a process of its own: a crash of the library,
+A results.h5, a frame of blocks, of contacts or of bolts, or now and then the summary.json of a small run is changed byte by byte or object by object
+(hdf5_changes.py) and read as hdem_io.py does; of those that are read, one in N becomes a picture, a page, or what `hdem view` shows. The reading is done by a process of its own: a crash of the library,
 a file that takes 20 s, and 1 GB of memory are told too. Exit code 1 when anything is found; --keep gets the files.
 """
 import argparse
@@ -27,7 +27,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "unit/tools"))
 import hdf5_changes    # noqa: E402
 import small_case    # noqa: E402
 
-KINDS = ("results", "blocks", "contacts")
+KINDS = ("results", "summary", "blocks", "contacts", "bolts")
+FRAMES = KINDS[2:]
 SLOWEST = 20.0          # s, of one file
 LARGEST = 1 << 30       # bytes in memory
 MEMORY = 3 << 30        # bytes of addresses
@@ -39,7 +40,7 @@ def parse(arguments):
     parser.add_argument("hdem", type=Path)
     parser.add_argument("tools", type=Path)
     parser.add_argument("--results", type=int, default=300, help="files of results (default: 300)")
-    parser.add_argument("--frames", type=int, default=300, help="frames, of blocks and of contacts in turn (default: 300)")
+    parser.add_argument("--frames", type=int, default=300, help="frames, of blocks, contacts and bolts in turn (default: 300)")
     parser.add_argument("--draw-every", type=int, default=20, help="one of so many files that are read is drawn (default: 20)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=Path, help="folder for the files over which something was found")
@@ -52,19 +53,21 @@ class Reader:
     def __init__(self, folder, draw_every):
         import hdem_io
         import plot
+        import run_pack
         import run_page
-        self.io, self.plot, self.page = hdem_io, plot, run_page
+        self.io, self.plot, self.page, self.pack = hdem_io, plot, run_page, run_pack
         self.folder, self.draw_every, self.read = folder, draw_every, 0
-        frames = sorted((folder / "frames").glob("*_000002.hdf"))
-        self.files = {"results": folder / "results.h5", "blocks": frames[0], "contacts": frames[1]}
+        self.files = {kind: file_of(folder, kind) for kind in KINDS}
         self.whole = {kind: file.read_bytes() for kind, file in self.files.items()}
         self.run = hdem_io.open_run(folder)
-        self.objects = {kind: hdf5_changes.objects_of(file) for kind, file in self.files.items()}
+        self.objects = {kind: hdf5_changes.objects_of(file) for kind, file in self.files.items() if kind != "summary"}
 
     def damage(self, chance, kind):
         """What was done."""
         file = self.files[kind]
-        if chance.random() < 0.5:
+        if kind == "summary" and chance.random() < 0.8:
+            return hdf5_changes.change_json(chance, file, self.whole[kind])
+        if kind == "summary" or chance.random() < 0.5:
             file.write_bytes(hdf5_changes.changed_bytes(chance, self.whole[kind]))
             return "bytes"
         file.write_bytes(self.whole[kind])
@@ -81,7 +84,7 @@ class Reader:
                 run = self.io.open_run(self.folder)
                 run.provenance(), run.state(), run.energy(), [run.history(name) for name in run.histories]
             else:
-                run.blocks("last") if kind == "blocks" else run.contacts("last")
+                run.summary() if kind == "summary" else getattr(run, kind)("last")
             self.read += 1
             if self.read % self.draw_every == 0:
                 self.draw(run, chance)
@@ -95,14 +98,26 @@ class Reader:
 
     def draw(self, run, chance):
         colour = chance.choice([*self.plot.FIELDS, *self.plot.CLASSES])
-        for words in (["--colour", colour, "--contacts"], ["--history", chance.choice(["energy", *run.histories])]):
+        over = chance.choice([["--contacts"], ["--crosses"], ["--joints", chance.choice([*self.plot.JOINTS])], ["--bolts"],
+                              ["--liners", chance.choice(["thrust", "moment"])]])
+        for words in (["--colour", colour, *over], ["--history", chance.choice(["energy", *run.histories])]):
             self.plot.make_picture(self.plot.parse([*words, "--dpi", "40", "-o", str(self.folder / "a.png"), "--", str(self.folder)]))
         if chance.random() < 0.2:
             self.page.build(run, run.summary(), "")
+        if chance.random() < 0.2:
+            pack = self.pack.RunPack()
+            pack.update(run)
+            pack.document("r0")
+
+
+def file_of(folder, kind):
+    return folder / {"results": "results.h5", "summary": "summary.json"}.get(kind, f"frames/{kind}_000002.hdf")
 
 
 def kind_of(number, results):
-    return "results" if number < results else KINDS[1 + number % 2]
+    if number < results:
+        return "summary" if number % 20 == 19 else "results"
+    return FRAMES[number % len(FRAMES)]
 
 
 def work(options, folder, first, shared):
@@ -127,7 +142,7 @@ def tell(options, file, number, done, found):
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
         shutil.copy(file, options.keep / f"{number}_{file.name}")
-    with open(file.parent / ("found" if file.name == "results.h5" else "../found"), "a", encoding="utf-8") as list_of:
+    with open(file.parent / ("found" if file.parent.name != "frames" else "../found"), "a", encoding="utf-8") as list_of:
         list_of.write(f"{number}\n")
 
 
@@ -167,21 +182,19 @@ def run_all(options, folder):
         if not wrong:
             break
         number = struct.unpack("<q", shared[:8])[0]
-        kind = kind_of(number, options.results)
-        file = folder / "results.h5" if kind == "results" else sorted((folder / "frames").glob(f"{kind}_000002.hdf"))[0]
-        tell(options, file, number, "", wrong)
+        tell(options, file_of(folder, kind_of(number, options.results)), number, "", wrong)
         shutil.copytree(whole, folder, dirs_exist_ok=True)
         first, shared[:16] = number + 1, struct.pack("<qd", number + 1, 0.0)
-    counts = struct.unpack("<6q", shared[16:])
+    counts = struct.unpack(f"<{2 * len(KINDS)}q", shared[16:])
     found = (folder / "found").read_text().split() if (folder / "found").exists() else []
     return {kind: Counter(refused=counts[2 * i], read=counts[2 * i + 1]) for i, kind in enumerate(KINDS)}, len(found)
 
 
 def main(arguments):
     options = parse(arguments)
-    sys.path[:0] = [str(options.tools.resolve()), str(options.tools.resolve() / "report")]
+    sys.path[:0] = [str(options.tools.resolve()), *(str(options.tools.resolve() / folder) for folder in ("report", "view"))]
     with tempfile.TemporaryDirectory(prefix="hdem_damaged_", dir="/dev/shm" if Path("/dev/shm").is_dir() else None) as scratch:
-        folder = small_case.run(options.hdem.resolve(), Path(scratch))
+        folder = small_case.run(options.hdem.resolve(), Path(scratch), small_case.SUPPORTED)
         counts, found = run_all(options, folder)
     for kind, count in counts.items():
         print(f"{kind}: {count['refused'] + count['read']} files, {count['refused']} refused, {count['read']} read")

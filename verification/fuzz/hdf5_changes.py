@@ -1,4 +1,6 @@
-"""Changes HDF5 files as damage or malice would: bytes, or one object through the library so that every checksum is right."""
+"""Changes HDF5 files as damage or malice would: bytes, or one object through the library so that every checksum is right. JSON likewise."""
+import json
+
 import h5py
 import numpy as np
 
@@ -19,6 +21,25 @@ def changed_bytes(random, content):
         token = random.choice(TOKENS) if random.random() < 0.5 else bytes([random.randrange(256)])
         content[at:at + len(token)] = token[:len(content) - at]
     return bytes(content)
+
+
+def change_json(random, file, content):
+    """One value of a JSON file, which stays JSON; what was done."""
+    document = json.loads(content)
+    places = []
+
+    def note(holder):
+        for key, value in holder.items() if isinstance(holder, dict) else enumerate(holder):
+            places.append((holder, key))
+            if isinstance(value, (dict, list)):
+                note(value)
+    note(document)
+    holder, key = random.choice(places)
+    holder[key] = random.choice([None, True, -1, 0, 1e308, -1e308, float("nan"), float("inf"), 10 ** 400, "", "x", "\x1b[31m<b>", "9" * 30000, [], [[]], [1e308] * 3, {}, {"a": 1}])
+    if random.random() < 0.2 and isinstance(holder, dict):
+        del holder[key]
+    file.write_text(json.dumps(document), encoding="utf-8")
+    return f"change_json {key}"
 
 
 def objects_of(file):

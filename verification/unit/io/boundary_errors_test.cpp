@@ -81,7 +81,7 @@ TEST(BoundaryErrors, OfForcesThatNothingGivesToTakeOff)
 {
     const std::string lid = "[[boundary]]\nside = \"top\"\nkind = \"roller\"\n";
     const std::string two = rectangle + height + "[[stage]]\nname = \"off\"\ncycles = 5\nrelax_cycles = 5\n" + lid;
-    expect_one_problem(two, "16:16: stage \"off\": relax_cycles = 5 (", "nothing is excavated, and no boundary ends");
+    expect_one_problem(two, "16:16: stage \"off\": relax_cycles = 5 (", "nothing is excavated, no boundary ends");
     expect_one_problem(two + "stages = [\"off\"]\n", "16:16: stage \"off\": relax_cycles = 5 (", "no boundary ends");
     EXPECT_THAT(problems_of(two + "stages = [\"load\"]\n"), ElementsAre());
 }

@@ -1,8 +1,10 @@
 #include "io/case_format.h"
 #include "io/polygons.h"
 #include "verification/unit/io/case_text.h"
+#include "verification/unit/small_run.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 #include <sstream>
 
@@ -138,14 +140,30 @@ void expect_case_or_problems(const std::string& text, int& legal, int& toml)
     }
 }
 
+/// The example of the format, and every case of the verification and of the guide: together they have nearly all sections and keys.
+std::vector<std::string> legal_texts()
+{
+    std::vector<std::string> texts = {std::string(case_example()), test::two_blocks};
+    std::vector<std::filesystem::path> files;
+    for (const char* folder : {"verification/cases", "tools/guide/cases"})
+        for (const auto& file : std::filesystem::recursive_directory_iterator(std::filesystem::path(HDEM_SOURCE_DIR) / folder))
+            if (file.path().extension() == ".toml")
+                files.push_back(file.path());
+    std::ranges::sort(files);
+    for (const std::filesystem::path& file : files)
+        texts.push_back(test::text_in(file));
+    return texts;
+}
+
 TEST(CaseReader, SurvivesRandomEditsOfLegalCases)
 {
     std::mt19937_64 random(20240501);
-    const std::string texts[] = {std::string(case_example()), test::two_blocks};
+    const std::vector<std::string> texts = legal_texts();
+    EXPECT_GT(texts.size(), 50u);
     int legal = 0, toml = 0;
     for (int i = 0; i < 6000; ++i)
     {
-        const std::string text = mutated(texts[i % 2], random);
+        const std::string text = mutated(texts[i % texts.size()], random);
         ASSERT_NO_FATAL_FAILURE(expect_case_or_problems(text, legal, toml)) << text;
     }
     EXPECT_GT(legal, 30);

@@ -3,6 +3,7 @@
 #include "io/checkpoint.h"
 #include "io/load_case.h"
 #include "parallel/simulation.h"
+#include "verification/unit/io/checkpoint_subjects.h"
 #include "verification/unit/io/hdf5_mutator.h"
 #include "verification/unit/small_run.h"
 
@@ -13,48 +14,17 @@ namespace hdem
 {
 namespace
 {
+using test::case_of_checkpoints;
+using test::CheckpointSubject;
 using test::files_to_try;
 using test::Hdf5Mutator;
 using test::ScratchFolder;
 using test::write_bytes;
 namespace fs = std::filesystem;
 
-constexpr const char* case_text = R"(
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 1e9
-shear_stiffness = 1e9
-friction_angle_deg = 30.0
-[time]
-step = 1e-4
-[[block]]
-name = "ground"
-polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]
-fixed = true
-[[block]]
-name = "sledge"
-polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
-velocity = [1, 0]
-[[block]]
-name = "rider"
-polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
-[[block]]
-name = "prop"
-polygon = [[6, 0], [7, 0], [7, 1], [6, 1]]
-[[stage]]
-cycles = 100
-[[stage]]
-excavate = ["prop"]
-cycles = 100
-[[history]]
-between = ["ground", "sledge"]
-quantities = ["normal_force"]
-)";
-
-fs::path sound_checkpoint(const fs::path& folder)
+fs::path sound_checkpoint(const fs::path& folder, const std::string& text = case_of_checkpoints)
 {
-    const LoadedCase loaded = load_case(case_text, {}, "case.toml", {});
+    const LoadedCase loaded = load_case(text, {}, "case.toml", {});
     Simulation simulation(loaded.setup.model, loaded.setup.state);
     simulation.begin_stage(0);
     simulation.advance(100);
@@ -62,7 +32,7 @@ fs::path sound_checkpoint(const fs::path& folder)
     simulation.begin_stage(1);
     simulation.advance(20);
     RunRecord record;
-    record.case_text = case_text;
+    record.case_text = text;
     record.begin = "now";
     record.history_axes = {{0.0, 1.0}};
     write_checkpoint(folder, record, simulation.model(), simulation.state());
@@ -122,19 +92,43 @@ const Hdf5Mutator::Targets targets = {.datasets = {"/blocks/user_number",
                                                      "/state@stage_begin_cycle", "/state@method", "/state@damping",
                                                      "/state@excavation_cycle", "/state@contacts_outdated"}};
 
-TEST(CheckpointReader, AcceptsTheSoundFileOfTheMutationTests)
+Hdf5Mutator::Targets targets_of(const CheckpointSubject& subject)
 {
-    const ScratchFolder folder("fuzz_sound");
-    EXPECT_TRUE(goes_on(sound_checkpoint(folder.path())));
+    Hdf5Mutator::Targets all = targets;
+    all.datasets.insert(all.datasets.end(), subject.more.begin(), subject.more.end());
+    return all;
 }
 
-TEST(CheckpointReader, SurvivesRandomBytes)
+class CheckpointReaders : public testing::TestWithParam<CheckpointSubject>
+{
+};
+
+TEST_P(CheckpointReaders, AcceptTheSoundFileOfTheMutationTests)
+{
+    const ScratchFolder folder("fuzz_sound");
+    const fs::path file = sound_checkpoint(folder.path(), GetParam().text);
+    EXPECT_TRUE(goes_on(file));
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    for (const std::string& path : targets_of(GetParam()).datasets)
+    {
+        const hid_t dataset = H5Dopen2(id, path.c_str(), H5P_DEFAULT);
+        EXPECT_GE(dataset, 0) << path;
+        const hid_t space = H5Dget_space(dataset);
+        EXPECT_TRUE(std::ranges::find(GetParam().more, path) == GetParam().more.end() || H5Sget_simple_extent_npoints(space) > 0)
+            << path << " is empty: nothing in it can be changed";
+        H5Sclose(space);
+        H5Dclose(dataset);
+    }
+    H5Fclose(id);
+}
+
+TEST_P(CheckpointReaders, SurviveRandomBytes)
 {
     const ScratchFolder folder("fuzz_bytes");
-    const std::string sound = test::text_in(sound_checkpoint(folder.path()));
+    const std::string sound = test::text_in(sound_checkpoint(folder.path(), GetParam().text));
     Hdf5Mutator mutator(11);
     int accepted = 0;
-    const int files = files_to_try(600);
+    const int files = files_to_try(400);
     for (int i = 0; i < files; ++i)
     {
         write_bytes(folder / "mutated.h5", mutator.changed_bytes(sound));
@@ -143,28 +137,32 @@ TEST(CheckpointReader, SurvivesRandomBytes)
     EXPECT_LT(accepted, files) << "no edit did any harm";
 }
 
-TEST(CheckpointReader, SurvivesObjectsThatDoNotFit)
+TEST_P(CheckpointReaders, SurviveObjectsThatDoNotFit)
 {
     const ScratchFolder folder("fuzz_objects");
-    const std::string sound = test::text_in(sound_checkpoint(folder.path()));
+    const std::string sound = test::text_in(sound_checkpoint(folder.path(), GetParam().text));
+    const Hdf5Mutator::Targets all = targets_of(GetParam());
     Hdf5Mutator mutator(12);
     int accepted = 0;
-    const int files = files_to_try(600);
+    const int files = files_to_try(400);
     for (int i = 0; i < files; ++i)
     {
         write_bytes(folder / "mutated.h5", sound);
-        mutator.change_object(folder / "mutated.h5", targets);
+        mutator.change_object(folder / "mutated.h5", all);
         accepted += goes_on(folder / "mutated.h5") ? 1 : 0;
     }
     EXPECT_LT(accepted, files / 2) << "most changes should be found out";
 }
+
+INSTANTIATE_TEST_SUITE_P(Cases, CheckpointReaders, testing::ValuesIn(test::checkpoint_subjects()),
+                         [](const auto& subject) { return subject.param.name; });
 
 std::string refusal_of(const fs::path& file)
 {
     try
     {
         const CheckpointReader reader(file);
-        LoadedCase loaded = load_case(case_text, {}, "case.toml", {});
+        LoadedCase loaded = load_case(case_of_checkpoints, {}, "case.toml", {});
         return reader.state(loaded.setup.model).cycle > 0 ? "accepted" : "";
     }
     catch (const InputError& error)

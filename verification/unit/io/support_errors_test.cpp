@@ -61,6 +61,43 @@ TEST(SupportErrors, TellWhatIsWrongWithALiner)
                        "around");
 }
 
+/// Of build_model.
+std::string first_problem(const std::string& text)
+{
+    try
+    {
+        build_model(test::read(head + text));
+    }
+    catch (const InputError& error)
+    {
+        return error.problems().size() == 1 ? error.problems().front().text : "not one problem";
+    }
+    return "none";
+}
+
+/// A pattern, a bolt or a liner of more pieces than the memory holds is refused before it is made.
+TEST(SupportErrors, TellOfPiecesWithoutNumber)
+{
+    const std::string
+        opening = "[[excavation]]\nname = \"shaft\"\nshape = \"rectangle\"\nposition = [2.0, 1.0]\nwidth = 1.0\nheight = 1.0\n"
+                  "[[joint_set]]\ndip_deg = 0.0\nspacing = 0.7\n";
+    const std::string pattern = opening + "[[bolt]]\naround = \"shaft\"\nlength = 2.0\narea = 1e-4\n";
+    EXPECT_THAT(first_problem(pattern + "along = 1e-9\n"), HasSubstr("makes 4e+09 bolts"));
+    EXPECT_THAT(first_problem(pattern + "along = 1e-320\n"), HasSubstr("bolts; a pattern may have"));
+    EXPECT_EQ(first_problem(pattern + "along = 0.4\n"), "none");
+
+    const std::string grouted = "kind = \"grouted\"\nbond_stiffness = 1e7\nbond_strength = 1e5\n";
+    EXPECT_THAT(first_problem(pattern + grouted + "along = 0.4\nsegment = 1e-12\n"), HasSubstr("makes 2e+12 pieces of 2 m"));
+    EXPECT_THAT(first_problem(pattern + grouted + "along = 1e-3\nsegment = 1e-3\n"), HasSubstr("all bolts and liners together"));
+    EXPECT_THAT(first_problem(opening + anchored + "area = 1e-4\nkind = \"grouted\"\nbond_stiffness = 1e18\nbond_strength = 1e5\n"),
+                HasSubstr("pieces of 2 m"));
+    EXPECT_EQ(first_problem(opening + anchored + "area = 1e-4\n" + grouted + "segment = 1e-3\n"), "none");
+
+    const std::string beam = "[[liner]]\npath = [[0.0, 4.0], [4.0, 4.0]]\nmodulus = 25e9\nnormal_stiffness = 1e9\n";
+    EXPECT_THAT(first_problem(opening + beam + "thickness = 0.1\nsegment = 1e-12\n"), HasSubstr("makes 4e+12 pieces of 4 m"));
+    EXPECT_THAT(first_problem(opening + beam + "thickness = 1e-9\n"), HasSubstr("pieces of 4 m"));
+}
+
 TEST(SupportErrors, TellOfEndsThatHoldNothing)
 {
     const auto text_of_problem = [](const std::string& ends)

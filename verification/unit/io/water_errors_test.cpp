@@ -56,6 +56,16 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     expect_one_problem("[water]\npressure = \"none.csv\"\n", "14:12: [water]: pressure", "none.csv");
 }
 
+/// relax_cycles: the change of the water comes evenly; it needs no excavation.
+TEST(WaterErrors, ALevelMayComeSlowlyWithoutAnExcavation)
+{
+    const std::string slow = "relax_cycles = 5\n", water = "[water]\nlevel = 3.0\n";
+    EXPECT_THAT(problems_of(head + "water_level = 1.0\n" + slow + water), testing::IsEmpty());
+    EXPECT_THAT(problems_of(head + "water_table = [[0, 3], [4, 2]]\n" + slow + "[water]\ntable = [[0, 1], [4, 2]]\n"),
+                testing::IsEmpty());
+    expect_one_problem(slow + water, "13:16: stage \"stand\": relax_cycles = 5", "no water changes");
+}
+
 TEST(WaterErrors, ATableRunsFromLeftToRight)
 {
     const CaseDef def = test::read(head + "[water]\ntable = [[4, 3], [0, 2]]\n");

@@ -50,10 +50,54 @@ quantities = ["displacement", "speed"]
 every = 10
 """
 
+# The same with what frames and histories show only where the case has it: water, bolts, a lining, a joint with a memory.
+SUPPORTED = CASE.replace("friction_angle_deg = 30.0", "friction_angle_deg = 30.0\nresidual_friction_angle_deg = 20.0\ndilation_angle_deg = 5.0") + """
+[water]
+table = [[-1, 0.4], [4, 0.2], [9, 0.3]]
+[[bolt]]
+name = "anchor"
+from = [0.5, 1.5]
+to = [0.5, -0.5]
+area = 1e-4
+pretension = 1e3
+yield = 2e3
+[[bolt]]
+name = "cable"
+kind = "grouted"
+from = [1.5, 0.5]
+to = [1.5, -0.8]
+area = 1e-4
+bond_stiffness = 1e7
+bond_strength = 1e4
+segment = 0.2
+stage = "fall"
+[[liner]]
+name = "coat"
+path = [[2, 1], [2, 0]]
+thickness = 0.1
+modulus = 1e10
+normal_stiffness = 1e8
+[[history]]
+name = "anchor"
+bolt = "anchor"
+quantities = ["axial_force", "status"]
+every = 10
+[[history]]
+name = "coat"
+liner = "coat"
+quantities = ["thrust", "moment"]
+every = 10
+[[history]]
+name = "pressure"
+point = [2, -0.5]
+quantities = ["pore_pressure"]
+every = 10
+"""
 
-def run(hdem, scratch):
+
+def run(hdem, scratch, text=CASE):
     """Its results, in a folder below `scratch`."""
     case, folder = scratch / "small.toml", scratch / "out"
-    case.write_text(CASE, encoding="utf-8")
+    case.write_text(text, encoding="utf-8")
     subprocess.run([hdem, "run", case, "-o", folder, "--quiet"], check=True)
     return folder

@@ -244,6 +244,69 @@ TEST(LoadChanges, AtTimesToComeKeepTheStep)
     EXPECT_TRUE(resolve_rules(later.model(), later.state()).step.varies) << "counted from a stage that has not begun";
 }
 
+/// Where a load has come to its end within a stage, steps begin to vary there: no bound on them was looked at before, or that of another stage.
+TEST(LoadChanges, AreFollowedByStepsThatAreStable)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+        for (const bool is_second : {false, true})
+        {
+            SCOPED_TRACE(std::string(name_of(method)) + (is_second ? ", second stage" : ", first stage"));
+            CaseDef scene = scenes::joints(6.0, 6.0, 1.0, 5.0);
+            scene.contact.method = method;
+            scene.stages.assign(is_second ? 2 : 1, {.name = "load", .until_converged = true, .max_cycles = 1000});
+            scene.stages.back().name = "last";
+            scene.loads = {
+                {.blocks = {"*"}, .acceleration = {1.0, 0.0}, .factor = {.table = {{0.0, 0.0}, {201.0, 1.0}}, .since = "last"}}};
+            CaseRun run(scene);
+            if (is_second)
+            {
+                run.advance(700);
+                run.simulation.begin_stage(1);
+            }
+            double least = run.model().time_step;
+            for (int i = 0; i < 400; ++i)
+            {
+                run.advance();
+                least = std::min(least, run.state().blocks.step.next);
+                for (Index b = 0; b < run.model().blocks(); ++b)
+                    ASSERT_TRUE(std::isfinite(run.state().blocks.motion[b].x)) << "cycle " << i;
+            }
+            EXPECT_GT(least, 0.1 * run.model().time_step);
+            EXPECT_LT(ledger_residual(run), method == Method::force ? 1e-6 : 1e-4);
+        }
+}
+
+/// Forces that a stage takes off act no more after that, whatever loads there are and on whichever blocks.
+TEST(LoadChanges, LeaveNothingOfForcesThatAreTakenOff)
+{
+    CaseDef scene = square_pattern(4.0, 4.0);
+    scene.gravity = {0.0, -9.81};
+    scene.domain.fixed = {"bottom", "left"};
+    scene.insitu = {.given = true, .surface = 20.0, .ratio = 1.0};
+    scene.boundaries = {in_situ(side("right", BoundaryKind::stress)), in_situ(side("top", BoundaryKind::stress))};
+    scene.boundaries[0].stages = {"pressed"};
+    scene.loads = {{.blocks = {"b1"}, .force = {1.0, 0.0}}};
+    for (const double relax_to : {0.0, 0.4})
+    {
+        SCOPED_TRACE(relax_to);
+        scene.stages = {{.name = "pressed", .cycles = 50},
+                        {.name = "loose", .cycles = 150, .relax_cycles = 100, .relax_to = relax_to},
+                        {.name = "on", .cycles = 100}};
+        CaseRun run(scene);
+        run.advance(50);
+        run.simulation.begin_stage(1);
+        run.advance(150);
+        if (relax_to > 0.0)
+            run.simulation.begin_stage(2);
+        Simulation restarted(run.model(), run.state());
+        run.advance(60);
+        restarted.advance(60);
+        EXPECT_EQ(state_hash(run.model(), run.state()), state_hash(restarted.model(), restarted.state()))
+            << "a force acts that no state tells of";
+        EXPECT_LT(ledger_residual(run), 1e-9);
+    }
+}
+
 TEST(LoadChanges, GiveTheSameBitsOnSeveralThreadsAndInPieces)
 {
     CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 5.0);

@@ -224,6 +224,26 @@ TEST(FiniteTraces, ShortEdgesThatAreLeftAreCounted)
         { return p.key == "generator.smallest_edge" && p.text.find("shorter edges are left") != std::string::npos; }));
 }
 
+/// Round-off makes a triangle of the point, smaller than any block.
+TEST(LinesThroughOnePoint, LeaveNoBlockBetweenThem)
+{
+    const auto set = [](double dip, double spacing)
+    {
+        return "[[joint_set]]\ndip_deg = " + std::to_string(dip) + "\nspacing = " + std::to_string(spacing) +
+               "\norigin = [5.1, 4.7]\nstops_at = [\"far\"]\n";
+    };
+    for (int turn = 0; turn < 40; ++turn)
+    {
+        SCOPED_TRACE(turn);
+        const RockMass rock = rock_of(
+            "[domain]\nwidth = 10.0\nheight = 10.0\n[[fault]]\nname = \"far\"\npoints = [[-1, 9], [11, 9.5]]\n" +
+            set(20.0 + turn, 3.0) + set(75.0 + turn, 4.0) + set(-50.0 + turn, 3.5) + laws);
+        expect_filled(rock);
+        for (const RockBlock& block : rock.blocks)
+            EXPECT_GT(area(block), 1e-6) << block.name;
+    }
+}
+
 TEST(DrawnSpacing, IsFoundByEveryBlock)
 {
     const RockMass rock = rock_of(
