@@ -171,7 +171,7 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
         const bool takes_part = blocks.takes_part(b);
         if (!takes_part && !is_beside_moving(b, list, contacts, blocks))
             continue;
-        if (look_at_all)
+        if (look_at_all || !(blocks.stable_step[b] > 0.0))
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
         const double least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
         const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * model.size(b) / rule.falls_by) : infinity;
