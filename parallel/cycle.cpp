@@ -18,6 +18,7 @@
 #include "parallel/team.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hdem
 {
@@ -187,6 +188,8 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, Th
     rules_ = rules;
     if (!same)
         prepare(model, state);
+    if (!rules_.step.varies)  // loads may end within the stage: then steps are found anew
+        std::ranges::fill(state.blocks.stable_step, 0.0);
     threads.limit(static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread)));
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads.rule().most)));
     // A bound on the share of their margins that blocks have used up since the contacts were found; it only decides when to look closely.
@@ -298,6 +301,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     if (rules_.contact.law != ContactLaw::springs)
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
+    find_groups(state, team);
     if (impulses == 0)
         move(model, state, team, now);
     else
@@ -412,6 +416,13 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         part.impulses.clear();
         if (part.tally.impulses > 0)
             collect_impulse_points(part.range, model, state.blocks, state.contacts, part.impulses);
+    }
+    const IndexRange blocks = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = blocks.begin; i < blocks.end; ++i)
+    {
+        partition_.blocks[i].fast.clear();
+        if (std::isfinite(rules_.groups.speed))
+            find_fast(partition_.blocks[i].range, model, rules_.groups, state.blocks, partition_.blocks[i].fast);
     }
 }
 

@@ -81,6 +81,7 @@ class CycleRunner
     void leave_out(const State& state, const Team& team);
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
+    void find_groups(const State& state, const Team& team);
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);
@@ -90,6 +91,7 @@ class CycleRunner
 
     Workspace work_;
     RunningSums sums_;
+    MovingGroups groups_;                   ///< of this cycle, where some part has fast blocks
     int sums_for_ = 0;                      ///< threads that share the contacts
     std::vector<ContactLoads> part_loads_;  ///< of a part, for each thread
     Index least_for_sums_;                  ///< contacts

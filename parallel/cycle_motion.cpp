@@ -29,8 +29,27 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
             sum_up({b, b + 1});
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
+    if (!part.fast.empty())
+        groups_.mark(part.range, state.blocks);
     if (!part.bolted.empty())
         hold_by_bolts(work_.bolted, part.range, state.blocks);
+}
+
+void CycleRunner::find_groups(const State& state, const Team& team)
+{
+    if (std::ranges::all_of(partition_.blocks, [](const BlockPart& part) { return part.fast.empty(); }))
+        return;
+    team.alone(
+        [&]
+        {
+            std::vector<Index> fast, bolted;
+            for (const BlockPart& part : partition_.blocks)
+            {
+                fast.insert(fast.end(), part.fast.begin(), part.fast.end());
+                bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
+            }
+            groups_.find(rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts);
+        });
 }
 
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)

@@ -23,6 +23,7 @@ struct ContactPart
     EnergyLedger ledger;                 ///< of this cycle
     std::vector<ImpulsePoint> impulses;  ///< of this cycle
     MassRange masses;                    ///< of their blocks
+    bool are_hit = false;                ///< one of them hits
     bool unsolved = false;               ///< they need more than sweeps
     std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
     std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
@@ -36,6 +37,7 @@ struct BlockPart
     std::vector<IndexRange> active;  ///< blocks that are not left out
     std::vector<Index> summed;       ///< blocks whose sums do not form contact by contact, see RunningSums
     std::vector<Index> flying;       ///< blocks with nothing near them
+    std::vector<Index> fast;         ///< blocks that may fall or slide together, in this cycle
     std::vector<Index> pushed;       ///< blocks on which constant forces of sides act
     std::vector<Index> walls;        ///< that move
     std::vector<Index> bolted;       ///< blocks that bolts hold: these never rest

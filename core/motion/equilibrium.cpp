@@ -89,7 +89,8 @@ bool holds(const ConvergenceDef& criteria, const Equilibrium& now)
             return now.unbalanced_force_ratio() < criteria.unbalanced_force_ratio;
         return now.unbalanced.value < criteria.block_unbalanced_ratio && now.fastest.value < criteria.mean_speed;
     };
-    return !criteria.criteria.empty() && std::ranges::all_of(criteria.criteria, meets);
+    const bool nothing_is_free = now.free_mass == 0.0;
+    return !criteria.criteria.empty() && (nothing_is_free || std::ranges::all_of(criteria.criteria, meets));
 }
 
 bool is_supported(Index block, const Model& model, const State& state)
@@ -112,7 +113,7 @@ DisplacementReport report_displacements(const Model& model, const State& state)
         near[i] = 1;
     for (const Index i : model.slot_of_user)
     {
-        if (!blocks.is_free(i))
+        if (!blocks.is_free(i) && !has_left(i, model, blocks))
             continue;
         const double distance = blocks.displacement(i).norm();
         const bool detached = distance > model.convergence.detached_distance;

@@ -30,6 +30,16 @@ double smallest_free_mass(const Model& model, const Blocks& blocks)
     return mass;
 }
 
+/// The blocks with those free that a stage frees: a time step must be good for them too.
+Blocks with_freed_names(const Model& model, Blocks blocks)
+{
+    for (const StageDef& stage : model.stages)
+        for (const std::string& name : stage.free)
+            if (const Index block = model.find_block(name); block != no_index)
+                blocks.inertia[block] = model.full_inertia[block];
+    return blocks;
+}
+
 double greatest_stiffness(const JointTable& joints)
 {
     double stiffness = 0.0;
@@ -167,7 +177,7 @@ Setup build_model(const CaseDef& def)
     std::ranges::move(resolve_support(def, setup.state.blocks, model, setup.state.support), std::back_inserter(problems));
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
-    const Blocks free_at_times = with_freed_sides(model, setup.state.blocks);
+    const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
     std::vector<double> masses = least_masses(model);
     std::swap(masses, model.mass);  // the step must be good in all stages
     const double smallest = smallest_free_mass(model, free_at_times);
@@ -185,9 +195,9 @@ Setup build_model(const CaseDef& def)
 
     std::ranges::move(resolve_names(def, model, setup.state.blocks), std::back_inserter(problems));
     if (!std::isfinite(smallest))
-        problems.push_back(
-            {.key = "domain.fixed",
-             .text = "rock mass: free blocks = 0 (every block is fixed: nothing can move). Free at least one block."});
+        problems.push_back({.key = "domain.fixed",
+                            .text = "rock mass: free blocks = 0 (every block is fixed, and no stage frees one: nothing can move). "
+                                    "Free at least one block."});
     for (Problem& problem : rock.warnings)
         problems.push_back(std::move(problem));
     std::erase_if(problems,

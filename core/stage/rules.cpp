@@ -43,6 +43,15 @@ constexpr double settling_speeds = 40.0;
 /// Of the same: while rock that stands is faster a given step is kept.
 constexpr double slow_speeds = 10.0;
 
+/// Blocks that fall or slide together are free of local damping. Where rest is looked for slower ones are damped in any case; elsewhere as soon as they are faster than
+/// rock at rest.
+GroupRule groups_of(const StageSetting& s, double settling)
+{
+    if (s.preset != DampingPreset::automatic || s.damping.local == 0.0 || s.method == Method::impulse)
+        return {};
+    return {.speed = settling > 0.0 ? 2.0 * settling : s.convergence.mean_speed};
+}
+
 StageSetting setting_of(const Model& model, const State& state)
 {
     const bool begun = state.stage_begun;
@@ -81,11 +90,12 @@ StageRules resolve_rules(const StageSetting& s)
                         .rock_keeps_springs = looks_for_rest,
                         .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
                         .closing_speed = settling},
-            .islands = looks_for_rest ? ExactIslands::small : ExactIslands::great_mass_ratios,
+            .islands = looks_for_rest ? ExactIslands::small : (whole_cycles ? ExactIslands::great_mass_ratios : ExactIslands::hit),
             .damping = {.local = s.preset == DampingPreset::dynamic ? 0.0 : s.damping.local,
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,
                         .settling = settling},
+            .groups = groups_of(s, settling),
             .step = {.varies = looks_for_rest && is_steady && !s.times_to_come,
                      .keeps_given = s.has_step,
                      .flies_ahead = looks_for_rest && is_steady && !s.times_to_come && !s.releases,

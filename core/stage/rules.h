@@ -9,6 +9,7 @@
 #include "core/model/case_def.h"
 #include "core/model/model.h"
 #include "core/motion/damping.h"
+#include "core/motion/moving_groups.h"
 #include "core/motion/rest.h"
 #include "core/motion/step_control.h"
 #include "core/state/state.h"
@@ -54,6 +55,7 @@ struct StageRules
     RegimeRule contact;
     ExactIslands islands = ExactIslands::great_mass_ratios;
     DampingRule damping;
+    GroupRule groups;
     StepRule step;
     RestRule rest;
     bool ends_at_rest = false;      ///< the stage ends when the rock is at rest

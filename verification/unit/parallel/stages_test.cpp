@@ -1,7 +1,11 @@
+#include "core/stage/rules.h"
 #include "parallel/stages.h"
 #include "verification/unit/case_run.h"
 
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace hdem
 {
@@ -46,6 +50,36 @@ TEST(Stages, SayWhatAStaticSolutionFoundAtTheirBeginning)
     EXPECT_EQ(results[1].statics->outcome, "balanced");
     EXPECT_GT(results[1].statics->iterations, 0);
     EXPECT_LT(results[1].statics->residual, 1e-5);
+}
+
+/// The step of what moves is found anew where a load ends within a stage: it was taken as 0, and positions were not numbers any more.
+TEST(Stages, GoOnWhereALoadEndsWithinThem)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+    {
+        CaseDef scene = scenes::block_on_ground(1.0, 0.5);
+        scene.contact.method = method;
+        scene.loads = {{.blocks = {"block"}, .force = {20e3, 0.0}, .interval = {.until_time = 0.3}}};
+        scene.stages = {{.name = "pushed", .until_converged = true, .max_cycles = 50'000}};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        const std::vector<StageResult> results = run_stages(simulation, {});
+        EXPECT_TRUE(results[0].at_rest) << name_of(method);
+        // Pushed at a = F/m - g tan(phi), then held back by friction alone.
+        const double friction = 9.81 * std::tan(30.0 * std::numbers::pi / 180.0), a = 20e3 / 1350.0 - friction, v = 0.3 * a;
+        const double way = 0.5 * 0.3 * v + 0.5 * v * v / friction;
+        EXPECT_NEAR(simulation.state().blocks.displacement(simulation.model().find_block("block")).x(), way, 0.01 * way)
+            << name_of(method);
+    }
+}
+
+TEST(Stages, EndAtRestWhereNothingIsFree)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.stages = {{.name = "a", .cycles = 10}, {.name = "b", .until_converged = true, .max_cycles = 5000, .fix = {"block"}}};
+    const std::vector<StageResult> results = run_all(scene);
+    EXPECT_TRUE(results[1].at_rest);
+    EXPECT_EQ(results[1].cycles, 1000) << "convergence.least_cycles";
 }
 
 TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)

@@ -160,6 +160,21 @@ TEST(BuildModel, RefusesAModelThatCannotMove)
     scenes::add_fixed_block(scene, "rock", rectangle({0, 0}, {1, 1}));
     ASSERT_EQ(problems_of(scene).size(), 1u);
     EXPECT_THAT(problems_of(scene)[0].text, HasSubstr("every block is fixed"));
+    scene.stages = {{.name = "free", .cycles = 10, .free = {"rock"}}};
+    EXPECT_TRUE(problems_of(scene).empty());
+}
+
+/// The step is good for blocks that are freed later, as if they had been free from the start.
+TEST(BuildModel, TakesAStepForBlocksThatAStageFrees)
+{
+    CaseDef scene = scenes::block_on_ground(5.0, 5.0);
+    scenes::add_block(scene, "small", rectangle({4.0, 0.0}, {4.1, 0.1}));
+    const Setup free = build_model(scene);
+    scene.blocks[2].fix_x = scene.blocks[2].fix_y = scene.blocks[2].fix_rotation = true;
+    EXPECT_GT(build_model(scene).model.time_step, 2.0 * free.model.time_step);
+    scene.stages.push_back({.name = "free", .cycles = 10, .free = {"small"}});
+    EXPECT_EQ(build_model(scene).model.time_step, free.model.time_step);
+    EXPECT_EQ(build_model(scene).model.paper_time_step, free.model.paper_time_step);
 }
 
 TEST(BuildModel, RefusesAPrescribedVelocityOfAFreeComponent)

@@ -1,0 +1,84 @@
+#include "verification/unit/case_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+using scenes::rectangle;
+using test::CaseRun;
+
+constexpr double g = 9.81;
+
+/// `lower` with its face at height `y` above the ground and `upper` on it; the joint between them is rough.
+CaseDef two_on_each_other(double y, Method method)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = method;
+    scene.materials.push_back({.name = "rough", .density = 2700.0});
+    JointDef rough = scene.joints[0];
+    rough.name = "rough";
+    rough.friction_angle_deg = 60.0;
+    rough.materials = {"rough", "rough"};
+    scene.joints.push_back(rough);
+    scenes::add_fixed_block(scene, "ground", rectangle({-50.0, -2.0}, {50.0, 0.0}));
+    scenes::add_block(scene, "lower", rectangle({0.0, y}, {3.0, y + 1.0})).material = "rough";
+    scenes::add_block(scene, "upper", rectangle({0.5, y + 1.0}, {2.5, y + 2.0})).material = "rough";
+    return scene;
+}
+
+/// Runs for a second at most, and returns the time.
+double run_for(CaseRun& run, double time)
+{
+    while (run.state().time < time)
+        run.advance(1);
+    return run.state().time;
+}
+
+class MovingGroup : public testing::TestWithParam<Method>
+{
+};
+
+TEST_P(MovingGroup, FallsWithGravity)
+{
+    for (const double angle : {0.0, 37.0})
+    {
+        CaseRun run(scenes::turned(two_on_each_other(5.0, GetParam()), angle));
+        const double t = run_for(run, 0.8);
+        for (const char* block : {"lower", "upper"})
+            EXPECT_NEAR(run.displacement(block).norm(), 0.5 * g * t * t, 2e-3 * g) << block << " turned by " << angle;
+    }
+}
+
+TEST_P(MovingGroup, SlidesAsOneBlock)
+{
+    constexpr double slope = 30.0 * std::numbers::pi / 180.0, friction = 20.0 * std::numbers::pi / 180.0;
+    CaseDef scene = two_on_each_other(0.0, GetParam());
+    scene.joints[0].friction_angle_deg = 20.0;
+    scene.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+    for (const bool mirrored : {false, true})
+    {
+        CaseRun run(mirrored ? scenes::mirrored(scene) : scene);
+        const double t = run_for(run, 1.0);
+        const double way = 0.5 * g * (std::sin(slope) - std::cos(slope) * std::tan(friction)) * t * t;
+        for (const char* block : {"lower", "upper"})
+            EXPECT_NEAR(run.displacement(block).norm(), way, 0.01 * way) << block << (mirrored ? " mirrored" : "");
+    }
+}
+
+TEST_P(MovingGroup, ThatIsHeldIsDampedAsEver)
+{
+    CaseRun run(two_on_each_other(1e-3, GetParam()));
+    run_for(run, 0.3);
+    EXPECT_LT(run.velocity("upper").norm(), 1e-6);
+    EXPECT_LT(run.velocity("lower").norm(), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, MovingGroup, testing::Values(Method::force, Method::hybrid),
+                         [](const auto& method) { return method.param == Method::force ? "force" : "hybrid"; });
+}  // namespace
+}  // namespace hdem
