@@ -143,7 +143,7 @@ void describe_hdf5(Page& page, const fs::path& file)
             return describe_results(page, in);
         if (filetype == "hdem-checkpoint")
             return describe_checkpoint(page, in);
-        if (filetype == "hdem-blocks" || filetype == "hdem-contacts" || filetype == "hdem-bolts")
+        if (filetype == "hdem-blocks" || filetype == "hdem-contacts" || filetype == "hdem-bolts" || filetype == "hdem-liners")
             return describe_frame(page, in, filetype);
     }
     refuse(file, "an HDF5 file, but none of hdem's");

@@ -18,7 +18,7 @@ namespace
 /// Number of blocks_NNNNNN.hdf and the like, -1 for any other name (and for what a killed run left behind).
 int frame_number(const std::string& file)
 {
-    for (const std::string kind : {"blocks_", "contacts_", "bolts_"})
+    for (const std::string kind : {"blocks_", "contacts_", "bolts_", "liners_"})
     {
         const std::string digits = file.substr(std::min(kind.size(), file.size()), 6);
         if (file == kind + digits + ".hdf" && digits.find_first_not_of("0123456789") == std::string::npos)
@@ -59,6 +59,8 @@ std::vector<std::string> kinds_of(const Model& model)
         kinds.emplace_back("contacts");
     if (!model.support.bolts.empty())
         kinds.emplace_back("bolts");
+    if (!model.support.liners.empty())
+        kinds.emplace_back("liners");
     return kinds;
 }
 
@@ -71,7 +73,7 @@ bool is_of_interruption(const Model& model, const State& state)
 
 void remove_frames(const std::filesystem::path& folder)
 {
-    for (const char* series : {"blocks.hdf.series", "contacts.hdf.series", "bolts.hdf.series"})
+    for (const char* series : {"blocks.hdf.series", "contacts.hdf.series", "bolts.hdf.series", "liners.hdf.series"})
         remove_file(folder / series);
     for (const std::filesystem::path& file : files_in(folder / "frames"))
         if (frame_number(file.filename().string()) >= 0)
@@ -126,6 +128,8 @@ const Frame& FrameWriter::write(const Model& model, const State& state)
         write_contact_frame(folder_ / frame_file("contacts", number), model, state);
     if (!model.support.bolts.empty())
         write_bolt_frame(folder_ / frame_file("bolts", number), model, state);
+    if (!model.support.liners.empty())
+        write_liner_frame(folder_ / frame_file("liners", number), model, state);
     write_block_frame(folder_ / frame_file("blocks", number), model, state);
     frames_.push_back(std::move(frame));
     return frames_.back();

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a state for ParaView and for tools/plot.py: one VTKHDF file for the blocks, one for the contacts, one for the bolts.
+/// Pictures of a state for ParaView and for tools/plot.py: one VTKHDF file for the blocks, one for the contacts, one for the bolts, one for the linings.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -18,14 +18,14 @@ struct Frame
     std::string stage;  ///< name
 };
 
-/// Files: FOLDER/frames/blocks_NNNNNN.hdf, contacts_NNNNNN.hdf and bolts_NNNNNN.hdf, and FOLDER/blocks.hdf.series and so on, which
+/// Files: FOLDER/frames/blocks_NNNNNN.hdf, contacts_NNNNNN.hdf, bolts_NNNNNN.hdf and liners_NNNNNN.hdf, and FOLDER/blocks.hdf.series and so on, which
 /// name them with their times. The layout stands in io/hdf5_format.md. Every file is complete or not there; the series
 /// names complete files only. All are written with Flush::later: results.h5 brings them to the disk.
 /// @see verification/unit/io/frame_writer_test.cpp
 class FrameWriter
 {
   public:
-    /// Contact frames are written when model.output.contacts says so, frames of bolts where the case has any. Frames of an earlier run in the folder are removed.
+    /// Contact frames are written when model.output.contacts says so, frames of bolts and linings where the case has any. Frames of an earlier run in the folder are removed.
     FrameWriter(std::filesystem::path folder, const Model& model);
     /// To go on after a restart at `state`: frames of the folder that are not younger than it stay, the others leave the series.
     /// A file that cannot be read leaves it too; it counts as younger when its number does.
@@ -38,7 +38,7 @@ class FrameWriter
     void write_series() const;
 
     [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
-    /// "blocks", and "contacts" and "bolts" where they are written
+    /// "blocks", and "contacts", "bolts" and "liners" where they are written
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
   private:
@@ -53,11 +53,12 @@ class FrameWriter
 /// Remove the frames in a folder, and first the series that name them.
 void remove_frames(const std::filesystem::path& folder);
 
-/// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks", "contacts" or "bolts"
+/// "frames/blocks_000012.hdf": where a frame lies in the run's folder. kind: "blocks", "contacts", "bolts" or "liners"
 std::string frame_file(const std::string& kind, int number);
 
 /// One file each. Throw RunError when it cannot be written.
 void write_block_frame(const std::filesystem::path& file, const Model& model, const State& state);
 void write_contact_frame(const std::filesystem::path& file, const Model& model, const State& state);
 void write_bolt_frame(const std::filesystem::path& file, const Model& model, const State& state);
+void write_liner_frame(const std::filesystem::path& file, const Model& model, const State& state);
 }  // namespace hdem

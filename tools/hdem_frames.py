@@ -1,4 +1,4 @@
-"""Reads one frame of blocks, of contacts or of bolts; hdem_io.py is what to import. io/hdf5_format.md says what each array means."""
+"""Reads one frame of blocks, of contacts, of bolts or of linings; hdem_io.py is what to import. io/hdf5_format.md says what each array means."""
 import numpy as np
 
 from checked_hdf5 import ANY, open_checked
@@ -14,6 +14,7 @@ BLOCK_CELLS = {"id": "i4", "material": "i4", "displacement": ("f4", 3), "rotatio
 CONTACT_CELLS = {"blocks": ("i4", 2), "normal": ("f4", 3), "length": "f4", "overlap": "f4", "normal_force": "f4", "shear_force": "f4", "normal_stress": "f4",
                  "shear_stress": "f4", "traction": "f4", "regime": "u1"}
 BOLT_CELLS = {"bolt": "i4", "axial_force": "f4", "across_force": "f4", "greatest_force": "f4", "elongation": "f4", "status": "u1"}
+LINER_CELLS = {"liner": "i4", "thrust": "f4", "shear": "f4", "moment_from": "f4", "moment_to": "f4"}
 BOLT_STATES = ("planned", "elastic", "slips", "yielded", "ruptured", "lost")
 
 
@@ -170,3 +171,15 @@ def read_bolts(file):
         bolts["points"] = _positions(opened, "VTKHDF/Points", (2 * len(bolts["bolt"]), 3))[:, :2].reshape(-1, 2, 2)
         bolts["info"] = _head(opened, {})
         return bolts
+
+
+def read_liners(file):
+    """One frame of linings as a dict of arrays, one entry per segment of those that are installed; see Run.liners."""
+    with open_checked(file, "hdem-liners", "hdem", FORMAT_MAJOR) as opened:
+        liners = _cells(opened, LINER_CELLS)
+        names = opened.texts("hdem/liner_names")
+        _indices(opened, "VTKHDF/CellData/liner", liners["liner"], 0, len(names))
+        liners["name"] = np.array(names, dtype=object)[liners["liner"]]
+        liners["points"] = _positions(opened, "VTKHDF/Points", (2 * len(liners["liner"]), 3))[:, :2].reshape(-1, 2, 2)
+        liners["info"] = _head(opened, {})
+        return liners

@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from checked_hdf5 import ANY, ResultError, open_checked
-from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts
+from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts, read_liners
 from plain_text import one_line
 from run_lock import is_running
 
@@ -161,6 +161,14 @@ class Run:
     def has_bolts(self, frame="last"):
         """Whether the case has bolts."""
         return self._file("bolts", frame).exists()
+
+    def liners(self, frame="last"):
+        """Arrays with one entry per segment of the linings that are installed: the frame's cell data, name, and points (n, 2, 2), its two ends."""
+        return read_liners(self._file("liners", frame))
+
+    def has_liners(self, frame="last"):
+        """Whether the case has linings."""
+        return self._file("liners", frame).exists()
 
     def _file(self, kind, frame):
         return self.folder / "frames" / f"{kind}_{self.frame(frame).number:06d}.hdf"

@@ -5,7 +5,6 @@ The blocks that stay in place decide the range of the colours: one fallen block 
 drawn hatched where they are.
 """
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -26,6 +25,7 @@ from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E4
 from plot_factor import draw_factor    # noqa: E402
 from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
 from plot_rock import JOINTS, draw_crosses, draw_joints, draw_water_table    # noqa: E402
+from plot_support import draw_bolts, draw_liners    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
@@ -63,7 +63,7 @@ def parse(arguments):
     parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
     parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
     parser.add_argument("--bolts", action="store_true", help="draw the bolts, coloured by their axial force")
-    parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings at the end of the run with this along them")
+    parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings with this along them")
     parser.add_argument("--numbers", action="store_true", help="with --joints: write values beside them, the greatest of each part of the picture")
     parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
     parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
@@ -165,43 +165,6 @@ def draw_contacts(axes, blocks, contacts, width_mm):
     return handles
 
 
-def draw_bolts(axes, bolts):
-    """Those that are installed by then; one that has ruptured, or lost its rock, has no force."""
-    lines, force = bolts["points"], np.nan_to_num(bolts["axial_force"].astype(float), nan=0.0, posinf=0.0, neginf=0.0)
-    if not len(lines):
-        return []
-    greatest = float(np.max(force, initial=0.0)) or 1.0
-    colours = plt.get_cmap("plasma")
-    axes.add_collection(LineCollection(lines, colors="black", linewidths=2.6, capstyle="round", zorder=4))
-    axes.add_collection(LineCollection(lines, colors=colours(np.clip(force / greatest, 0.0, 1.0)), linewidths=1.8, capstyle="round", zorder=4.1))
-    factor, unit = scaled_unit("N", greatest)
-    return [Line2D([], [], color=colours(share), linewidth=1.8, label=f"bolt, {share * greatest / factor:.3g} {unit}") for share in (0.0, 0.5, 1.0)]
-
-
-def draw_liners(axes, options, view):
-    """Linings as lines; thrust or moment stands off them, on the inside where it compresses or stretches the inside."""
-    folder = options.result if options.result.is_dir() else options.result.parent
-    try:
-        pieces = [piece for liner in json.loads((folder / "summary.json").read_text(encoding="utf-8"))["liners"] for piece in liner["segments"]]
-        lines = np.array([[piece["from"], piece["to"]] for piece in pieces], dtype=float).reshape(-1, 2, 2)
-        moments = options.liners == "moment"
-        values = np.array([piece["moment"] if moments else [piece["thrust"]] * 2 for piece in pieces], dtype=float).reshape(-1, 2)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ResultError(f"--liners: {folder / 'summary.json'} has no linings ({error}). It is written at the end of a run.") from error
-    if not len(lines):
-        raise ResultError("--liners: this run has no lining that was installed")
-    greatest = float(np.max(np.abs(values), initial=0.0)) or 1.0
-    along = lines[:, 1] - lines[:, 0]
-    inside = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1)[:, None]
-    off = lines + inside[:, None, :] * (values / greatest)[:, :, None] * 0.08 * min(view[2] - view[0], view[3] - view[1])
-    axes.add_collection(PolyCollection(np.concatenate([lines, off[:, ::-1]], axis=1), facecolors=ORANGE, alpha=0.35, linewidths=0.0, zorder=3.5))
-    axes.add_collection(LineCollection(off, colors=ORANGE, linewidths=0.7, zorder=3.6))
-    axes.add_collection(LineCollection(lines, colors="black", linewidths=1.8, capstyle="round", zorder=3.8))
-    factor, unit = scaled_unit("N m" if moments else "N", greatest)
-    name = "moment of the lining, inside where the inside is stretched" if moments else "thrust of the lining, inside where it is compressed"
-    return [Line2D([], [], color=ORANGE, linewidth=4.0, alpha=0.5, label=f"{name}: at most {greatest / factor:.3g} {unit}")]
-
-
 def view_of(blocks, options):
     """x0, y0, x1, y1 [m]"""
     if options.window:
@@ -238,13 +201,16 @@ def draw_frame(run, options):
     blocks = read_blocks(options.result) if single else run.blocks(options.frame)
     if not len(blocks["id"]):
         raise ResultError("this frame holds no blocks")
-    over = "--contacts" if options.contacts else "--joints" if options.joints else "--bolts" if options.bolts else None
+    over = "--contacts" if options.contacts else "--joints" if options.joints else "--bolts" if options.bolts else "--liners" if options.liners else None
     if over and single:
         raise ResultError(f"{over} needs the run's folder or its results.h5, not a single frame")
     contacts = run.contacts(options.frame) if options.contacts or options.joints else None
     if options.bolts and not run.has_bolts(options.frame):
         raise ResultError("--bolts: this case has no bolts, or the run is of a program that wrote no frames of them")
     bolts = run.bolts(options.frame) if options.bolts else None
+    if options.liners and not run.has_liners(options.frame):
+        raise ResultError("--liners: this case has no linings, or the run is of a program that wrote no frames of them")
+    liners = run.liners(options.frame) if options.liners else None
     view = view_of(blocks, options)
     field = options.colour in FIELDS
     rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners)) + int(len(blocks["water_table"]) > 0)
@@ -261,7 +227,7 @@ def draw_frame(run, options):
     if options.bolts:
         handles += draw_bolts(axes, bolts)
     if options.liners:
-        handles += draw_liners(axes, options, view)
+        handles += draw_liners(axes, liners, options.liners, view)
     if options.crosses:
         handles += draw_crosses(axes, blocks, view)
     handles += draw_water_table(axes, blocks)

@@ -1,5 +1,7 @@
 #include "tools/hdem/run_figures.h"
 
+#include "core/motion/equilibrium.h"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -2,6 +2,7 @@
 import itertools
 import json
 import random
+import subprocess
 from decimal import Decimal, InvalidOperation
 
 from . import designs
@@ -67,6 +68,17 @@ def bisection(options):
     return {"bisect": {"key": key, "low": low, "high": high, "tolerance": options.tolerance, "fails": options.fails}}
 
 
+def try_first(options, values):
+    """hdem's check of the first run, where hdem is at hand: a misspelt key would else be found by all runs."""
+    words = [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+    try:
+        done = subprocess.run([options.program, "check", options.case, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    except OSError:
+        return
+    if done.returncode == 2:
+        raise SweepError(f"hdem refuses the first run:\n{done.stderr.strip()}")
+
+
 def make(options):
     varied = [split_key("--vary", text) for text in options.vary]
     keys = [key for key, _ in varied]
@@ -84,6 +96,7 @@ def make(options):
     file = options.output / PLAN
     if file.exists():
         raise SweepError(f"{file}: there is a plan already. Give another folder, or remove it.")
+    try_first(options, dict(zip(keys, rows[0])) | {one["key"]: one["low"] for one in chain.values()})
     options.output.mkdir(parents=True, exist_ok=True)
     plan = {"case": str(options.case.resolve()), "runs": [dict(zip(keys, row)) for row in rows], **chain}
     if options.command_of_hdem != "run":

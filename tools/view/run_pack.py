@@ -9,7 +9,7 @@ import numpy as np
 from coding import Chunk, groomed
 from contact_rows import QUANTITIES, STEP, ContactRows
 from fields import STORED, all_fields, more_fields, range_of
-from hdem_frames import read_block_arrays, read_bolts, read_contacts, read_names
+from hdem_frames import read_block_arrays, read_bolts, read_contacts, read_liners, read_names
 from hdem_io import ResultError
 from poses import References, Shapes
 from tables import tables_of
@@ -25,11 +25,21 @@ def width_reference(values):
     return float(f"{np.percentile(values, 99.0):.5g}") if len(values) else 0.0
 
 
+def greatest_of_liners(liners):
+    """By which the page scales their diagrams: greatest thrust and moment, and the longer side of all of them."""
+    def most(*names):
+        return max(float(np.max(np.abs(np.nan_to_num(liners[name].astype(float), posinf=0.0, neginf=0.0)), initial=0.0)) for name in names)
+
+    greatest = {"thrust": most("thrust"), "moment": most("moment_from", "moment_to")}
+    points = liners["points"].reshape(-1, 2)
+    return {name: float(f"{value:.5g}") for name, value in greatest.items()} | {"size": float(np.max(np.ptp(points, axis=0))) if len(points) else 0.0}
+
+
 class RunPack:
     def __init__(self, contacts="auto"):
         self.contacts = contacts    # auto, all, ends or none
         self.shapes, self.references, self.rows = Shapes(), References(), ContactRows()
-        self.frames, self.names, self.outlines = [], [], []
+        self.frames, self.names, self.outlines, self.waters = [], [], [], []
         self.run = None
         self._fixed_facts, self._poses_at_hand = {}, {}    # the latter: of frames that were read in this update
         self.is_over = False    # known from elsewhere than the files
@@ -70,8 +80,13 @@ class RunPack:
         self._fixed_facts = {"materials": blocks["material_names"], "excavations": blocks["excavation_names"], "title": blocks["info"]["title"],
                              "detached_distance": float(blocks["info"]["detached_distance"])}
         entry = {"number": frame.number, "cycle": frame.cycle, "time": frame.time, "stage": frame.stage, "begin": int(blocks["info"]["stage_begin_cycle"]),
-                 "reference": reference, "outline": self._outline(blocks), "detached": int(np.count_nonzero(blocks["detached"]))}
-        entry["chunk"] = self._block_chunk(blocks, slots)
+                 "reference": reference, "outline": self._number_of(self.outlines, blocks["outline"]), "detached": int(np.count_nonzero(blocks["detached"]))}
+        if len(blocks["water_table"]):
+            entry["water"] = self._number_of(self.waters, blocks["water_table"])
+        liners = read_liners(lined) if (lined := self._file("liners", frame.number)).exists() else None
+        entry["chunk"] = self._block_chunk(blocks, slots, liners)
+        if liners is not None:
+            entry["liners"] = greatest_of_liners(liners)
         detached = blocks["detached"].astype(bool)
         entry["ranges"] = {name: range_of(name, values, detached) for name, values in all_fields(blocks).items()}
         if (bolts := self._file("bolts", frame.number)).exists():
@@ -79,7 +94,7 @@ class RunPack:
         self._poses_at_hand[frame.number] = self._poses(blocks, slots, reference)
         self.frames.append(entry)
 
-    def _block_chunk(self, blocks, slots):
+    def _block_chunk(self, blocks, slots, liners):
         order = np.argsort(slots, kind="stable")
         chunk = Chunk()
         if len(slots) < len(self.shapes.id) or len(self.frames) == 0:
@@ -96,14 +111,18 @@ class RunPack:
             chunk.add(name, "f2", blocks[name][order])
         flags = blocks["regime"] | blocks["fixed"] << 2 | blocks["detached"] << 3 | blocks["next_to_excavation"] << 4
         chunk.add("flags", "u1", flags[order])
+        if liners is not None:
+            chunk.add("liner_ends", "f4", liners["points"] - self.shapes.origin)
+            for name in ("thrust", "moment_from", "moment_to"):
+                chunk.add(f"liner_{name}", "f4", liners[name])
         return chunk.close()
 
-    def _outline(self, blocks):
-        """Its number; most frames have the same."""
-        outline = np.round(blocks["outline"] - self.shapes.origin, 5).ravel().tolist()
-        if outline not in self.outlines:
-            self.outlines.append(outline)
-        return self.outlines.index(outline)
+    def _number_of(self, known, points):
+        """Of these places among the known ones; most frames have the same."""
+        places = np.round(points - self.shapes.origin, 5).ravel().tolist()
+        if places not in known:
+            known.append(places)
+        return known.index(places)
 
     def _bolts(self, bolts):
         return {"ends": np.round(bolts["points"].reshape(-1, 4) - np.tile(self.shapes.origin, 2), 5).tolist(),
@@ -222,5 +241,5 @@ class RunPack:
         facts = {"name": Path(run.folder).resolve().name, "state": "interrupted" if self.is_over and run.state() == "running" else run.state(), "origin": self.shapes.origin.tolist(), "blocks": len(self.shapes.id),
                  "case": Path(str(made_by.get("case_file", ""))).name, "program": " ".join(filter(None, [made_by.get("hdem_version", ""), made_by.get("git_commit", "")[:10]])),
                  "static": put("s", self.static_chunk()), "rows": put("r", self.contact_row_chunk()), "tables_chunk": put("h", tables_chunk), "tables": tables,
-                 "outlines": self.outlines, "frames": frames, "contacts_left_out": self.contacts_left_out()}
+                 "outlines": self.outlines, "waters": self.waters, "frames": frames, "contacts_left_out": self.contacts_left_out()}
         return facts | self._fixed_facts, parts

@@ -20,8 +20,8 @@ export function table(map, signed) {
     return bytes;
 }
 
-// How a block's colour is drawn, in its fourth byte. The last two: it has moved on the sheet (sheet.js).
-export const GONE = 0, PLAIN = 255, HATCHED = 128, PLAIN_MOVED = 191, HATCHED_MOVED = 64;
+// How a block's colour is drawn, in its fourth byte.
+export const GONE = 0, PLAIN = 255, HATCHED = 128;
 const NO_VALUE = [170, 170, 170], FALLEN = [247, 207, 174];
 
 export function colourByValue(out, frame, values, [low, high], bytes, hatchDetached) {

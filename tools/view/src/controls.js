@@ -1,13 +1,14 @@
 // Buttons, lists and keys.
 import { MAPS } from "./colours.js";
 import { CLASSES, FIELDS } from "./fields.js";
-import { JOINTS } from "./lines.js";
+import { JOINTS, LININGS } from "./lines.js";
 import { byId, choice, element, row } from "./dom.js";
 
-const LAYERS = { edges: ["Block edges", "e"], outline: ["Excavations", "o"], forces: ["Contact forces", "c"], crosses: ["Principal stresses", "s"], bolts: ["Bolts", "b"] };
+const LAYERS = { edges: ["Block edges", "e"], outline: ["Excavations", "o"], forces: ["Contact forces", "c"], crosses: ["Principal stresses", "s"], bolts: ["Bolts", "b"], water: ["Water table", "w"] };
+const OF_SOME = { bolts: true, water: true }; // layers that not every run has
 const THEMES = ["auto", "light", "dark"];
 const KEYS = [["Space", "play or pause"], ["← →", "frame before, after"], ["Home End", "first, last frame"], ["+ −", "zoom"], ["Shift ← → ↑ ↓", "move the picture"], ["f", "all of the model"],
-              ["1 … 9", "colour"], ["e o c s b", "layers"], ["j", "next quantity of joints"], ["t", "light or dark"], ["Esc", "let go of the block"], ["?", "this list"]];
+              ["1 … 9", "colour"], ["e o c s b w", "layers"], ["j l", "next quantity of joints, of linings"], ["t", "light or dark"], ["Esc", "let go of the block"], ["?", "this list"]];
 
 export function fieldNames(view) {
     const known = Object.keys(FIELDS).filter((name) => view.runs.some((run) => run.frames.some((frame) => name in frame.ranges)));
@@ -42,18 +43,21 @@ export function buildControls(view) {
 
     const boxes = {};
     for (const [name, [text, key]] of Object.entries(LAYERS)) {
-        if (name === "bolts" && !view.runs.some((run) => run.frames.some((frame) => frame.bolts))) continue;
+        if (name in OF_SOME && !view.runs.some((run) => run.frames.some((frame) => frame[name] !== undefined))) continue;
         const box = (boxes[name] = element("input", { type: "checkbox", id: `layer-${name}`, checked: view.layers[name] }));
         box.addEventListener("change", () => ((view.layers[name] = box.checked), view.relayer()));
         byId("layers").append(element("label", { className: "check" }, box, element("span", { textContent: text }), element("kbd", { textContent: key })));
     }
     const jointChoice = choice("joint", joints.map((name) => [name, JOINTS[name]?.label ?? "not drawn"]), "none", (name) => ((view.joint = name), view.relayer()));
     const magnifyChoice = choice("magnify", [1, 2, 5, 10, 20, 50, 100, 500, 1000].map((n) => [n, n === 1 ? "as they are" : `× ${n}`]), 1, (times) => ((view.magnify = +times), view.rescale()));
-    byId("layers").append(row("Joints", jointChoice, "j"), row("Displacements", magnifyChoice));
+    const linings = ["thrust", "moment", "line", "none"], names = { line: "without diagram", none: "not drawn" };
+    const liningChoice = choice("lining", linings.map((name) => [name, LININGS[name]?.label ?? names[name]]), view.lining, (name) => ((view.lining = name), view.relayer()));
+    const lined = view.runs.some((run) => run.frames.some((frame) => frame.liners));
+    byId("layers").append(row("Joints", jointChoice, "j"), ...(lined ? [row("Linings", liningChoice, "l")] : []), row("Displacements", magnifyChoice));
     if (view.panes.length > 1) buildComparison(view);
     buildTransport(view);
     buildHelp();
-    addKeys(view, { fields, joints, fieldChoice, jointChoice, boxes });
+    addKeys(view, { fields, fieldChoice, boxes, next: { j: [jointChoice, joints], ...(lined ? { l: [liningChoice, linings] } : {}) } });
 }
 
 function buildComparison(view) {
@@ -114,7 +118,7 @@ function nextTheme(view) {
 function savePicture(view) {
     view.panes.forEach((pane) => {
         pane.draw();
-        pane.canvas.toBlob((blob) => {
+        pane.scene.seen.toBlob((blob) => {
             const link = element("a", { href: URL.createObjectURL(blob), download: `${pane.run.facts.name}_${String(pane.entry.number).padStart(6, "0")}.png` });
             link.click();
             URL.revokeObjectURL(link.href);
@@ -128,7 +132,7 @@ function buildHelp() {
     byId("help-box").addEventListener("click", () => byId("help-box").close());
 }
 
-function addKeys(view, { fields, joints, fieldChoice, jointChoice, boxes }) {
+function addKeys(view, { fields, fieldChoice, boxes, next }) {
     const pan = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] };
     const zoom = (factor) => (view.panes[0].camera.zoom(factor), view.cameraMoved(view.panes[0]));
     const choose = (list, value) => ((list.value = value), list.dispatchEvent(new Event("change")));
@@ -136,7 +140,7 @@ function addKeys(view, { fields, joints, fieldChoice, jointChoice, boxes }) {
     const actions = {
         " ": () => view.play(!view.playing), ArrowLeft: () => step(view, -1), ArrowRight: () => step(view, 1), Home: () => step(view, -Infinity), End: () => step(view, Infinity),
         "+": () => zoom(1.3), "=": () => zoom(1.3), "-": () => zoom(1 / 1.3), f: () => view.fit(), t: () => nextTheme(view), "?": () => byId("help-box").showModal(),
-        j: () => choose(jointChoice, joints[(joints.indexOf(view.joint) + 1) % joints.length]), Escape: () => view.pin(view.panes[0], -1),
+        Escape: () => view.pin(view.panes[0], -1), ...Object.fromEntries(Object.entries(next).map(([key, [list, all]]) => [key, () => choose(list, all[(all.indexOf(list.value) + 1) % all.length])])),
     };
     document.addEventListener("keydown", (event) => {
         const typed = event.target instanceof HTMLElement && event.target.matches("input[type=number], select");

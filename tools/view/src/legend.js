@@ -1,8 +1,8 @@
 // What colours and lines stand for.
 import { CLASSES, FIELDS, digits, scaledUnit, withUnit } from "./fields.js";
 import { table } from "./colours.js";
-import { JOINTS } from "./lines.js";
-import { boltReference, contactReference, stressReference } from "./ranges.js";
+import { JOINTS, LININGS } from "./lines.js";
+import { boltReference, contactReference, liningReference, stressReference } from "./ranges.js";
 import { element } from "./dom.js";
 
 function bar(view) {
@@ -40,6 +40,12 @@ function lines(view) {
     if (joint !== "none") each((value) => swatch("line red", `Widest: ${JOINTS[joint].label.toLowerCase()} ${value}`), JOINTS[joint].unit, (pane) => contactReference(pane.run, pane.shown, joint));
     if (layers.crosses) each((value) => swatch("cross", `Longest: principal stress ${value}; blue: tension`), "Pa", (pane) => stressReference(pane.run, pane.shown));
     if (layers.bolts && panes.some((pane) => pane.shown >= 0 && pane.entry.bolts)) found.push(swatch("bolt", `Bolts: 0 to ${withUnit(boltReference(view.runs), "N", 3)}`));
+    const shows = (what) => panes.some((pane) => pane.shown >= 0 && pane.entry[what] !== undefined);
+    if (LININGS[view.lining] && shows("liners")) {
+        const { label, unit } = LININGS[view.lining], side = view.lining === "thrust" ? "inside: compression" : "on the side that is stretched";
+        found.push(swatch("lining", `Linings: ${label.toLowerCase()} up to ${withUnit(liningReference(view.runs, view.lining).greatest, unit, 3)}, ${side}`));
+    }
+    if (layers.water && shows("water")) found.push(swatch("water", "Water table"));
     if ((layers.forces || joint !== "none") && panes.some((pane) => pane.shown >= 0 && !pane.entry.contacts)) found.push(element("p", { className: "note", textContent: "The page has no contacts of this frame." }));
     return found;
 }
@@ -47,8 +53,8 @@ function lines(view) {
 // Made anew only when it says something else: that costs more than a frame of blocks.
 export function fillLegend(root, view) {
     const { field, range, map, layers, joint, panes } = view;
-    const ofFrames = panes.map((pane) => pane.shown >= 0 && [pane.entry.begin, pane.entry.detached > 0, !!pane.entry.contacts, !!pane.entry.bolts]);
-    const key = JSON.stringify([field, range, map, layers, joint, ofFrames]);
+    const ofFrames = panes.map((pane) => pane.shown >= 0 && [pane.entry.begin, pane.entry.detached > 0, !!pane.entry.contacts, !!pane.entry.bolts, !!pane.entry.liners, pane.entry.water !== undefined]);
+    const key = JSON.stringify([field, range, map, layers, joint, view.lining, ofFrames]);
     if (root.dataset.key === key) return;
     root.dataset.key = key;
     root.replaceChildren(...[...(CLASSES[field] ? classes(view) : bar(view)), ...lines(view)].filter(Boolean));

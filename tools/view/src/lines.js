@@ -1,4 +1,4 @@
-// What is drawn over the blocks as lines: outlines of excavations, contacts, principal stresses, bolts, the block under the pointer.
+// What is drawn over the blocks as lines: outlines of excavations, contacts, principal stresses, support, water, the block under the pointer.
 
 export class Lines {
     constructor(most) {
@@ -124,6 +124,47 @@ export function boltLines(bolts, colours, greatest, ratio, ink) {
         const place = 3 * Math.round(255 * Math.min(1, Math.max(0, bolts.force[i] / greatest)));
         lines.add(...ends, 3.2 * ratio, colours.subarray(place, place + 3));
     });
+    return lines.cut();
+}
+
+// What linings carry -> label, unit, names of the values at both ends of a segment
+export const LININGS = {
+    thrust: { label: "Thrust", unit: "N", of: ["liner_thrust", "liner_thrust"] },
+    moment: { label: "Moment", unit: "N m", of: ["liner_moment_from", "liner_moment_to"] },
+};
+const DIAGRAM = 0.12; // of the size of all linings: where the greatest value stands
+
+// Linings, and off them their diagram: inside where it is compressed, or where its inside is stretched.
+export function liningLines(chunk, name, { greatest, size }, ratio, ink) {
+    if (!chunk.has("liner_ends")) return null;
+    const ends = chunk.get("liner_ends"), count = ends.length / 4, lines = new Lines(5 * count);
+    const values = LININGS[name]?.of.map((one) => chunk.get(one)), scale = greatest > 0 ? (DIAGRAM * size) / greatest : 0;
+    for (let i = 0; i < count; ++i) lines.add(...ends.subarray(4 * i, 4 * i + 4), 5 * ratio, SEAM);
+    for (let i = 0; values && i < count; ++i) {
+        const [x0, y0, x1, y1] = ends.subarray(4 * i, 4 * i + 4), length = Math.hypot(x1 - x0, y1 - y0) || 1;
+        const u = (-scale * (y1 - y0)) / length, v = (scale * (x1 - x0)) / length, [a, b] = [values[0][i], values[1][i]];
+        if (!(Number.isFinite(a) && Number.isFinite(b))) continue;
+        lines.add(x0, y0, x0 + a * u, y0 + a * v, 0.8 * ratio, ORANGE);
+        lines.add(x1, y1, x1 + b * u, y1 + b * v, 0.8 * ratio, ORANGE);
+        lines.add(x0 + a * u, y0 + a * v, x1 + b * u, y1 + b * v, 2 * ratio, ORANGE);
+    }
+    for (let i = 0; i < count; ++i) lines.add(...ends.subarray(4 * i, 4 * i + 4), 3 * ratio, ink);
+    return lines.cut();
+}
+
+// The water table, dashed. `flat`: x0, y0, x1, y1, ... from one end of the model to the other.
+export function waterLines(flat, ratio) {
+    const points = [];
+    for (let i = 0; i < flat.length; i += 2) points.push([flat[i], flat[i + 1]]);
+    const lengths = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]));
+    const dash = lengths.reduce((sum, one) => sum + one, 0) / 80;
+    if (!(dash > 0)) return null;
+    const pieces = lengths.map((length) => Math.max(1, 2 * Math.round(length / (2 * dash)))), lines = new Lines(2 * pieces.reduce((sum, one) => sum + one, 0));
+    for (const [width, colour] of [[4.4 * ratio, SEAM], [2.4 * ratio, BLUE]])
+        points.slice(1).forEach(([x1, y1], i) => {
+            const [x0, y0] = points[i], at = (t) => [x0 + t * (x1 - x0), y0 + t * (y1 - y0)];
+            for (let n = 0; n < pieces[i]; n += 2) lines.add(...at(n / pieces[i]), ...at((n + 1) / pieces[i]), width, colour);
+        });
     return lines.cut();
 }
 

@@ -2,12 +2,12 @@
 import { Camera } from "./camera.js";
 import { CLASSES, FIELDS } from "./fields.js";
 import { colourByClass, colourByValue, rgb, table } from "./colours.js";
-import { blockLines, boltLines, crossLines, forceLines, jointLines, outlineLines } from "./lines.js";
+import { blockLines, boltLines, crossLines, forceLines, jointLines, liningLines, outlineLines, waterLines } from "./lines.js";
 import { Scene } from "./scene.js";
 import { element } from "./dom.js";
-import { boltReference, contactReference, stressReference } from "./ranges.js";
+import { boltReference, contactReference, liningReference, stressReference } from "./ranges.js";
 
-const ORDER = ["forces", "joints", "outline", "crosses", "bolts", "pinned", "hovered"];
+const ORDER = ["forces", "joints", "outline", "crosses", "water", "linings", "bolts", "pinned", "hovered"];
 
 export class Pane {
     constructor(run, view) {
@@ -109,6 +109,10 @@ export class Pane {
         scene.setLines("joints", joint > 0 ? jointLines(contacts, view.joint, run, pose, joint, ratio) : null);
         const bolts = layers.bolts && this.entry.bolts;
         scene.setLines("bolts", bolts ? boltLines(bolts, table("inferno", false), boltReference(view.runs), ratio, ink) : null);
+        const lining = view.lining !== "none" && this.entry.liners;
+        scene.setLines("linings", lining ? liningLines(frame.chunk, view.lining, liningReference(view.runs, view.lining), ratio, ink) : null);
+        const water = layers.water ? run.facts.waters?.[this.entry.water] : null;
+        scene.setLines("water", water ? waterLines(water, ratio) : null);
         this.updateCrosses();
         this.mark("pinned", this.pinned);
         this.mark("hovered", this.hovered);
@@ -128,7 +132,7 @@ export class Pane {
     draw() {
         if (!this.frame) return;
         const { view } = this;
-        const isDone = this.scene.draw(this.camera, { ground: view.ground, ink: rgb("#1c2126"), edges: view.layers.edges, layers: ORDER, ratio: this.ratio });
+        const isDone = this.scene.draw(this.camera, { ink: rgb("#1c2126"), edges: view.layers.edges, layers: ORDER, ratio: this.ratio });
         clearTimeout(this.later);
         if (!isDone) this.later = setTimeout(() => view.redraw(), 160);
         const aim = 90 / this.camera.scale, power = 10 ** Math.floor(Math.log10(aim)), step = [5, 2, 1].find((n) => n * power <= aim) * power;

@@ -29,6 +29,12 @@ export function stressReference(run, number) {
     return Math.max(0, ...framesOf(run, number, "stage").flatMap((frame) => ["stress_1", "stress_3"].flatMap((name) => frame.ranges[name].map(Math.abs))));
 }
 
+// By which the diagram of linings is scaled, the same in all frames of all runs: their greatest value, and their size.
+export function liningReference(runs, name) {
+    const all = runs.flatMap((run) => run.frames.flatMap((frame) => frame.liners ?? []));
+    return { greatest: Math.max(0, ...all.map((one) => one[name] ?? 0)), size: Math.max(0, ...all.map((one) => one.size)) };
+}
+
 export function boltReference(runs) {
     return Math.max(1e-9, ...runs.flatMap((run) => run.frames.flatMap((frame) => frame.bolts?.force ?? [])));
 }

@@ -16,6 +16,7 @@ export class Scene {
         this.edges = twgl.createProgramInfo(gl, EDGES);
         this.lines = twgl.createProgramInfo(gl, LINES);
         this.layers = new Map();
+        this.buffers = new Map();
         this.makeShapes();
         const rows = Math.max(1, Math.ceil((run.count + 1) / WIDTH));
         this.allPoses = new Float32Array(4 * WIDTH * rows);
@@ -26,7 +27,10 @@ export class Scene {
         this.poseTexture = twgl.createTexture(gl, { ...plain, internalFormat: gl.RGBA32F, src: this.allPoses });
         this.colourTexture = twgl.createTexture(gl, { ...plain, internalFormat: gl.RGBA, src: this.allColours });
         this.rows = rows;
-        if (run.count >= MANY) this.sheet = new Sheet(this);
+        if (run.count < MANY) return;
+        this.sheet = new Sheet(this);
+        this.flat = this.sheet.canvas;
+        canvas.before(this.flat);
     }
 
     // Fans of triangles of convex parts, and outer edges; both in the order of blocks.
@@ -34,7 +38,8 @@ export class Scene {
         const { run, gl } = this, vertices = run.local_x.length;
         const local = new Float32Array(2 * vertices), block = new Uint32Array(vertices);
         const triangles = new Uint32Array(3 * (vertices - 2 * run.part_size.length)), edges = new Uint32Array(2 * run.outer.reduce((sum, one) => sum + one, 0));
-        const firstTriangle = new Uint32Array(run.count + 1), firstEdge = new Uint32Array(run.count + 1);
+        const firstTriangle = new Uint32Array(run.count + 1), firstEdge = new Uint32Array(run.count + 1), firstPart = new Uint32Array(run.count + 1);
+        const partBegin = new Uint32Array(run.part_size.length + 1);
         let t = 0, e = 0, begin = 0;
         for (let part = 0; part < run.part_size.length; ++part) {
             const size = run.part_size[part], owner = run.part_block[part];
@@ -45,9 +50,10 @@ export class Scene {
                 if (run.outer[v]) edges[e++] = v, (edges[e++] = begin + ((i + 1) % size));
             }
             begin += size;
-            firstTriangle[owner + 1] = t, (firstEdge[owner + 1] = e);
+            partBegin[part + 1] = begin;
+            firstTriangle[owner + 1] = t, (firstEdge[owner + 1] = e), (firstPart[owner + 1] = part + 1);
         }
-        Object.assign(this, { local, block, firstTriangle, firstEdge, edgeList: edges });
+        Object.assign(this, { local, block, firstTriangle, firstEdge, firstPart, partBegin, edgeList: edges });
         const shared = { a_local: { numComponents: 2, data: local }, a_block: { numComponents: 1, data: block } };
         const both = twgl.createBufferInfoFromArrays(gl, { ...shared, indices: { numComponents: 3, data: triangles } });
         const onlyEdges = { ...both, indices: twgl.createBufferFromTypedArray(gl, edges, gl.ELEMENT_ARRAY_BUFFER), numElements: e };
@@ -65,8 +71,13 @@ export class Scene {
     }
 
     // Only when blocks are drawn: a sheet needs none of them as long as nothing moves.
-    uploadPoses() {
+    uploadDue() {
         const { gl, rows } = this;
+        if (this.coloursDue) {
+            gl.bindTexture(gl.TEXTURE_2D, this.colourTexture);
+            gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, rows, gl.RGBA, gl.UNSIGNED_BYTE, this.allColours);
+        }
+        this.coloursDue = false;
         if (!this.posesDue) return;
         this.posesDue = false;
         gl.bindTexture(gl.TEXTURE_2D, this.poseTexture);
@@ -76,14 +87,9 @@ export class Scene {
     // After `colour` has changed.
     recolour(ground) {
         this.allColours.set([...ground, 255]);
+        this.groundColour = [...ground.map((one) => one / 255), 1];
         this.sheet?.findMoved();
-        this.uploadColour();
-    }
-
-    uploadColour() {
-        const { gl, rows } = this;
-        gl.bindTexture(gl.TEXTURE_2D, this.colourTexture);
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, rows, gl.RGBA, gl.UNSIGNED_BYTE, this.allColours);
+        this.coloursDue = true;
     }
 
     findBounds() {
@@ -116,24 +122,32 @@ export class Scene {
 
     // Lines of a layer: { ends: x0 y0 x1 y1 each, width: pixels each, colour: four bytes each, count }. Null: none.
     setLines(layer, lines) {
-        const old = this.layers.get(layer);
-        if (old) for (const { buffer } of Object.values(old.info.attribs)) if (buffer !== this.corners) this.gl.deleteBuffer(buffer);
-        if (old) this.gl.deleteVertexArray(old.vertices.vertexArrayObject);
-        this.layers.delete(layer);
-        if (!lines || !lines.count) return;
-        const info = twgl.createBufferInfoFromArrays(this.gl, {
-            a_corner: { numComponents: 2, data: new Float32Array([0, -0.5, 0, 0.5, 1, -0.5, 1, 0.5]) },
-            a_ends: { numComponents: 4, data: lines.ends, divisor: 1 },
-            a_width: { numComponents: 1, data: lines.width, divisor: 1 },
-            a_colour: { numComponents: 4, data: lines.colour, divisor: 1, normalize: true, type: this.gl.UNSIGNED_BYTE },
-        });
-        this.layers.set(layer, { info, count: lines.count, vertices: twgl.createVertexArrayInfo(this.gl, [this.lines], info) });
+        if (!lines || !lines.count) this.layers.delete(layer);
+        else this.layers.set(layer, lines);
+    }
+
+    // Buffers of a layer stay; they are filled when it is drawn for the first time.
+    buffersOf(layer, { ends, width, colour }) {
+        const { gl } = this, data = { a_ends: ends, a_width: width, a_colour: colour };
+        if (!this.buffers.has(layer)) {
+            const info = twgl.createBufferInfoFromArrays(gl, {
+                a_corner: { numComponents: 2, data: new Float32Array([0, -0.5, 0, 0.5, 1, -0.5, 1, 0.5]) },
+                a_ends: { numComponents: 4, data: ends, divisor: 1 },
+                a_width: { numComponents: 1, data: width, divisor: 1 },
+                a_colour: { numComponents: 4, data: colour, divisor: 1, normalize: true, type: gl.UNSIGNED_BYTE },
+            });
+            this.buffers.set(layer, { info, data, vertices: twgl.createVertexArrayInfo(gl, [this.lines], info) });
+        }
+        const made = this.buffers.get(layer);
+        if (made.data.a_ends !== ends) for (const [name, values] of Object.entries(data)) twgl.setAttribInfoBufferFromArray(gl, made.info.attribs[name], values);
+        made.data = data;
+        return made.vertices;
     }
 
     drawBlocks(program, shape, first, mode, uniforms, parts) {
         const { gl } = this;
         if (!parts.length) return;
-        this.uploadPoses();
+        this.uploadDue();
         gl.useProgram(program.program);
         twgl.setBuffersAndAttributes(gl, program, shape.vertices);
         twgl.setUniforms(program, { ...uniforms, u_pose: this.poseTexture, u_colour: this.colourTexture });
@@ -141,46 +155,39 @@ export class Scene {
             if (first[end] > first[begin]) gl.drawElements(mode, first[end] - first[begin], gl.UNSIGNED_INT, 4 * first[begin]);
     }
 
-    // Only some blocks, one after the other.
-    drawSome(blocks, uniforms) {
-        const parts = [];
-        for (const block of blocks) {
-            const last = parts[parts.length - 1];
-            if (last && last[1] === block) ++last[1];
-            else parts.push([block, block + 1]);
-        }
-        this.drawBlocks(this.faces, this.faceShape, this.firstTriangle, this.gl.TRIANGLES, uniforms, parts);
-    }
-
     // `layers`: names in the order in which they are drawn. Says whether the picture is as it is to stay.
-    draw(camera, { ground, ink, edges, layers, ratio }) {
-        const { gl, canvas } = this;
-        const u_view = [camera.x, camera.y, (2 * camera.scale) / camera.width, (2 * camera.scale) / camera.height], uniforms = { u_view, u_ratio: ratio };
-        const parts = this.visible(camera.view), inSight = parts.reduce((sum, [begin, end]) => sum + end - begin, 0);
-        let isDone = true;
+    draw(camera, { ink, edges, layers, ratio }) {
+        const parts = this.visible(camera.view), inSight = parts.reduce((sum, [begin, end]) => sum + end - begin, 0), isFlat = this.sheet && inSight >= MANY;
+        const lines = layers.filter((name) => this.layers.has(name)).map((name) => [name, this.layers.get(name)]);
+        this.show(isFlat);
+        if (isFlat) return this.sheet.draw(camera, ratio, lines);
+        const { gl, canvas } = this, u_view = [camera.x, camera.y, (2 * camera.scale) / camera.width, (2 * camera.scale) / camera.height];
+        gl.viewport(0, 0, canvas.width, canvas.height);
+        gl.clearBufferfv(gl.COLOR, 0, this.groundColour);
         gl.disable(gl.BLEND);
-        if (this.sheet && inSight >= MANY) {
-            isDone = this.sheet.draw(camera, ratio);
-            this.drawSome(this.sheet.moved, uniforms);
-        } else {
-            gl.viewport(0, 0, canvas.width, canvas.height);
-            gl.clearColor(ground[0] / 255, ground[1] / 255, ground[2] / 255, 1);
-            gl.clear(gl.COLOR_BUFFER_BIT);
-            this.drawBlocks(this.faces, this.faceShape, this.firstTriangle, gl.TRIANGLES, uniforms, parts);
-        }
+        this.drawBlocks(this.faces, this.faceShape, this.firstTriangle, gl.TRIANGLES, { u_view, u_ratio: ratio }, parts);
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
         const alpha = edges && inSight < MANY ? Math.min(1, Math.max(0, (this.typicalSize * camera.scale - 4) / 14)) : 0; // blocks of few pixels would be ink only
         if (alpha > 0.02)
             this.drawBlocks(this.edges, this.edgeShape, this.firstEdge, gl.LINES, { u_view, u_ink: [ink[0] / 255, ink[1] / 255, ink[2] / 255, 0.75 * alpha] }, parts);
         gl.useProgram(this.lines.program);
-        for (const name of layers) {
-            const layer = this.layers.get(name);
-            if (!layer) continue;
-            twgl.setBuffersAndAttributes(gl, this.lines, layer.vertices);
+        for (const [name, layer] of lines) {
+            twgl.setBuffersAndAttributes(gl, this.lines, this.buffersOf(name, layer));
             twgl.setUniforms(this.lines, { u_view, u_size: [canvas.width / 2, canvas.height / 2] });
             gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.count);
         }
-        return isDone;
+        return true;
+    }
+
+    // Which of the two canvases is on the screen. What is transparent costs nothing, but still has the pointer.
+    show(isFlat) {
+        if (!this.flat) return;
+        this.flat.hidden = !isFlat;
+        this.canvas.style.opacity = isFlat ? 0 : 1;
+    }
+
+    get seen() {
+        return this.flat && !this.flat.hidden ? this.flat : this.canvas;
     }
 }

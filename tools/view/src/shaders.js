@@ -44,35 +44,6 @@ flat in vec4 v_colour;
 out vec4 colour;
 void main() { colour = u_ink; }`];
 
-// The number of the block at each pixel: see sheet.js. 0 is the ground, which has its colour in the same texture.
-export const NUMBERS = [BLOCK.replace("flat out vec4 v_colour;", "vec4 v_colour;\nflat out uint v_number;").replace("void main() {", "void main() {\n    v_number = a_block;"), `#version 300 es
-precision highp float;
-precision highp int;
-flat in uint v_number;
-out uvec4 number;
-void main() { number = uvec4(v_number, 0u, 0u, 0u); }`];
-
-// From numbers to colours, moved and zoomed as u_shift says: pixel * x + yz. Behind the sheet's edge the number is 0.
-export const SHEET = [`#version 300 es
-in vec2 a_corner;
-void main() { gl_Position = vec4(a_corner, 0.0, 1.0); }`, `#version 300 es
-precision highp float;
-precision highp int;
-${HATCH}
-uniform highp usampler2D u_sheet;
-uniform highp sampler2D u_colour;
-uniform vec3 u_shift;
-out vec4 colour;
-void main() {
-    uint number = texelFetch(u_sheet, ivec2(floor(gl_FragCoord.xy * u_shift.x + u_shift.yz)), 0).r;
-    vec4 own = texelFetch(u_colour, ivec2(int(number & 1023u), int(number >> 10)), 0);
-    colour = own;
-    if (own.a < 0.95) {
-        bool is_away = own.a < 0.4 || own.a > 0.6;
-        colour = is_away ? texelFetch(u_colour, ivec2(0), 0) : painted(own);
-    }
-}`];
-
 // A line between two places, some pixels wide: four corners, once for each line.
 export const LINES = [`${VIEW}
 uniform vec2 u_size;

@@ -11,8 +11,8 @@ import { point } from "./pointer.js";
 
 export class View {
     constructor(runs) {
-        Object.assign(this, { runs, field: "displacement", map: "standard", scope: "stage", manual: [0, 1], range: [0, 1], joint: "none", magnify: 1, linked: true,
-                              layers: { edges: true, outline: true, forces: false, crosses: false, bolts: true }, place: 0, playing: false, speed: 10, loop: true,
+        Object.assign(this, { runs, field: "displacement", map: "standard", scope: "stage", manual: [0, 1], range: [0, 1], joint: "none", lining: "thrust", magnify: 1, linked: true,
+                              layers: { edges: true, outline: true, forces: false, crosses: false, bolts: true, water: true }, place: 0, playing: false, speed: 10, loop: true,
                               match: "stage", drawn: 0, listeners: [] });
         this.panes = runs.map((run) => new Pane(run, this));
         this.timeline = new Timeline(runs, this.match);

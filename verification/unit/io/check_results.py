@@ -133,17 +133,17 @@ def main(page, folder):
             problems += compare(file, table)
     for file in (folder / "frames").glob("blocks_*.hdf"):
         check_grid(file, 7, [3, 4, 5, 6, 7, 8])
-    for kind in ("contacts", "bolts"):
+    for kind in ("contacts", "bolts", "liners"):
         for file in (folder / "frames").glob(f"{kind}_*.hdf"):
             check_grid(file, 3, [2])
     with h5py.File(folder / "results.h5", "r") as results:
-        for kind in ("blocks", "contacts", "bolts"):
+        for kind in ("blocks", "contacts", "bolts", "liners"):
             for number in results["frames/number"][...]:
                 link = results[f"frames/{kind}"].get(f"{number:06d}", getlink=True)
                 assert isinstance(link, h5py.ExternalLink) and link.path == "/VTKHDF"
                 assert results[f"frames/{kind}/{number:06d}/CellData"].file.filename.endswith(f"frames/{kind}_{number:06d}.hdf")
     print("\n".join(problems + [f"{len(tables)} tables, {sum(map(len, tables.values()))} rows, {len(problems)} problems"]))
-    return 1 if problems or len(tables) != 5 else 0
+    return 1 if problems or len(tables) != 6 else 0
 
 
 if __name__ == "__main__":

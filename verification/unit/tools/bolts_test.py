@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Bolts in frames, pictures and searches. Skipped without numpy, h5py and matplotlib.
+"""Bolts and linings in frames, pictures and searches. Skipped without numpy, h5py and matplotlib.
 
     bolts_test.py HDEM CASES TOOLS    the program, its cases, the folder of its scripts
 """
@@ -75,6 +75,51 @@ class Frames(unittest.TestCase):
         done = subprocess.run([TOOLS / "pull_out_figure.py", self.folder, "-o", picture], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(matplotlib.image.imread(picture)[..., :3].std(), 0.01, "not a blank page")
+
+
+class Linings(unittest.TestCase):
+    """A ring of 3 m radius under a pressure of 0.2 MPa that grows over 1000 cycles: its thrust is pressure times radius."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_linings_")
+        cls.folder = Path(cls.scratch.name) / "ring"
+        hdem("run", CASES / "ring.toml", "-o", cls.folder, "--set", "output.frame_every=500", "-q")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def test_have_the_force_of_their_moment(self):
+        run = open_run(self.folder)
+        self.assertEqual([len(run.liners(number)["liner"]) for number in range(5)], [0, 72, 72, 72, 72], "not installed before the first stage")
+        for number, pressure in ((1, 0.1e6), (4, 0.2e6)):
+            liners = run.liners(number)
+            self.assertEqual(set(liners["name"]), {"ring"})
+            self.assertAlmostEqual(liners["thrust"].mean() / (3.0 * pressure), 1.0, delta=0.02)
+            np.testing.assert_allclose(np.hypot(*liners["points"].reshape(-1, 2).T), 3.0, atol=2e-3)
+        summary = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))["liners"][0]["segments"]
+        np.testing.assert_allclose(run.liners()["thrust"], [piece["thrust"] for piece in summary], rtol=1e-6)
+        for end, name in enumerate(("moment_from", "moment_to")):
+            np.testing.assert_allclose(run.liners()[name], [piece["moment"][end] for piece in summary], rtol=1e-6, atol=1e-6)
+        with h5py.File(self.folder / "results.h5") as results:
+            self.assertEqual(results["frames/liners/000004/CellData/thrust"].shape, (72,))
+        self.assertIn("frame of liners", hdem("info", self.folder / "frames/liners_000001.hdf"))
+
+    def test_are_drawn_for_any_frame(self):
+        pictures = {}
+        for frame, kind in ((1, "thrust"), (4, "thrust"), (4, "moment")):
+            picture = Path(self.scratch.name) / f"{kind}{frame}.png"
+            hdem("plot", self.folder, "--liners", kind, "--colour", "none", "--frame", frame, "--title", "ring", "-o", picture)
+            pictures[frame, kind] = matplotlib.image.imread(picture)
+        self.assertTrue(pictures[1, "thrust"].shape != pictures[4, "thrust"].shape or np.any(pictures[1, "thrust"] != pictures[4, "thrust"]))
+        self.assertTrue(np.any(pictures[4, "moment"] != pictures[4, "thrust"]))
+
+    def test_a_case_without_linings_says_so(self):
+        folder = Path(self.scratch.name) / "pull"
+        hdem("run", CASES / "pull.toml", "-o", folder, "--set", "stage.pull.cycles=10", "-q")
+        self.assertFalse((folder / "liners.hdf.series").exists())
+        self.assertIn("has no linings", hdem("plot", folder, "--liners", "thrust", code=2))
 
 
 class Searches(unittest.TestCase):

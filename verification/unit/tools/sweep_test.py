@@ -147,6 +147,15 @@ class Sweep(unittest.TestCase):
         os.mkfifo(lock)
         self.assertFalse(run_lock.is_running(self.folder), "and does not wait for it")
 
+    def test_plan_tries_its_first_run(self):
+        for varied in (("--vary", "generator.sed=1:3"), ("--vary", "generator.seed=1:2", "--bisect", "joint.default.cohesion=-5:5", "--tolerance", "1", "--fails", "detached_blocks>0")):
+            code, said = self.sweep("plan", "small.toml", "-o", "t", *varied, "--program", HDEM)
+            self.assertEqual(code, 2, said)
+            self.assertIn("hdem refuses the first run:\nerror: --set ", said)
+            self.assertFalse((self.folder / "t").exists())
+        code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "generator.sed=1:3", "--program", "nowhere")
+        self.assertEqual(code, 0, "planned where hdem is not: " + said)
+
     def test_errors_say_what_is_wrong(self):
         self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
         self.plan("generator.seed=1")

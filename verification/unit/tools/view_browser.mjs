@@ -41,7 +41,7 @@ async function press(page, ...keys) {
 async function picture(page, name, pane = 0) {
     await settled(page);
     await page.evaluate(() => document.querySelectorAll(".caption, .scale-bar").forEach((one) => (one.style.visibility = "hidden")));
-    await page.locator(".pane canvas").nth(pane).screenshot({ path: join(scratch, `${name}.png`) });
+    await page.locator(".pane").nth(pane).screenshot({ path: join(scratch, `${name}.png`) });
 }
 
 const placeOf = (page, name) => page.evaluate((wanted) => {
@@ -123,6 +123,23 @@ const steps = {
         await page.locator(".manual input").nth(1).press("Enter");
         said.manual = (await state(page)).legend;
     },
+    async support(browser, said) {
+        const page = await open(browser, said);
+        await page.selectOption("#field", "none");
+        await press(page, "e", "o");
+        await picture(page, "drawn");
+        said.drawn = await state(page);
+        const has = async (id) => (await page.locator(id).count()) > 0;
+        if (await has("#lining")) {
+            said.moment = await press(page, "l");
+            await picture(page, "moment");
+            said.line = await press(page, "l");
+            await picture(page, "line");
+        }
+        if (await has("#layer-water")) await press(page, "w");
+        if (await has("#lining")) await press(page, "l");
+        await picture(page, "without");
+    },
     async compare(browser, said) {
         const page = await open(browser, said);
         await settled(page);
@@ -150,7 +167,7 @@ const steps = {
         await page.evaluate(() => { // each block in a colour of its own
             const { view } = window.hdem, [pane] = view.panes;
             pane.paint = function () {
-                for (let i = 0; i < this.run.count; ++i) this.scene.colour.set([(97 * i) % 256, (57 * i + 40) % 256, (31 * i + 90) % 256, this.frame.present[i] ? 255 : 0], 4 * i);
+                for (let i = 0; i < this.run.count; ++i) this.scene.colour.set([(97 * i) % 256, (57 * i + 40) % 256, (31 * i + 90) % 256, this.frame.present[i] ? (i % 3 ? 255 : 128) : 0], 4 * i);
             };
             pane.update();
         });
@@ -160,8 +177,23 @@ const steps = {
         await picture(page, "sheet_zoomed");
         await press(page, "Home");
         await picture(page, "sheet_first");
+        await press(page, "f", "-");
+        await new Promise((done) => setTimeout(done, 600)); // a sheet of how they stand
+        said.moved = await page.evaluate(() => { // those at the right side stand beside the model, and are turned there
+            const { view } = window.hdem, [pane] = view.panes, { scene, run } = pane, { pose } = scene, x1 = pane.box[2];
+            for (let i = 0; i < run.count; ++i) if (pose[4 * i] > x1 - 12) pose[4 * i] += 20, ([pose[4 * i + 2], pose[4 * i + 3]] = [pose[4 * i + 2] - 1e-2 * pose[4 * i + 3], pose[4 * i + 3] + 1e-2 * pose[4 * i + 2]]);
+            scene.upload(view.ground);
+            view.redraw();
+            return scene.sheet.moved.length;
+        });
+        await picture(page, "sheet_moved");
+        said.stillMoved = await page.evaluate(() => window.hdem.view.panes[0].scene.sheet.moved.length);
         const exact = () => page.evaluate(() => { const { view } = window.hdem; view.panes[0].scene.sheet = null; view.redraw(); });
         await exact();
+        await picture(page, "exact_moved");
+        await press(page, "End");
+        await press(page, "Home");
+        await page.evaluate(() => { const { view } = window.hdem, [pane] = view.panes; view.fit(); pane.camera.zoom(1.31, 100, 130); view.cameraMoved(pane); });
         await picture(page, "exact_first");
         await press(page, "End");
         await picture(page, "exact_zoomed");

@@ -181,6 +181,31 @@ class PageOfASmallRun(unittest.TestCase):
             self.assertAlmostEqual(shown["force"][0] / bolts["axial_force"][0], 1.0, delta=1e-3)
         self.assertGreater(page["frames"][3]["bolts"]["force"][0], page["frames"][1]["bolts"]["force"][0])
 
+    def test_linings_of_each_frame_are_in_it(self):
+        folder = self.root / "ring"
+        subprocess.run([HDEM, "run", CASES / "support/ring.toml", "-o", folder, "--set", "output.frame_every=500", "-q"], check=True)
+        self.assertEqual(view(folder)[0], 0)
+        page, run = ViewPage(folder / "view.html"), open_run(folder)
+        frames = page.runs[0]["frames"]
+        self.assertEqual(len(page.arrays(frames[0]["chunk"])["liner_thrust"]), 0, "not installed yet")
+        for number in (1, 4):
+            arrays, liners = page.arrays(frames[number]["chunk"]), run.liners(number)
+            np.testing.assert_allclose(arrays["liner_ends"].reshape(-1, 2, 2) + page.runs[0]["origin"], liners["points"], atol=1e-5)
+            for name in ("thrust", "moment_from", "moment_to"):
+                np.testing.assert_array_equal(arrays[f"liner_{name}"], liners[name])
+            self.assertAlmostEqual(frames[number]["liners"]["thrust"] / np.abs(liners["thrust"]).max(), 1.0, delta=1e-4)
+            self.assertAlmostEqual(frames[number]["liners"]["size"], 6.0, delta=0.01)
+
+    def test_water_table_is_in_it(self):
+        folder = self.root / "dam"
+        subprocess.run([HDEM, "run", CASES / "water/dam.toml", "-o", folder, "--set", "stage.fill.max_cycles=10", "-q"], check=False)
+        self.assertEqual(view(folder)[0], 0)
+        page = ViewPage(folder / "view.html").runs[0]
+        table = np.array(page["waters"][page["frames"][-1]["water"]]).reshape(-1, 2) + page["origin"]
+        np.testing.assert_allclose(table, open_run(folder).blocks("last")["water_table"], atol=1e-4)
+        self.assertEqual(table[0][1], 10.0, "before the dam")
+        self.assertNotIn("water", self.page.runs[0]["frames"][-1], "of a case without water")
+
     def test_what_is_missing_or_damaged_is_told(self):
         empty = self.copy("empty")
         for file in (empty / "frames").iterdir():
