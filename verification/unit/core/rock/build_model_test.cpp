@@ -169,7 +169,7 @@ TEST(BuildModel, TakesAStepForBlocksThatAStageFrees)
 {
     CaseDef scene = scenes::block_on_ground(5.0, 5.0);
     scenes::add_block(scene, "small", rectangle({4.0, 0.0}, {4.1, 0.1}));
-    const Setup free = build_model(scene);
+    const hdem::Setup free = build_model(scene);
     scene.blocks[2].fix_x = scene.blocks[2].fix_y = scene.blocks[2].fix_rotation = true;
     EXPECT_GT(build_model(scene).model.time_step, 2.0 * free.model.time_step);
     scene.stages.push_back({.name = "free", .cycles = 10, .free = {"small"}});
