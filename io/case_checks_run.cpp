@@ -150,8 +150,9 @@ class RunCheck : public CaseCheck
         const bool goes_on = &stage != def_.stages.data() && (&stage - 1)->relax_to > 0.0;
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
-        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on)
-            refuse("nothing is excavated, and no boundary ends", "Add excavate, or remove relax_cycles.");
+        const bool changes_water = stage.water_level || !stage.water_table.empty();
+        if (stage.excavate.empty() && !changes_water && !ends_a_boundary(stage) && !goes_on)
+            refuse("nothing is excavated, and no boundary ends or water changes", "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)
             refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),

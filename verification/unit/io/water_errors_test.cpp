@@ -56,6 +56,15 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     expect_one_problem("[water]\npressure = \"none.csv\"\n", "14:12: [water]: pressure", "none.csv");
 }
 
+/// What a new level adds or takes comes over the stage's relax_cycles, with nothing excavated.
+TEST(WaterErrors, ALevelMayChangeSlowly)
+{
+    for (const std::string change : {"water_level = 4.0\n", "water_table = [[0, 3], [4, 2]]\n"})
+    {
+        EXPECT_TRUE(problems_of(head + change + "relax_cycles = 10\n[water]\nlevel = 3.0\n").empty()) << change;
+    }
+}
+
 TEST(WaterErrors, ATableRunsFromLeftToRight)
 {
     const CaseDef def = test::read(head + "[water]\ntable = [[4, 3], [0, 2]]\n");
