@@ -81,6 +81,7 @@ std::vector<BlockBalance> balances(const Model& model, State state)
 
 namespace
 {
+/// Turned, the joints of a set cross the domain at other places, so that other deviations of their dip are drawn: another rock mass of the same kind.
 void check_tunnel_held(Report& report, const char* method, double angle)
 {
     const std::string file = "support/tunnel.toml", key = "bolt[0].yield";
@@ -88,7 +89,11 @@ void check_tunnel_held(Report& report, const char* method, double angle)
     const Overrides base = turned_case(file, {set("contact.method", std::string(method))}, angle);
     const CaseRun without(report, file, base + Overrides{set(key, 1.0)});
     const std::vector<Index> lost = report_displacements(without.model(), without.state()).detached;
-    report.require({as + "blocks that are lost with bolts of 1 N", "three", 3.0, static_cast<double>(lost.size())}, absolute(0.0));
+    const auto number = static_cast<double>(lost.size());
+    if (angle == 0.0)
+        report.require({as + "blocks that are lost with bolts of 1 N", "three", 3.0, number}, absolute(0.0));
+    else
+        report.require({as + "blocks that are lost with bolts of 1 N", "some", 1.0, number}, at_least());
     const FailureCondition falls{.quantity = FailureCondition::Quantity::detached, .blocks = {}, .limit = 0.0};
     const Bracket least = find_critical(file, base, key, {1e5, 1.0}, 2e3, falls);
     report.require({as + "least yield of a bolt that holds all [N]", "found between 0 and 100 kN", 1e5, *least.stands}, at_most());
