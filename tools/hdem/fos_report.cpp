@@ -159,7 +159,7 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
         warnings.push_back(
             fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where others hold them.",
                         outcome.bound.factor));
-    if (outcome.without_corners)
+    if (outcome.without_corners && f.as_given.stands && *f.as_given.stands > *outcome.without_corners)
         warnings.push_back(fmt::format(
             "corners that touch other blocks in a point bear part of it: without them the factor is at most {:.4f}. They cannot be "
             "crushed here; rock can. Cut a notch where a tip stands on another plane (hdem plot shows it), or count on the lower "
