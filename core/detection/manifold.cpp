@@ -79,9 +79,16 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
     return scan;
 }
 
+/// Does an edge lie flat on another, and a second edge at an angle to it that a sliver beside them would have? By the sines of their angles to it.
+bool is_flat_beside(double sine, double other_sine)
+{
+    return std::abs(other_sine) > 2e-3 && std::abs(sine) < 0.25 * std::abs(other_sine);
+}
+
 /// External edge of `other` that faces `edge`: of those that end in a vertex which reaches farthest behind it, within `margin`, the one most opposed to it.
-/// A straight side may have vertices in its middle: of pieces (almost) in one line it is the one with the longest stretch over the edge. (Never a steep side just
-/// because it lies over the edge and the flat one beside it: a corner on a corner would carry as much as a face.)
+/// A straight side may have vertices in its middle: of pieces (almost) in one line it is the one with the longest stretch over the edge, unless one is flat on it
+/// and the other leaves room for a sliver between joints of almost the same dip. (Never a steep side just because it lies over the edge and the flat one beside it:
+/// a corner on a corner would carry as much as a face.)
 Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
     constexpr double in_line = 0.999;  // cosine of the angle between two pieces of one side
@@ -92,7 +99,7 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
     for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
         deepest = std::max(deepest, depth(v));
     Index best = no_index;
-    double best_length = 0.0, best_along = infinity;
+    double best_length = 0.0, best_along = infinity, best_across = 0.0;
     bool best_deep = false;
     for (Index e = shapes.vertex_begin[other]; e < shapes.vertex_begin[other + 1]; ++e)
     {
@@ -103,14 +110,17 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
         const double from = t.dot(pose.moved(shapes.vertex[e]) - start);
         const double to = t.dot(pose.moved(shapes.vertex[end]) - start);
         const double length = std::min(std::max(from, to), shapes.edge_length[edge]) - std::max(std::min(from, to), 0.0);
-        const double along = t.dot(pose.turned(shapes.edge_tangent[e]));
-        const bool same_side = best != no_index && shapes.edge_tangent[e].dot(shapes.edge_tangent[best]) > in_line;
+        const Vec2 direction = pose.turned(shapes.edge_tangent[e]);
+        const double along = t.dot(direction), across = cross(t, direction);
+        const bool same_side = best != no_index && shapes.edge_tangent[e].dot(shapes.edge_tangent[best]) > in_line &&
+                               !is_flat_beside(across, best_across) && !is_flat_beside(best_across, across);
         const bool better = deep != best_deep ? deep : (same_side ? length > best_length : along < best_along);
         if (best != no_index && !better)
             continue;
         best = e;
         best_length = length;
         best_along = along;
+        best_across = across;
         best_deep = deep;
     }
     return best;

@@ -71,9 +71,11 @@ PointStrength strength_of(const Model& model, const Contacts& contacts, Index co
 class Program
 {
   public:
-    Program(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, bool weakens_bolts)
+    Program(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, bool weakens_bolts,
+            bool corners_bear)
         : model_(model),
           state_(state),
+          corners_bear_(corners_bear),
           bolts_(bolt_strengths(model, state)),
           weakens_bolts_(weakens_bolts)
     {
@@ -184,6 +186,8 @@ class Program
         const Index ref = contacts.ref[contact], inc = contacts.inc[contact];
         const EdgeTouch touch = touch_edges(contacts.edges(contact), state_.blocks.motion[ref], state_.blocks.motion[inc]);
         const double floor = contacts.length_floor(contact), length = point_length(touch.length, floor);
+        if (!corners_bear_ && touch.length <= floor)
+            return;
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
@@ -270,6 +274,7 @@ class Program
 
     const Model& model_;
     const State& state_;
+    bool corners_bear_ = true;
     std::vector<BoltStrength> bolts_;
     bool weakens_bolts_ = false;
     int first_bolt_ = 0;  ///< column
@@ -282,6 +287,28 @@ class Program
     std::optional<LinearProgram> program_;
     bool gave_up_ = false;
 };
+}  // namespace
+
+namespace
+{
+/// The greatest F between `low` and `high` for which the program stands.
+StrengthBound find_bound(Program& program, double low, double high, StrengthBound bound)
+{
+    bound.end = StrengthBound::End::found;
+    while (!program.has_given_up() && high - low > accuracy * low)
+    {
+        const double middle = 0.5 * (low + high);
+        ++bound.solutions;
+        (program.stands(middle) ? low : high) = middle;
+    }
+    if (program.has_given_up())
+    {
+        bound.end = StrengthBound::End::not_found;
+        bound.why = "the linear program could not be solved";
+    }
+    bound.factor = 0.5 * (low + high);
+    return bound;
+}
 }  // namespace
 
 StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened, double least,
@@ -298,7 +325,7 @@ StrengthBound strength_bound(const Model& model, const State& state, const std::
         bound.why = "linings are not part of the linear program";
         return bound;
     }
-    Program program(model, state, weakened, weakens_bolts);
+    Program program(model, state, weakened, weakens_bolts, true);
     bound.rows = program.rows();
     bound.columns = program.columns();
     const auto stands = [&](double factor)
@@ -323,14 +350,29 @@ StrengthBound strength_bound(const Model& model, const State& state, const std::
     if (program.has_given_up())
         return give_up();
     bound.end = low == most ? StrengthBound::End::none : (is_low ? StrengthBound::End::found : StrengthBound::End::no_balance);
-    while (bound.end == StrengthBound::End::found && high - low > accuracy * low)
-    {
-        const double middle = 0.5 * (low + high);
-        (stands(middle) ? low : high) = middle;
-        if (program.has_given_up())
-            return give_up();
-    }
     bound.factor = 0.5 * (low + high);
-    return bound;
+    return bound.end == StrengthBound::End::found ? find_bound(program, low, high, bound) : bound;
+}
+
+StrengthBound strength_bound_without_corners(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened,
+                                             double least, const StrengthBound& with_corners, bool weakens_bolts)
+{
+    Program program(model, state, weakened, weakens_bolts, false);
+    double high = 0.98 * with_corners.factor;
+    if (program.stands(high))
+        return with_corners;
+    StrengthBound bound{.rows = program.rows(), .columns = program.columns(), .solutions = 1, .why = {}};
+    double low = 0.5 * high;
+    for (++bound.solutions; !program.stands(low) && !program.has_given_up(); ++bound.solutions)
+    {
+        high = low;
+        low *= 0.5;
+        if (high <= least)
+        {
+            bound.end = StrengthBound::End::no_balance;
+            return bound;
+        }
+    }
+    return find_bound(program, low, high, bound);
 }
 }  // namespace hdem

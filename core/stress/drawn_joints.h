@@ -15,6 +15,10 @@ namespace hdem
     return touch.length > 0.0 && -std::min(touch.point[0].overlap, touch.point[1].overlap) < length_floor;
 }
 
+/// By how much a point of a joint is preloaded that has cohesion or tension until it breaks: it is closed as drawn, also where numbers are rounded so that there is a
+/// gap. Without tension the least gap would break it. [m]
+[[nodiscard]] double drawn_preload(const Model& model, Index law, double overlap, double length_floor);
+
 /// Give contacts between blocks of `among` (one entry a block) the cohesion of their joints where their edges lie on each other, and the forces of [insitu].
 /// Every other contact is without both: blocks that have met since the start stick nowhere. A block that breaks off and falls back would be held again otherwise.
 /// Differs from the paper, whose contacts all have the joint's cohesion.

@@ -155,7 +155,8 @@ void lock_in_memory(const JointRow& row, double length, double overlap, const Ve
     point.memory = drawn_memory(row, normal, force.x() / length);
     point.normal_force = normal * length;
     point.shear_force = normal != 0.0 ? force.x() : 0.0;
-    point.preload = normal != 0.0 ? closure - overlap : 0.0;
+    if (normal != 0.0)
+        point.preload = closure - overlap;
     point.energy = normal != 0.0 ? state.energy * length : 0.0;
     point.stiffness = state.stiffness;
     point.regime = normal != 0.0 ? Regime::stick : Regime::open;

@@ -159,6 +159,12 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
         warnings.push_back(
             fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where others hold them.",
                         outcome.bound.factor));
+    if (outcome.without_corners && f.as_given.stands && *f.as_given.stands > *outcome.without_corners)
+        warnings.push_back(fmt::format(
+            "corners that touch other blocks in a point bear part of it: without them the factor is at most {:.4f}. They cannot be "
+            "crushed here; rock can. Cut a notch where a tip stands on another plane (hdem plot shows it), or count on the lower "
+            "number.",
+            *outcome.without_corners));
     std::vector<std::string> endless;
     for (const Bolt& bolt : reference.model.support.bolts)
         if (bears_any_force(bolt))
@@ -202,6 +208,7 @@ Json fos_json(const FosOutcome& outcome, const Model& model)
     Json json = bracket_json(f.as_given);
     json["bound"] = outcome.bound.end == StrengthBound::End::found ? Json(outcome.bound.factor) : Json(nullptr);
     json["bound_text"] = bound_text(outcome.bound);
+    json["bound_without_corners"] = outcome.without_corners ? Json(*outcome.without_corners) : Json(nullptr);
     json["peak"] = bracket_json(f.peak);
     json["stiffness_ratio"] = outcome.def.check_stiffness;
     json["stiffer"] = bracket_json(f.stiffer);

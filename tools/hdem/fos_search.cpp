@@ -22,7 +22,14 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
         question.begin(outcome);
     FactorSetting setting{.def = outcome.def, .bound = {}, .threads = question.threads, .store = question.store};
     if (outcome.bound.end == StrengthBound::End::found)
+    {
         setting.bound = outcome.bound.factor;
+        const StrengthBound lower = strength_bound_without_corners(model, reference.moment.state,
+                                                                   weakened_joints(model.joints, outcome.def), least_factor,
+                                                                   outcome.bound, weakens_bolts(outcome.def));
+        if (lower.end == StrengthBound::End::found && lower.factor < outcome.bound.factor)
+            outcome.without_corners = lower.factor;
+    }
     setting.show = question.show;
     setting.stop = question.stop;
     outcome.factor = find_safety_factor(reference.moment, setting);

@@ -18,6 +18,7 @@ struct FosOutcome
 {
     FactorOfSafetyDef def;
     StrengthBound bound;
+    std::optional<double> without_corners{};  ///< the bound where corners bear nothing, where that is much lower
     SafetyFactor factor;
     std::vector<std::string> gave_way{};  ///< names of blocks that did not stand in the last stage
     std::vector<std::string> warnings{};

@@ -172,6 +172,21 @@ void check_pretension(Report& report)
                        relative(1e-3));
     }
 }
+/// Bolts of each kind yield, slip or hold while the water rises and falls: all that they and the water do is in the ledger.
+void check_ledger(Report& report)
+{
+    for (const auto& [method, angle] : methods_and_angles())
+    {
+        const std::string file = "support/wet_slope.toml", name = fmt::format("{}, turned {:g}°: ", method, angle);
+        const CaseRun run(report, file, turned_case(file, {set("contact.method", std::string(method))}, radians_of(angle)));
+        const bool has_impulses = std::string(method) != "force";
+        report.require({name + "work that the ledger cannot explain, as a share of its greatest term", "conservation of energy",
+                        has_impulses ? 1e-4 : 1e-6, run.worst_residual()},
+                       at_most());
+        report.require({name + "work of the water [kJ]", "it pushes the blocks", 1.0, 1e-3 * run.state().ledger.water}, at_least());
+        report.require({name + "work that the bolts take [kJ]", "they yield", 1.0, -1e-3 * run.state().ledger.support}, at_least());
+    }
+}
 }  // namespace
 
 std::vector<Check> support_checks()
@@ -182,6 +197,7 @@ std::vector<Check> support_checks()
             {"support.B4", "Slab on a slope, held by the shear of a bolt", check_local},
             {"support.B5", "Slab on a slope, held by a tensioned bolt", check_tension},
             {"support.B6", "Bolt with pretension and joint share a load", check_pretension},
+            {"support.ledger", "Energy of bolts and water together", check_ledger},
             {"support.goodman_bray", "Anchor that holds columns which topple and slide", check_goodman_bray},
             {"support.tunnel", "Tunnel that loses three blocks without bolts", check_tunnel, Check::Length::is_long}};
 }

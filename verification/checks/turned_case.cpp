@@ -59,6 +59,9 @@ void turn_water(const CaseDef& def, double angle, Overrides& turns)
 {
     if (!def.water.table.empty())
         turns.push_back(set("water.table", turned_polygon(def.water.table, angle)));
+    for (std::size_t i = 0; i < def.stages.size(); ++i)
+        if (!def.stages[i].water_table.empty())
+            turns.push_back(set(fmt::format("stage[{}].water_table", i), turned_polygon(def.stages[i].water_table, angle)));
     for (std::size_t i = 0; i < def.water_cracks.size(); ++i)
     {
         const std::string key = fmt::format("water_crack[{}].", i);
@@ -71,9 +74,11 @@ void turn_support(const CaseDef& def, double angle, Overrides& turns)
 {
     for (std::size_t i = 0; i < def.bolts.size(); ++i)
     {
+        const std::string key = fmt::format("bolt[{}].", i);
+        if (def.bolts[i].arc)
+            turns.push_back(set(key + "arc", *def.bolts[i].arc + Vec2::Constant(angle * 180.0 / std::numbers::pi)));
         if (!def.bolts[i].from)
             continue;
-        const std::string key = fmt::format("bolt[{}].", i);
         turns.push_back(set(key + "from", turned(*def.bolts[i].from, angle)));
         turns.push_back(set(key + "to", turned(*def.bolts[i].to, angle)));
     }

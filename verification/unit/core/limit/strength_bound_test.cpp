@@ -86,6 +86,48 @@ TEST(StrengthBound, IsThatOfASlabOnASlope)
     EXPECT_NEAR(with_t.factor, friction + cohesion, 2e-4 * (friction + cohesion));
 }
 
+/// Two blocks on planes of 50 and 15 degrees: 1.25673 by limit equilibrium. Where the tip of the upper one meets the bend of the ground it stands on the lower plane.
+TEST(StrengthBound, OfAWedgeWhoseTipStandsOnAnotherPlane)
+{
+    const std::string text = R"([material.rock]
+density = 2650.0
+[joint.default]
+normal_stiffness = 5e9
+shear_stiffness = 2e9
+friction_angle_deg = 30.0
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[0, 0], [0, -5], [25, -5], [25, 12], [17.8208348887, 12], [10, 2.67949192431]]
+fixed = true
+[[block]]
+polygon = [[0, 0], [10, 2.67949192431], [10, 12], [0, 6]]
+[[block]]
+polygon = [[10, 2.67949192431], [17.8208348887, 12], [10, 12]]
+[[stage]]
+cycles = 3000
+)";
+    test::CaseRun run(read_case_text(text, "case.toml").def);
+    run.simulation.begin_stage(0);
+    run.advance(3000);
+    const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
+    EXPECT_GT(whole.factor, 1.7);
+    const StrengthBound crushed = strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole);
+    EXPECT_EQ(crushed.end, StrengthBound::End::found);
+    EXPECT_NEAR(crushed.factor, 1.25673, 1e-3);
+}
+
+/// Where no corner bears, both are the same.
+TEST(StrengthBound, WithoutCornersIsThatOfFaces)
+{
+    test::CaseRun run(read_case_text(slab("friction_angle_deg = 30.0\n"), "case.toml").def);
+    run.simulation.begin_stage(0);
+    run.advance(3000);
+    const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
+    EXPECT_EQ(strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole).factor, whole.factor);
+}
+
 TEST(StrengthBound, LoadsCount)
 {
     const double weight = 4.0 * 2700.0 * 9.81, a = std::acos(-1.0) / 9.0;

@@ -36,6 +36,22 @@ TEST(DrawnJoints, HaveTheirCohesion)
     }
 }
 
+/// A joint that loses its cohesion when it breaks, and bears no tension: gaps of round-off as the block is turned, or of numbers that were rounded, do not break it.
+TEST(DrawnJoints, AreWholeHoweverTheyAreDrawn)
+{
+    for (const double angle : {0.0, 10.0, 37.0, 161.0})
+        for (const double gap : {0.0, 2e-5})
+            for (const Method method : {Method::force, Method::hybrid, Method::impulse})
+            {
+                CaseDef scene = block_on_slope(gap, method);
+                scene.joints[0].residual_friction_angle_deg = 20.0;
+                scene.joints[0].residual_cohesion = 0.0;
+                CaseRun run(scenes::turned(scene, angle));
+                run.advance(20000);
+                EXPECT_LT(way(run), 1e-4) << angle << " degrees, gap of " << gap << " m, method " << name_of(method);
+            }
+}
+
 TEST(DrawnJoints, OfBlocksThatMeetLaterHaveNone)
 {
     for (const Method method : {Method::force, Method::hybrid, Method::impulse})

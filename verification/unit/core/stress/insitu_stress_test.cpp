@@ -114,6 +114,16 @@ TEST(InsituStress, LeavesRockUnderTheGroundWhereItIsDrawn)
     expect_nothing_moves(scene);
 }
 
+/// Between joints of almost the same dip lie slivers: a side beside the tip of one bends by their angle, and the flat one of its two pieces bears, not the longer one.
+TEST(InsituStress, IsBorneBesideTheTipsOfSlivers)
+{
+    for (const std::vector<double>& dips : {std::vector<double>{-74.5, -73.9, -134.5}, {20.0, 20.6, -40.0}})
+    {
+        const CaseRun run(rock(dips, {.stress = StressDef{-8e6, -5e6, 1e6}}));
+        EXPECT_LT(summarise_insitu(run.model(), run.state()).unbalance, 1e-12) << "dip " << dips.front();
+    }
+}
+
 /// On 3 m from 1 to 2 MPa: 2.0 and 2.5 MN, the resultant and the moment of the traction.
 TEST(InsituStress, OfALinearTractionHasItsMoment)
 {
