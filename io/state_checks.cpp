@@ -3,6 +3,7 @@
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/stage/properties.h"
+#include "core/state/contact_order.h"
 #include "core/state/fields.h"
 
 #include <algorithm>
@@ -215,12 +216,12 @@ std::optional<Damage> damage_of_contacts(const Model& model, const State& state)
 {
     const Index parts = model.shapes.parts();
     std::pair<Index, Index> last{-1, -1};
-    for (Index i = 0; i < state.contacts.size(); ++i)
+    for (const Index i : order_by_parts(state.contacts))
     {
         const Contact contact = state.contacts.get(i);
         const std::pair<Index, Index> pair{contact.part_a, contact.part_b};
         if (pair.first < 0 || pair.first >= pair.second || pair.second >= parts || pair <= last)
-            return Damage{"/contacts/features", "not ascending pairs of parts"};
+            return Damage{"/contacts/features", "not pairs of parts, each once"};
         if (!has_features_of_its_parts(model, contact))
             return Damage{"/contacts/features", "not those of its parts"};
         if (state.contacts.stale[i] > 1 || !has_finite_numbers(contact))

@@ -1,6 +1,8 @@
 #include "parallel/contact_rebuild.h"
 
 #include "core/detection/contact_tracking.h"
+#include "core/state/contact_order.h"
+#include "parallel/partition.h"
 #include "parallel/team.h"
 
 #include <algorithm>
@@ -13,6 +15,8 @@ namespace
 constexpr Index parts_a_chunk = 512;
 /// Chunks whose contacts wait at the same time to be put into the list: a contact by itself takes more memory than in the list.
 constexpr Index chunks_a_round = 64;
+
+static_assert(contacts_a_stretch == largest_part, "packs do not reach from one part into the next");
 
 bool holds(IndexRange range, Index i)
 {
@@ -28,6 +32,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
             begin(model);
             list_.has_preload = state.contacts.has_preload;
             list_.has_memory = state.contacts.has_memory;
+            old_order_ = order_by_parts(state.contacts);
             set_margins(model, state.blocks);
         });
     const auto count = static_cast<Index>(chunks_.size());
@@ -49,7 +54,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
                    [&](Chunk& chunk)
                    {
                        track_contacts({0, static_cast<Index>(chunk.pairs.size())}, chunk.pairs, model, state.blocks, state.contacts,
-                                      chunk.contacts, chunk.ledger);
+                                      old_order_, chunk.contacts, chunk.ledger);
                    });
         team.alone([&] { place(round); });
         for_chunks(round,
@@ -60,7 +65,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
                        chunk.contacts = {};
                    });
     }
-    team.alone([&] { finish(state); });
+    team.alone([&] { finish(model, state); });
 }
 
 void ContactRebuild::begin(const Model& model)
@@ -110,8 +115,9 @@ void ContactRebuild::place(IndexRange round)
     list_.resize(size);
 }
 
-void ContactRebuild::finish(State& state)
+void ContactRebuild::finish(const Model& model, State& state)
 {
+    group_by_law(model.joints, list_);
     for (const Chunk& chunk : chunks_)
         state.ledger.add(chunk.ledger);
     state.contacts = std::move(list_);

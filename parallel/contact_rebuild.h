@@ -10,7 +10,7 @@ namespace hdem
 class Team;
 
 /// Cell list, pairs, contacts: see core/detection. Parts are cut into chunks whose size does not depend on the number of threads; what the chunks find is put one
-/// after another, so that the list is sorted by parts and the same on any number of threads.
+/// after another, so that the list is in the order of core/state/contact_order.h, and the same on any number of threads.
 class ContactRebuild
 {
   public:
@@ -33,11 +33,12 @@ class ContactRebuild
     void find_pairs(Chunk& chunk, const Shapes& shapes) const;
     void sort_pairs(Chunk& chunk) const;
     void place(IndexRange chunks);
-    void finish(State& state);
+    void finish(const Model& model, State& state);
 
     CellList cells_;
     std::vector<Box> boxes_;
     std::vector<Chunk> chunks_;
+    std::vector<Index> old_order_;  ///< of the contacts known before, by their parts
     Contacts list_;
 };
 }  // namespace hdem

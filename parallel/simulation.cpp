@@ -1,29 +1,40 @@
 #include "parallel/simulation.h"
 
+#include "core/boundary/servo.h"
 #include "core/boundary/switch_boundaries.h"
+#include "core/detection/contact_tracking.h"
+#include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
 #include "core/motion/loads.h"
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
+#include "core/motion/time_step.h"
 #include "core/observer.h"
 #include "core/rock/build_model.h"
 #include "core/stage/load_changes.h"
 #include "core/stage/properties.h"
-#include "core/stage/remove_blocks.h"
 #include "core/state/block_sorting.h"
 #include "core/stress/drawn_joints.h"
 #include "core/support/bolt_forces.h"
+#include "core/support/bolt_springs.h"
 #include "core/support/liner_forces.h"
 #include "core/water/water_forces.h"
 #include "parallel/state_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hdem
 {
 namespace
 {
+void remove_block(Index block, Blocks& blocks)
+{
+    blocks.present[block] = 0;
+    blocks.inertia[block] = {};
+    blocks.motion[block].vx = blocks.motion[block].vy = blocks.motion[block].w = 0.0;
+}
 /// Of excavated blocks and of sides that have ended.
 void end_released_forces(State& state, CycleRunner& runner)
 {
@@ -66,7 +77,38 @@ Simulation::Simulation(Model model, State state, const ThreadRule& threads)
 
 void Simulation::excavate(const std::string& name)
 {
-    hdem::excavate(model_, name, state_);
+    const auto at = std::find(model_.excavation_names.begin(), model_.excavation_names.end(), name);
+    const Index excavation = at == model_.excavation_names.end() ? no_index
+                                                                 : static_cast<Index>(at - model_.excavation_names.begin());
+    const Index single = excavation == no_index ? model_.find_block(name) : no_index;
+    std::vector<std::uint8_t> removed(static_cast<std::size_t>(model_.blocks()), 0);
+    for (Index i = 0; i < model_.blocks(); ++i)
+        removed[i] = (excavation != no_index && model_.excavation[i] == excavation) || i == single;
+
+    if (model_.stages[state_.stage].relax_cycles > 0)
+        release_forces(removed, state_);
+    const Contacts& contacts = state_.contacts;
+    std::vector<Index>& near = state_.next_to_excavation;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        const Index ref = contacts.ref[i];
+        const Index inc = contacts.inc[i];
+        if (removed[ref] == removed[inc])
+            continue;
+        // Faces that lay against what is removed, whether or not they carried force.
+        const EdgeTouch touch = touch_edges(contacts.edges(i), state_.blocks.motion[ref], state_.blocks.motion[inc]);
+        const double gap = -std::max(touch.point[0].overlap, touch.point[1].overlap);
+        if (touch.length > contacts.length_floor(i) && gap < contacts.length_floor(i))
+            near.push_back(removed[ref] != 0 ? inc : ref);
+    }
+    for (Index i = 0; i < model_.blocks(); ++i)
+        if (removed[i] != 0)
+            remove_block(i, state_.blocks);
+    std::erase_if(near, [&](Index i) { return state_.blocks.present[i] == 0; });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    state_.contacts_outdated = true;
+    state_.excavation_cycle = state_.cycle;
 }
 
 void Simulation::take_away(const std::vector<Index>& blocks)

@@ -85,7 +85,7 @@ void StaticSearch::keep_features(const Contacts& before)
 {
     Contacts& now = state_.contacts;
     const auto parts = [](const Contacts& contacts, Index i) { return std::pair(contacts.part_a[i], contacts.part_b[i]); };
-    for (Index i = 0, old = 0; i < now.size(); ++i)  // both lists are sorted by parts
+    for (Index i = 0, old = 0; i < now.size(); ++i)  // both lists are sorted by parts: no joint has a memory here
     {
         while (old < before.size() && parts(before, old) < parts(now, i))
             ++old;

@@ -2,9 +2,9 @@
 
 #include "core/check.h"
 #include "core/version.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
 #include "verification/checks/figure_json.h"
-#include "verification/checks/file_run.h"
 #include "verification/rest/rest.h"
 
 #include <CLI/CLI.hpp>

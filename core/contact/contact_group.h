@@ -65,7 +65,7 @@ inline BasicInertia<P> threshold_inertias(const Model& model, const Blocks& bloc
 }
 
 /// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
-/// (In line, as the next two: by calls the force law takes 5 % more instructions where many contacts are fast.)
+/// In line, as the next two: calls would cost the force law instructions (core/tried.md).
 template <typename P>
 [[gnu::always_inline]] inline MaskOf<P> are_fast(const BasicContactGroup<P>& g, P speed_squared, const Model& model,
                                                  const Blocks& blocks, const Threshold& threshold)

@@ -94,8 +94,8 @@ class InteriorPoint
 
 /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met.
 ///
-/// By InteriorPoint. Where the limit of friction follows the normal impulses the path to the solution may end on the way: in 2 % of islands of random
-/// points and masses, never met in those of blocks. Then step by step, with the limits of the step before: each of these problems is convex (Haslinger's
-/// fixed point), and all but 0.3 % of the same islands come to an end.
+/// By InteriorPoint. The limit of friction follows the normal impulses, so the path to the solution may end on the way; that happens in islands of random
+/// points and masses, and has not been met in islands of blocks. Then the problem is solved step by step, with the limits of the step before: each of these
+/// problems is convex (Haslinger's fixed point).
 [[nodiscard]] IslandProblem solve_all_at_once(const IslandProblem& problem, double goal);
 }  // namespace hdem

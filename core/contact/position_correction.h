@@ -18,8 +18,8 @@ namespace hdem
 ///
 ///   P <- max(0, P + m_cN (pv_m + share * excess / dt))                 after [Lee2025] Eq. (19)
 ///
-/// A point that overlaps by less than its load (excess < 0) may be pressed together by that much; without it, a needle lifted at one end was turned
-/// into the ground with the other, and that end's spring gave back 8 % of its energy.
+/// A point that overlaps by less than its load (excess < 0) may be pressed together by that much, and no more: else a needle that is lifted at one end
+/// would be turned into the ground with the other, and gain energy there.
 void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo);
 
 /// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of

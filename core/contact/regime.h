@@ -32,8 +32,8 @@ struct RegimeRule
     ContactLaw law = ContactLaw::by_speed;
     /// In a stage that looks for a state of rest the standing rock, blocks that have not come loose (see core/motion/step_control.h), answers impacts with its
     /// springs, unless they are slower than `gentle_impact` sqrt(g size of the loose block). Differs from the paper: an impulse hands all of a block's
-    /// momentum to the rock at once and undamped, where springs let local damping and the rock behind take their part. Tunnels in which blocks had
-    /// fallen on standing rock moved 0.05 mm more (20 degrees) to 1 mm more (35 degrees) than by springs alone; so they move the same.
+    /// momentum to the rock at once and undamped, where springs let local damping and the rock behind take their part. So a tunnel in which blocks fall on
+    /// standing rock moves as by springs alone.
     bool rock_keeps_springs = false;
     Closing closing = Closing::fast_points;
     double closing_speed =

@@ -86,11 +86,11 @@ double margin_used(IndexRange range, const Model& model, const Blocks& blocks, c
 }
 
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
-                    const Contacts& old, std::vector<Contact>& out, EnergyLedger& ledger)
+                    const Contacts& old, const std::vector<Index>& old_order, std::vector<Contact>& out, EnergyLedger& ledger)
 {
     const Shapes& shapes = model.shapes;
-    const auto key_of = [&](Index i) { return pair_key(old.part_a[i], old.part_b[i]); };
-    Index at = 0;  // in old; found by bisection once, then walked
+    const auto key_of = [&](Index i) { return pair_key(old.part_a[old_order[i]], old.part_b[old_order[i]]); };
+    Index at = 0;  // in old_order; found by bisection once, then walked
     if (pairs_range.size() > 0)
     {
         Index low = 0, high = old.size();
@@ -118,7 +118,7 @@ void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pa
         Contact contact;
         const bool known = at < old.size() && key_of(at) == key;
         if (known)
-            contact = old.get(at);
+            contact = old.get(old_order[at]);
         if (known && !blocks.takes_part(block_a) && !blocks.takes_part(block_b))
         {
             out.push_back(contact);  // neither has moved

@@ -92,7 +92,7 @@ template <typename R>
 ///
 ///   2 / (omega_max sqrt(1 + alpha)),  0.745 of the stable limit at alpha = 0.8
 ///
-/// feed the swinging of a block on a spring by itself; a wall of 48 blocks still came to rest at 0.97, but a tunnel squeezed by 0.1 mm more at 0.8.
+/// feed the swinging of a block on a spring by itself. (core/tried.md: how far a wall and a tunnel bear longer ones.)
 /// @param limit  greatest damping force [N]
 template <typename R>
 [[nodiscard]] inline R locally_damped(R force, R velocity, R alpha, R limit = std::numeric_limits<double>::infinity())

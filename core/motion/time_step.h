@@ -21,8 +21,7 @@ namespace hdem
 ///   m / max(1, L / 4)      L longest side of the block [m]
 ///
 /// for m_min. Eq. (32) takes K_max for the stiffness of a contact, which is K_max L. Up to 4 m that is kept: at FRAC = 0.1 springs still take ten steps or more
-/// to turn a block round. For slabs of 100 m x 1 m the equation's own step is unstable, and of needles of 10 m x 0.1 m, (omega dt)^2 up to 2, six that met gained 3 %
-/// of their energy. Not under the preset `paper`.
+/// to turn a block round. For longer blocks the equation's own step is too long: slabs of 100 m x 1 m are unstable with it. Not under the preset `paper`.
 [[nodiscard]] double default_time_step(const Model& model, const Blocks& blocks, double greatest_stiffness, double fraction);
 
 /// Lower bound on the stable step of a range of blocks, 2 / omega with omega >= omega_max [s]; the least over all blocks is stable for all of them.

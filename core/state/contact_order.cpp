@@ -8,10 +8,10 @@ namespace hdem
 {
 namespace
 {
-/// Contacts of the same number are computed together: same law, same normal curve. All plain joints are one law.
-int law_number(const JointRow& row)
+/// Contacts of the same law and normal curve are computed together. All plain joints are one law.
+std::pair<JointKind, CurveKind> law_of(const JointRow& row)
 {
-    return row.has_memory() ? 1 + static_cast<int>(row.kind) * curve_count + static_cast<int>(row.curve) : 0;
+    return {row.kind, row.has_memory() ? row.curve : CurveKind::linear};
 }
 }  // namespace
 
@@ -19,7 +19,7 @@ void group_by_law(const JointTable& joints, Contacts& contacts)
 {
     if (!contacts.has_memory)
         return;
-    const auto number = [&](const Contact& contact) { return law_number(joints.rows[static_cast<std::size_t>(contact.law)]); };
+    const auto law = [&](const Contact& contact) { return law_of(joints.rows[static_cast<std::size_t>(contact.law)]); };
     std::vector<Contact> stretch;
     for (Index begin = 0; begin < contacts.size(); begin += contacts_a_stretch)
     {
@@ -27,9 +27,9 @@ void group_by_law(const JointTable& joints, Contacts& contacts)
         stretch.clear();
         for (Index i = begin; i < end; ++i)
             stretch.push_back(contacts.get(i));
-        if (std::ranges::is_sorted(stretch, {}, number))
+        if (std::ranges::is_sorted(stretch, {}, law))
             continue;
-        std::ranges::stable_sort(stretch, {}, number);
+        std::ranges::stable_sort(stretch, {}, law);
         for (Index i = begin; i < end; ++i)
             contacts.put(i, stretch[static_cast<std::size_t>(i - begin)]);
     }

@@ -1,7 +1,5 @@
 #include "tools/hdem/run_figures.h"
 
-#include "core/motion/equilibrium.h"
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -46,35 +44,5 @@ std::string first_of(const std::vector<std::string>& names)
     const auto shown = static_cast<std::ptrdiff_t>(std::min(most, names.size()));
     return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + shown, ", "),
                        names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
-}
-
-std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
-{
-    std::vector<std::string> warnings;
-    if (!s.stages.empty() && !s.stages.back().to_come.empty())
-        warnings.push_back(
-            fmt::format("the run ended in cycle {}, but {}. Let the last stage last longer, or let these end earlier.", s.cycles,
-                        fmt::join(s.stages.back().to_come, "; ")));
-    if (!s.lost_blocks.empty())
-        warnings.push_back(
-            fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
-                        "greater convergence.lost_distance.",
-                        first_of(s.lost_blocks)));
-    std::vector<std::string> outside;
-    const Model& model = simulation.model();
-    for (const Index block : model.slot_of_user)
-        if (has_left(block, model, simulation.state().blocks) && simulation.state().blocks.is_free(block))
-            outside.push_back(model.name[block]);
-    if (!outside.empty())
-        warnings.push_back(
-            fmt::format("blocks have left the model and move on outside it: {}. Give walls or a ground to hold them, or "
-                        "a stage with until = \"converged\", which ends their way.",
-                        first_of(outside)));
-    if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
-        warnings.push_back(
-            fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
-                        "Give a smaller time.step or time.stable_fraction.",
-                        watch.residual, watch.cycle, watch.share));
-    return warnings;
 }
 }  // namespace hdem

@@ -1,8 +1,8 @@
 #pragma once
 /// Figures and words that the beginning and the end of a run both print.
 
-#include "io/summary.h"
-#include "parallel/simulation.h"
+#include "core/model/model.h"
+#include "core/state/state.h"
 
 #include <string>
 #include <vector>
@@ -18,7 +18,4 @@ namespace hdem
 
 /// The first names, and how many more.
 [[nodiscard]] std::string first_of(const std::vector<std::string>& names);
-
-/// What a user must know of a run that came to its end.
-[[nodiscard]] std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& summary);
 }  // namespace hdem

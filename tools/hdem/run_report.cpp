@@ -24,7 +24,30 @@ std::vector<std::string> names_of(const Model& model, const std::vector<Index>& 
         names.push_back(model.name[model.slot_of_user[user]]);
     return names;
 }
+}  // namespace
 
+std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
+{
+    std::vector<std::string> warnings;
+    if (!s.stages.empty() && !s.stages.back().to_come.empty())
+        warnings.push_back(
+            fmt::format("the run ended in cycle {}, but {}. Let the last stage last longer, or let these end earlier.", s.cycles,
+                        fmt::join(s.stages.back().to_come, "; ")));
+    if (!s.lost_blocks.empty())
+        warnings.push_back(
+            fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
+                        "greater convergence.lost_distance.",
+                        first_of(s.lost_blocks)));
+    if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
+        warnings.push_back(
+            fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
+                        "Give a smaller time.step or time.stable_fraction.",
+                        watch.residual, watch.cycle, watch.share));
+    return warnings;
+}
+
+namespace
+{
 /// What ended a stage, in words.
 std::string end_of(const StageResult& stage, const StageDef& def)
 {

@@ -33,6 +33,9 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
 RunSummary summarise(const RunStart& start, const Simulation& simulation, const std::vector<StageResult>& stages,
                      const Session& session, double wall_seconds);
 
+/// What a user must know of a run that came to its end.
+[[nodiscard]] std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& summary);
+
 void print_closing(Log& log, const RunSummary& summary, const Session& session, const Simulation& simulation,
                    const std::filesystem::path& folder);
 /// Why a run would not begin in equilibrium, if so.

@@ -3,8 +3,8 @@
 #include "verification/checks/bounce.h"
 
 #include "verification/checks/bounce_figures.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ void check_table4(Report& report)
         std::vector<Series> velocities;
         for (std::size_t i = 0; i < steps.size(); ++i)
         {
-            const FileRun run(report, case_file,
+            const CaseRun run(report, case_file,
                               {set("contact.method", std::string(paper.method)), set("time.step", steps[i]),
                                set("stage[0].cycles", std::round(duration / steps[i]))});
             error[i] = velocity_error(run.column("block.velocity_y"), steps[i]);
@@ -133,7 +133,7 @@ void check_a5(Report& report)
         for (const PaperColumn& paper : table4)
         {
             const double step = factor == 1.0 ? 5e-5 : 1.25e-5;
-            const FileRun run(report, case_file,
+            const CaseRun run(report, case_file,
                               {set("contact.method", std::string(paper.method)), set("time.step", step),
                                set("stage[0].cycles", std::round(duration / step)),
                                set("joint.default.normal_stiffness", factor * 7e9),

@@ -63,7 +63,7 @@ struct Energies
     }
 };
 
-Panel energy_panel(const FileRun& run, const std::string& method, const ExactBounce& path)
+Panel energy_panel(const CaseRun& run, const std::string& method, const ExactBounce& path)
 {
     const std::vector<double>& velocity = run.column("block.velocity_y");
     const std::vector<double>& y = run.column("block.position_y");
@@ -88,7 +88,7 @@ Panel energy_panel(const FileRun& run, const std::string& method, const ExactBou
 }
 }  // namespace
 
-Series velocity_series(const std::string& name, const FileRun& run)
+Series velocity_series(const std::string& name, const CaseRun& run)
 {
     Series series = sampled(name, run.column("block.velocity_y"), 1, run.column("block.velocity_y").size(), run.step());
     for (double& t : series.x)
@@ -96,7 +96,7 @@ Series velocity_series(const std::string& name, const FileRun& run)
     return series;
 }
 
-void BounceFigures::add_histories(const FileRun& run, const std::string& method)
+void BounceFigures::add_histories(const CaseRun& run, const std::string& method)
 {
     const ExactBounce path = exact_bounce();
     Panel velocity{.title = method, .x_label = "time [s]", .y_label = "velocity [m/s]"};

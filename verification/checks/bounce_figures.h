@@ -1,7 +1,7 @@
 #pragma once
 /// Figs. 7 and 8 of [Lee2025]: the bouncing block's histories beside the exact bounce.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 namespace hdem::verification
 {
@@ -9,7 +9,7 @@ class BounceFigures
 {
   public:
     /// Velocity, height and energies of a run at the smallest step: a column of Fig. 7.
-    void add_histories(const FileRun& run, const std::string& method);
+    void add_histories(const CaseRun& run, const std::string& method);
     /// Velocities of one method, a run per step, and the errors of these runs beside those of Table 4: a column of Fig. 8.
     void add_steps(const std::string& method, const std::vector<Series>& velocities, const Series& errors,
                    const Series& paper_errors);
@@ -21,5 +21,5 @@ class BounceFigures
 };
 
 /// The velocity after cycle c is that at (c - 1/2) dt.
-[[nodiscard]] Series velocity_series(const std::string& name, const FileRun& run);
+[[nodiscard]] Series velocity_series(const std::string& name, const CaseRun& run);
 }  // namespace hdem::verification

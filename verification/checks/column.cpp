@@ -19,7 +19,7 @@ void check_a3(Report& report)
 {
     for (const Variant& variant : all_variants("paper"))
     {
-        const FileRun run(report, "column/column.toml", variant.overrides());
+        const CaseRun run(report, "column/column.toml", variant.overrides());
         for (const int joint : {1, 2, 5, 10})
             report.require({fmt::format("{}: normal force in joint {} from below [N]", variant.name(), joint), "weight above",
                             weight * (11 - joint), run.column(fmt::format("joint{}.normal_force", joint)).back()},
@@ -41,7 +41,7 @@ void check_a4(Report& report)
             const Variant variant{method, "dynamic", factor};
             for (const int n : {1, 2, 5, 10, 20})
             {
-                const FileRun run(report, "column/swing.toml",
+                const CaseRun run(report, "column/swing.toml",
                                   variant.overrides() + Overrides{set("damping.preset", std::string("paper")),
                                                                   set("domain.height", n + 1.0),
                                                                   set("history[0].block", fmt::format("b{}", n + 1))});
@@ -51,7 +51,7 @@ void check_a4(Report& report)
                                 "2 √(k/m) sin(π/(2(2N+1)))", column_frequency(n, factor * normal_stiffness), 1.0 / period},
                                relative(2e-3));
             }
-            const FileRun run(report, "paper_static/static.toml",
+            const CaseRun run(report, "paper_static/static.toml",
                               variant.overrides() + Overrides{set("damping.preset", std::string("paper")),
                                                               set("contact.threshold_scale", std::string("model")),
                                                               set("load[0].acceleration", Vec2(0.5, 0.0)),
@@ -65,7 +65,7 @@ void check_a4(Report& report)
         }
 }
 
-double velocity(const FileRun& run, int block)
+double velocity(const CaseRun& run, int block)
 {
     return run.state().blocks.motion[run.block(fmt::format("b{}", block))].vx;
 }
@@ -74,7 +74,7 @@ void check_a13(Report& report)
 {
     for (const Variant& variant : all_variants("dynamic"))
     {
-        const FileRun run(report, "chain/pair.toml",
+        const CaseRun run(report, "chain/pair.toml",
                           Overrides{set("contact.method", variant.method), set("time.step", 1e-5 * variant.step() / 5e-5),
                                     set("joint.default.normal_stiffness", variant.factor * normal_stiffness)});
         const double first = velocity(run, 1);
@@ -101,7 +101,7 @@ void check_chain(Report& report, const std::vector<double>& exact, const Variant
                  const Overrides& overrides)
 {
     const std::string file = fmt::format("chain/chain{}.toml", exact.size());
-    const FileRun run(report, file,
+    const CaseRun run(report, file,
                       overrides + Overrides{set("contact.method", variant.method), set("time.step", 1e-5 * variant.step() / 5e-5),
                                             set("joint.default.normal_stiffness", variant.factor * normal_stiffness)});
     const std::string name = variant.name() + (overrides.empty() ? "" : ", below its threshold");

@@ -33,7 +33,7 @@ double loop_work(const std::vector<double>& force, const std::vector<double>& x,
 }
 
 /// What holds for every method: the strength, and loops that stay as they are.
-void check_loops(Report& report, const std::string& name, const FileRun& run, double area)
+void check_loops(Report& report, const std::string& name, const CaseRun& run, double area)
 {
     const std::vector<double>& force = run.column("joint.shear_force");
     const std::vector<double>& x = run.column("block.position_x");
@@ -52,7 +52,7 @@ void check_loops(Report& report, const std::string& name, const FileRun& run, do
 }
 
 /// Way from the start of shearing until the joint carries its strength [m].
-double slips_from(const FileRun& run, double stiffness)
+double slips_from(const CaseRun& run, double stiffness)
 {
     const std::vector<double>& force = run.column("joint.shear_force");
     const std::vector<double>& x = run.column("block.position_x");
@@ -79,9 +79,9 @@ void check_springs(Report& report)
         const double area = 4.0 * strength * (reach - elastic);
         const std::string k = factor == 1.0 ? "" : ", 10 K";
         const Override shear_stiffness = set("joint.default.shear_stiffness", stiffness);
-        const FileRun force(report, case_file, {shear_stiffness});
-        const FileRun hybrid(report, case_file, hybrid_after_loading() + Overrides{shear_stiffness});
-        for (const FileRun* run : {&force, &hybrid})
+        const CaseRun force(report, case_file, {shear_stiffness});
+        const CaseRun hybrid(report, case_file, hybrid_after_loading() + Overrides{shear_stiffness});
+        for (const CaseRun* run : {&force, &hybrid})
         {
             const std::string name = (run == &force ? "force" : "hybrid") + k + ": ";
             check_loops(report, name, *run, area);
@@ -107,7 +107,7 @@ void check_impulses(Report& report)
         {"hybrid, above its threshold: ", hybrid_after_loading() + Overrides{threshold}}};
     for (const auto& [name, overrides] : variants)
     {
-        const FileRun run(report, case_file, overrides);
+        const CaseRun run(report, case_file, overrides);
         check_loops(report, name, run, 4.0 * strength * reach);
         report.require({name + "slip from [mm]", "at once, within a cycle's way", 0.0, 1e3 * slips_from(run, 1e300)},
                        absolute(1e3 * speed * time_step));

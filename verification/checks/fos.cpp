@@ -4,8 +4,8 @@
 #include "parallel/critical_search.h"
 #include "parallel/reference_state.h"
 #include "parallel/safety_factor.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "core/contact/contact_report.h"
 #include "core/stress/insitu_stress.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/insitu_checks.h"
 #include "verification/checks/turned_case.h"
 
@@ -18,7 +18,7 @@ namespace hdem::verification
 {
 namespace
 {
-double greatest_displacement(const FileRun& run)
+double greatest_displacement(const CaseRun& run)
 {
     double greatest = 0.0;
     for (Index b = 0; b < run.model().blocks(); ++b)
@@ -27,7 +27,7 @@ double greatest_displacement(const FileRun& run)
 }
 
 /// Greatest relative error of the stress on the joints of one dip, as drawn.
-double worst_stress(const FileRun& run, double dip_deg, double normal, double shear)
+double worst_stress(const CaseRun& run, double dip_deg, double normal, double shear)
 {
     double worst = 0.0;
     for (Index i = 0; i < run.state().contacts.size(); ++i)
@@ -48,11 +48,11 @@ void check_stand(Report& report, const std::string& name, const Overrides& overr
     for (const char* method : all_methods)
     {
         const Overrides all = overrides + Overrides{set("contact.method", std::string(method))};
-        const FileRun drawn("insitu/rock.toml", all);
+        const CaseRun drawn("insitu/rock.toml", all);
         report.require({fmt::format("{}, {}: worst unbalanced share", name, method), "divergence theorem", 1e-12,
                         summarise_insitu(drawn.model(), drawn.state()).unbalance},
                        at_most());
-        const FileRun run(report, "insitu/rock.toml", all);
+        const CaseRun run(report, "insitu/rock.toml", all);
         report.require(
             {fmt::format("{}, {}: moved in 1000 cycles [m]", name, method), "equilibrium", 1e-12, greatest_displacement(run)},
             at_most());
@@ -61,7 +61,7 @@ void check_stand(Report& report, const std::string& name, const Overrides& overr
 
 void check_uniform(Report& report)
 {
-    const FileRun drawn("insitu/rock.toml", {});
+    const CaseRun drawn("insitu/rock.toml", {});
     constexpr std::array<std::array<double, 3>, 3> joints{
         {{25.0, 6.301863e6, 1.791854e6}, {60.0, 8.116025e6, 0.799038e6}, {-55.0, 6.073338e6, -1.751559e6}}};
     for (const auto& [dip, normal, shear] : joints)
@@ -94,7 +94,7 @@ struct HoleJoint
     const char* what;
 };
 
-double normal_at(const FileRun& run, const Vec2& place, double dip)
+double normal_at(const CaseRun& run, const Vec2& place, double dip)
 {
     for (Index i = 0; i < run.state().contacts.size(); ++i)
     {
@@ -107,7 +107,7 @@ double normal_at(const FileRun& run, const Vec2& place, double dip)
     return std::nan("");
 }
 
-Vec2 displacement_at(const FileRun& run, const Vec2& place)
+Vec2 displacement_at(const CaseRun& run, const Vec2& place)
 {
     for (Index b = 0; b < run.model().blocks(); ++b)
         if ((Vec2(run.state().blocks.motion[b].x, run.state().blocks.motion[b].y) + run.model().origin - place).norm() < 0.1)
@@ -120,7 +120,7 @@ void check_hole(Report& report, const Overrides& overrides, const std::vector<Ho
     for (const double degrees : {0.0, 23.0})
     {
         const double angle = radians(degrees);
-        const FileRun run(report, "insitu/hole.toml", turned_case("insitu/hole.toml", overrides, angle));
+        const CaseRun run(report, "insitu/hole.toml", turned_case("insitu/hole.toml", overrides, angle));
         const std::string turn = fmt::format("turned {:g}°: ", degrees);
         for (const HoleJoint& joint : joints)
             report.require({turn + joint.what, "rigid blocks, linear", joint.normal,

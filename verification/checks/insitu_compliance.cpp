@@ -1,7 +1,7 @@
 /// How rock gives way as a whole: sets of joints and a running bond, by stresses at the sides and by moving the outer blocks.
 
 #include "core/contact/contact_report.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/insitu_checks.h"
 #include "verification/checks/turned_case.h"
 
@@ -31,7 +31,7 @@ Tensor turned(const Tensor& t, double angle)
 }
 
 /// Gradient of the displacement, du_i/dx_j, that fits all blocks best, in the axes of the case as written [-].
-Tensor gradient_of(const FileRun& run, double angle)
+Tensor gradient_of(const CaseRun& run, double angle)
 {
     const Blocks& blocks = run.state().blocks;
     Vec2 middle(0.0, 0.0), moved(0.0, 0.0);
@@ -50,7 +50,7 @@ Tensor gradient_of(const FileRun& run, double angle)
     return turned(Tensor(mixed * square.inverse()), -angle);
 }
 
-double greatest_turn(const FileRun& run)
+double greatest_turn(const CaseRun& run)
 {
     double greatest = 0.0;
     for (const BlockMotion& motion : run.state().blocks.motion)
@@ -59,7 +59,7 @@ double greatest_turn(const FileRun& run)
 }
 
 /// The case with a little stress more at its four sides, which were pressed with 1e5 Pa. Edges run anticlockwise.
-FileRun pressed(Report& report, const std::string& file, const Tensor& stress, double angle, Overrides overrides = {})
+CaseRun pressed(Report& report, const std::string& file, const Tensor& stress, double angle, Overrides overrides = {})
 {
     const CaseDef def = load_case(case_folder() / file, {}).file.def;
     const Polygon& polygon = def.domain.polygon;
@@ -69,15 +69,15 @@ FileRun pressed(Report& report, const std::string& file, const Tensor& stress, d
         const Vec2 traction = stress * out;
         overrides.push_back(set(fmt::format("boundary.side{}.stress", k), Vec2(1e5 - out.dot(traction), along.dot(traction))));
     }
-    return FileRun(report, file, turned_case(file, overrides, angle));
+    return CaseRun(report, file, turned_case(file, overrides, angle));
 }
 
 /// The case with its fixed blocks moved by a gradient du_i/dx_j of the displacement in 2000 cycles.
-FileRun moved(Report& report, const std::string& file, const Overrides& overrides, const Tensor& gradient, double angle)
+CaseRun moved(Report& report, const std::string& file, const Overrides& overrides, const Tensor& gradient, double angle)
 {
     constexpr double cycles = 2000.0;
     const Overrides all = turned_case(file, overrides, angle);
-    const FileRun drawn(file, all);
+    const CaseRun drawn(file, all);
     const Blocks& blocks = drawn.state().blocks;
     std::string loads;
     for (Index b = 0; b < blocks.size(); ++b)
@@ -88,11 +88,11 @@ FileRun moved(Report& report, const std::string& file, const Overrides& override
             loads += fmt::format("{}{{blocks = [\"{}\"], velocity_x = {:.17g}, velocity_y = {:.17g}, until_cycle = {:g}}}",
                                  loads.empty() ? "" : ", ", drawn.model().name[b], velocity.x(), velocity.y(), cycles);
     }
-    return FileRun(report, file, all + Overrides{{"load", "[" + loads + "]"}});
+    return CaseRun(report, file, all + Overrides{{"load", "[" + loads + "]"}});
 }
 
 /// Mean stress that was added in the free block next to the middle, tension positive, in the axes of the case as written [Pa].
-Tensor stress_inside(const FileRun& run, double angle)
+Tensor stress_inside(const CaseRun& run, double angle)
 {
     const Blocks& blocks = run.state().blocks;
     Vec2 middle(0.0, 0.0);
@@ -143,7 +143,7 @@ void check_moved_sides(Report& report, const std::string& file, double angle, co
 {
     const CaseDef def = load_case(case_folder() / file, {}).file.def;
     const Overrides driven{{"boundary", "[]"}, {"domain.fixed_edges", "[0, 1, 2, 3]"}, {"stage[0].fix", "[]"}};
-    const FileRun run = moved(report, file, driven, gradient_under(def, test_stress), angle);
+    const CaseRun run = moved(report, file, driven, gradient_under(def, test_stress), angle);
     const Tensor found = stress_inside(run, angle);
     const std::string name = turn + "outer blocks moved by J: ";
     report.require({name + "σ_xx inside [kPa]", "rigid blocks of two sets", -8.0, 1e-3 * found(0, 0)}, relative(bar));
@@ -165,14 +165,14 @@ void check_two_sets(Report& report)
         report.require({turn + "S12 [1e-10/Pa]", source, -5.019126, 1e10 * s.s12}, relative(1e-3));
         report.require({turn + "S22 [1e-10/Pa]", source, 6.101027, 1e10 * s.s22}, relative(1e-3));
         report.require({turn + "S66 [1e-10/Pa]", source, 8.354869, 1e10 * s.s66}, relative(1e-3));
-        const auto require_strains = [&](const FileRun& run, const std::string& name)
+        const auto require_strains = [&](const CaseRun& run, const std::string& name)
         {
             const Tensor h = gradient_of(run, angle);
             report.require({name + "strain xx [1e-6]", source, -2.75878, 1e6 * h(0, 0)}, relative(1e-3));
             report.require({name + "strain yy [1e-6]", source, 1.50619, 1e6 * h(1, 1)}, relative(1e-3));
             report.require({name + "γ_xy [1e-6]", source, 2.07974, 1e6 * (h(0, 1) + h(1, 0))}, relative(1e-3));
         };
-        const FileRun run = pressed(report, file, test_stress, angle);
+        const CaseRun run = pressed(report, file, test_stress, angle);
         const std::string name = turn + "under (-8, -5, 1) kPa: ";
         require_strains(run, name);
         report.require({name + "greatest turn, of 1e-6 strain", "blocks do not turn", 1e-3, 1e6 * greatest_turn(run)}, at_most());

@@ -1,6 +1,6 @@
 /// A wedge in a roof: what it bears, and when it falls.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/insitu_checks.h"
 #include "verification/checks/turned_case.h"
 
@@ -30,7 +30,7 @@ void check_limit(Report& report, double degrees)
                                {"block.wedge.fixed", R"(["x", "y"])"},
                                {"load", R"([{blocks = ["wedge"], velocity_x = 0.0, velocity_y = -5e-5}])"},
                                {"stage[0].cycles", "6000"}};
-    FileRun run(wedge_file, turned_case(wedge_file, drawn_down, angle));
+    CaseRun run(wedge_file, turned_case(wedge_file, drawn_down, angle));
     double most = 0.0, drop = 0.0;
     run.run(
         [&](const Model& model, const State& state)
@@ -55,7 +55,7 @@ void check_limit(Report& report, double degrees)
 double moved(Report& report, double force, const std::string& method, double degrees)
 {
     const Overrides overrides{pressed_with(force), set("contact.method", method)};
-    const FileRun run(report, wedge_file, turned_case(wedge_file, overrides, radians(degrees)));
+    const CaseRun run(report, wedge_file, turned_case(wedge_file, overrides, radians(degrees)));
     return run.state().blocks.displacement(run.block("wedge")).norm();
 }
 }  // namespace

@@ -1,7 +1,7 @@
 /// Joint laws in the cycle: direct shear, and a block that hangs.
 
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/joint_slow.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ const std::string yielding = "law = \"continuously_yielding\", normal_stiffness 
                              "50.0, wear_length = 5e-4";
 
 /// Mean over a stretch of way, in which the block trembles.
-double mean_over(const FileRun& run, const std::string& column, double from, double to)
+double mean_over(const CaseRun& run, const std::string& column, double from, double to)
 {
     const std::vector<double>& way = run.column("block.displacement_x");
     const std::vector<double>& values = run.column(column);
@@ -46,13 +46,13 @@ double mean_over(const FileRun& run, const std::string& column, double from, dou
     return count > 0.0 ? sum / count : std::nan("");
 }
 
-double stress_ratio(const FileRun& run, double from, double to)
+double stress_ratio(const CaseRun& run, double from, double to)
 {
     return mean_over(run, "joint.shear_force", from, to) / mean_over(run, "joint.normal_force", from, to);
 }
 
 /// Opening since the block rested under its pressure [m].
-double opening(const FileRun& run, double from, double to, double stiffness)
+double opening(const CaseRun& run, double from, double to, double stiffness)
 {
     const std::vector<double>& way = run.column("block.displacement_x");
     const std::vector<double>& up = run.column("block.displacement_y");
@@ -68,7 +68,7 @@ double opening(const FileRun& run, double from, double to, double stiffness)
 
 void check_coulomb(Report& report)
 {
-    const FileRun run(report, "joint/box.toml", {});
+    const CaseRun run(report, "joint/box.toml", {});
     const std::vector<double>& shear = run.column("joint.shear_force");
     double peak = 0.0;
     for (const double s : shear)
@@ -80,7 +80,7 @@ void check_coulomb(Report& report)
 
 void check_barton(Report& report)
 {
-    const FileRun run(report, "joint/box.toml", with_joint(barton));
+    const CaseRun run(report, "joint/box.toml", with_joint(barton));
     // L = L_0: JRC and JCS are as given, and δ_p = L/500 (JRC/L)^0.33.
     const double peak = 0.1 / 500.0 * std::pow(10.0 / 0.1, 0.33);
     constexpr std::array<std::array<double, 2>, 5> table{
@@ -96,7 +96,7 @@ void check_closure(Report& report)
     constexpr std::array<std::array<double, 2>, 3> table{{{1.0, 0.033744}, {5.0, 0.063935}, {10.0, 0.071986}}};
     for (const auto& [stress, closure] : table)
     {
-        const FileRun run(report, "joint/closure.toml", {set("load[0].force", Vec2(0.0, -1e6 * stress))});
+        const CaseRun run(report, "joint/closure.toml", {set("load[0].force", Vec2(0.0, -1e6 * stress))});
         report.require({fmt::format("closure under {:g} MPa [mm]", stress), "σ V_m / (K_ni V_m + σ)", closure,
                         -1e3 * run.state().blocks.displacement(run.block("block")).y()},
                        relative(2e-4));
@@ -105,20 +105,20 @@ void check_closure(Report& report)
 
 void check_patton(Report& report)
 {
-    const FileRun run(report, "joint/box.toml", with_joint(patton));
+    const CaseRun run(report, "joint/box.toml", with_joint(patton));
     report.require({"shear over normal stress at 1 to 3 mm", "tan(φ + i)", 1.0, stress_ratio(run, 1e-3, 3e-3)}, relative(5e-3));
 }
 
 void check_yielding(Report& report)
 {
-    const FileRun run(report, "joint/box.toml", with_joint(yielding));
+    const CaseRun run(report, "joint/box.toml", with_joint(yielding));
     report.require({"shear over normal stress at 5 mm", "Cundall & Hart", 0.578321, stress_ratio(run, 4.9e-3, 5.1e-3)},
                    relative(5e-3));
 }
 
 double fallen(Report& report, double tension, double residual, double pull)
 {
-    const FileRun run(report, "joint/hung.toml",
+    const CaseRun run(report, "joint/hung.toml",
                       {set("joint.default.tension", tension), set("joint.default.residual_tension", residual),
                        set("load[0].force", Vec2(0.0, -pull))});
     return run.state().blocks.displacement(run.block("block")).norm();

@@ -3,7 +3,7 @@
 #include "verification/checks/joint_slow.h"
 
 #include "core/contact/contact_report.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -72,8 +72,8 @@ Joint joint_below(const Model& model, const State& state, double angle)
 Joint after(Report& report, const std::string& file, const Overrides& overrides, const std::vector<Leg>& legs, double degrees)
 {
     const double angle = radians(degrees);
-    const FileRun drawn(file, overrides);
-    const FileRun run(report, file, turned_case(file, overrides + pulled(drawn.definition(), legs), angle));
+    const CaseRun drawn(file, overrides);
+    const CaseRun run(report, file, turned_case(file, overrides + pulled(drawn.definition(), legs), angle));
     return joint_below(run.model(), run.state(), angle);
 }
 
@@ -148,7 +148,7 @@ void check_plesha(Report& report)
                                          {"back at 0: ", 1e-4, -0.332360, 11.61524, 12786.6, 0.30011},
                                          {"at -10 mm: ", -10.0, -0.832622, 9.78152, 21377.8, 2.18297}}};
     const std::string file = "joint/slow_box.toml";
-    const FileRun drawn(file, {});
+    const CaseRun drawn(file, {});
     std::vector<Leg> legs;
     std::vector<Joint> ends;
     double last = 0.0;
@@ -158,7 +158,7 @@ void check_plesha(Report& report)
         legs.push_back({1 + 3 * legs.size(), to - last});
         last = to;
     }
-    FileRun run(file, pulled(drawn.definition(), legs));
+    CaseRun run(file, pulled(drawn.definition(), legs));
     run.run(
         [&](const Model& model, const State& state)
         {

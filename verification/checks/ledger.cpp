@@ -15,10 +15,10 @@ namespace hdem::verification
 {
 namespace
 {
-using Run = std::unique_ptr<FileRun>;
+using Run = std::unique_ptr<CaseRun>;
 
 /// First sample not before time `t`.
-const LedgerSample& sample_at(const FileRun& run, double t)
+const LedgerSample& sample_at(const CaseRun& run, double t)
 {
     const auto at = std::ranges::lower_bound(run.ledger(), t, {}, &LedgerSample::time);
     return at == run.ledger().end() ? run.ledger().back() : *at;
@@ -37,7 +37,7 @@ void check_incline(Report& report)
     for (std::size_t i = 0; i < runs.size(); ++i)
     {
         const std::string method = all_methods[i];
-        runs[i] = std::make_unique<FileRun>(
+        runs[i] = std::make_unique<CaseRun>(
             report, "sliding/incline.toml",
             Overrides{set("contact.method", method), set("stage[1].damping", std::string("dynamic"))});
         drawn.push_back({method, *runs[i]});
@@ -66,7 +66,7 @@ void check_bounce(Report& report)
     for (std::size_t i = 0; i < runs.size(); ++i)
     {
         const std::string method = all_methods[i];
-        runs[i] = std::make_unique<FileRun>(report, "paper_dynamic/dynamic.toml", Overrides{set("contact.method", method)});
+        runs[i] = std::make_unique<CaseRun>(report, "paper_dynamic/dynamic.toml", Overrides{set("contact.method", method)});
         drawn.push_back({method, *runs[i]});
         const EnergyLedger& sums = sample_at(*runs[i], between_impacts).sums;
         const Quantity first{fmt::format("bounce, {}: spent in the first impact [J]", method), "(1 − e²) m g h",

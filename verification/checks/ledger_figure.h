@@ -1,14 +1,14 @@
 #pragma once
 /// The energy ledger of runs as curves.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 namespace hdem::verification
 {
 struct LedgerRun
 {
     std::string name;
-    const FileRun& run;
+    const CaseRun& run;
 };
 
 /// A panel a run with the ledger's terms over time, and a last one with what the ledger does not explain: as a share of the

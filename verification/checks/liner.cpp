@@ -1,7 +1,7 @@
 /// Linings.
 
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -18,9 +18,9 @@ namespace
 {
 constexpr std::array<double, 2> angles{0.0, 23.0};  ///< [deg]
 
-FileRun run_turned(Report& report, const std::string& file, double angle)
+CaseRun run_turned(Report& report, const std::string& file, double angle)
 {
-    return FileRun(report, file, turned_case(file, {}, angle * std::numbers::pi / 180.0));
+    return CaseRun(report, file, turned_case(file, {}, angle * std::numbers::pi / 180.0));
 }
 
 void check_beam(Report& report)
@@ -29,7 +29,7 @@ void check_beam(Report& report)
     const double bending = modulus * std::pow(thickness, 3) / 12.0, beta = std::pow(foundation / (4.0 * bending), 0.25);
     for (const double angle : angles)
     {
-        const FileRun run = run_turned(report, "support/beam.toml", angle);
+        const CaseRun run = run_turned(report, "support/beam.toml", angle);
         const std::string turn = fmt::format("turned {:g}°: ", angle);
         report.require({turn + "displacement under the force [mm]", "P β / 2 k", 1e3 * force * beta / (2.0 * foundation),
                         1e3 * run.column("beam.liner_displacement").back()},
@@ -40,7 +40,7 @@ void check_beam(Report& report)
 }
 
 /// Pressure in each sample at which there are so many hinges for the first time.
-double pressure_at(const FileRun& run, double hinges)
+double pressure_at(const CaseRun& run, double hinges)
 {
     const std::vector<double> count = run.column("beam.hinges");
     const auto first = std::ranges::find_if(count, [&](double n) { return n >= hinges; });
@@ -53,14 +53,14 @@ void check_collapse(Report& report)
     const double strength = 11250.0, length = 2.0;
     for (const double angle : angles)
     {
-        const FileRun run = run_turned(report, "support/fixed_beam.toml", angle);
+        const CaseRun run = run_turned(report, "support/fixed_beam.toml", angle);
         const std::string turn = fmt::format("turned {:g}°: ", angle);
         report.require(
             {turn + "load at the first hinges [N/m]", "12 M_p / L²", 12.0 * strength / (length * length), pressure_at(run, 2.0)},
             relative(2e-2));
         report.require({turn + "load at collapse [N/m]", "16 M_p / L²", 16.0 * strength / (length * length), pressure_at(run, 3.0)},
                        relative(2e-2));
-        const FileRun ring = run_turned(report, "support/ring.toml", angle);
+        const CaseRun ring = run_turned(report, "support/ring.toml", angle);
         report.require({turn + "thrust of the ring [kN]", "p R", 600.0, 1e-3 * ring.column("ring.thrust").back()}, relative(5e-3));
         report.require(
             {turn + "displacement of the ring [mm]", "p R² / E t", 0.48, 1e3 * ring.column("ring.liner_displacement").back()},

@@ -1,8 +1,8 @@
 /// Orders of accuracy: what halving the time step does.
 
 #include "verification/checks/bounce.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/fit.h"
 #include "verification/checks/variants.h"
 
@@ -21,7 +21,7 @@ constexpr const char* fall_file = "paper_dynamic/dynamic.toml";
 double fall_error(Report& report, const std::string& method, double step)
 {
     constexpr double t = 0.4;  // before the impact
-    const FileRun run(report, fall_file,
+    const CaseRun run(report, fall_file,
                       {set("contact.method", method), set("time.step", step), set("stage[0].cycles", std::round(t / step))});
     const std::vector<double>& y = run.column("block.position_y");
     return std::abs(y.back() - y.front() + 0.5 * 9.81 * t * t);
@@ -30,7 +30,7 @@ double fall_error(Report& report, const std::string& method, double step)
 double frequency_error(Report& report, const std::string& method, double step)
 {
     constexpr std::int64_t settled = 60000;
-    const FileRun run(report, "column/swing.toml",
+    const CaseRun run(report, "column/swing.toml",
                       {set("contact.method", method), set("time.step", step), set("domain.height", 2.0),
                        set("history[0].block", std::string("b2"))});
     const std::vector<double>& y = run.column("top.position_y");
@@ -40,7 +40,7 @@ double frequency_error(Report& report, const std::string& method, double step)
 
 double bounce_error(Report& report, const std::string& method, double step)
 {
-    const FileRun run(report, fall_file,
+    const CaseRun run(report, fall_file,
                       {set("contact.method", method), set("time.step", step), set("stage[0].cycles", std::round(1.5 / step))});
     return velocity_error(run.column("block.velocity_y"), step);
 }
@@ -59,7 +59,7 @@ double energy_error(Report& report, double height, double step)
 {
     constexpr double in_flight = 0.8;  // s; after the first bounce of all heights, before the second
     const Polygon block{{0.0, height}, {1.0, height}, {1.0, height + 1.0}, {0.0, height + 1.0}};
-    const FileRun run(report, fall_file,
+    const CaseRun run(report, fall_file,
                       {set("contact.method", std::string("force")), set("damping.preset", std::string("dynamic")),
                        set("time.step", step), set("stage[0].cycles", std::round(in_flight / step) + 1.0),
                        set("block[1].polygon", block)});

@@ -1,8 +1,8 @@
 /// Recycled features: facing edges stored while a pair has hardly moved, against a full search in every cycle.
 
 #include "core/motion/equilibrium.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b)
 }
 
 /// Searches a contact and cycle, of the contacts there are at the end.
-double searches_a_contact(const FileRun& run)
+double searches_a_contact(const CaseRun& run)
 {
     return static_cast<double>(run.state().feature_searches) / static_cast<double>(run.state().cycle) /
            static_cast<double>(run.state().contacts.size());
@@ -47,8 +47,8 @@ void check_one_block(Report& report)
         for (const char* method : all_methods)
         {
             const Overrides overrides{set("contact.method", std::string(method))};
-            const FileRun recycled(report, watched.case_file, overrides);
-            const FileRun searched(report, watched.case_file, overrides + Overrides{search_always});
+            const CaseRun recycled(report, watched.case_file, overrides);
+            const CaseRun searched(report, watched.case_file, overrides + Overrides{search_always});
             for (const char* column : watched.columns)
                 report.require({fmt::format("{}, {}: {} against a full search in every cycle [of the greatest]", method,
                                             watched.case_file, column),
@@ -64,8 +64,8 @@ void check_tunnel(Report& report)
     for (const char* method : {"force", "hybrid"})
     {
         const Overrides overrides{set("contact.method", std::string(method))};
-        const FileRun recycled(report, "paper_tunnel/tunnel.toml", overrides);
-        const FileRun searched(report, "paper_tunnel/tunnel.toml", overrides + Overrides{search_always});
+        const CaseRun recycled(report, "paper_tunnel/tunnel.toml", overrides);
+        const CaseRun searched(report, "paper_tunnel/tunnel.toml", overrides + Overrides{search_always});
         const DisplacementReport ours = report_displacements(recycled.model(), recycled.state());
         const DisplacementReport full = report_displacements(searched.model(), searched.state());
         const std::string name = std::string(method) + ": ";

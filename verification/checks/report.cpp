@@ -1,6 +1,6 @@
 #include "verification/checks/report.h"
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include <fmt/format.h>
 
@@ -87,7 +87,7 @@ void Report::add_figure(Figure figure)
     figures_.push_back(std::move(figure));
 }
 
-void Report::add_run(const FileRun& run)
+void Report::add_run(const CaseRun& run)
 {
     Ledger& ledger = run.had_impulses() ? with_impulses_ : without_impulses_;
     ++ledger.runs;

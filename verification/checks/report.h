@@ -68,7 +68,7 @@ struct Row
     [[nodiscard]] std::string bar_text() const;
 };
 
-class FileRun;
+class CaseRun;
 
 class Report
 {
@@ -84,7 +84,7 @@ class Report
     void add_figure(Figure figure);
 
     /// Takes a finished run's energy residual into account and keeps its command line.
-    void add_run(const FileRun& run);
+    void add_run(const CaseRun& run);
     /// Adds the rows on the energy ledger of all runs.
     void close();
 

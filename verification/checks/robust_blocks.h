@@ -1,7 +1,7 @@
 #pragma once
 /// Explicit blocks of the robust.* scenes, built here and given to the case file as one override. The surface of the rock is y = 0.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include <cstdint>
 #include <random>

@@ -11,7 +11,7 @@ namespace
 constexpr std::int64_t watch_every = 4;  ///< cycles: at 50 m/s 1/50 of the smallest block
 constexpr double late_share = 0.8;       ///< of the run, after which it is looked at for rest
 
-double duration(const FileRun& run)
+double duration(const CaseRun& run)
 {
     double seconds = 0.0;
     for (const StageDef& stage : run.model().stages)
@@ -35,7 +35,7 @@ const std::vector<RobustVariant>& robust_variants()
 
 RobustOutcome run_scene(const Scene& scene, const RobustVariant& variant, Report* report)
 {
-    FileRun run(scene.case_file,
+    CaseRun run(scene.case_file,
                 scene.overrides + Overrides{set("contact.method", variant.method), set("damping.preset", variant.damping),
                                             set("contact.restitution", variant.restitution)});
     RobustOutcome outcome{.watch = RobustWatch(late_share * duration(run)), .failure = {}};

@@ -5,8 +5,8 @@
 #include "core/geometry/polygon.h"
 #include "core/rock/finite_traces.h"
 #include "core/rock/line_stretches.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 
 #include <fmt/format.h>
 

@@ -72,7 +72,7 @@ Overrides of_incline(const Incline& incline, const Variant& variant, Start start
 }
 
 /// Way since it was let go; the first sample is that of the release.
-std::vector<double> way_down(const FileRun& run, Start start)
+std::vector<double> way_down(const CaseRun& run, Start start)
 {
     const std::vector<double>& x = run.column("block.position_x");
     std::vector<double> way(x.begin() + (start == Start::laid_down ? 0 : held), x.end());
@@ -83,7 +83,7 @@ std::vector<double> way_down(const FileRun& run, Start start)
 
 void check_incline(Report& report, const Incline& incline, const Variant& variant, Start start)
 {
-    const FileRun run(report, "sliding/incline.toml", of_incline(incline, variant, start));
+    const CaseRun run(report, "sliding/incline.toml", of_incline(incline, variant, start));
     const std::vector<double> way = way_down(run, start);
     const double at_10_m = std::sqrt(2.0 * 10.0 / incline.acceleration());
     const std::string name = fmt::format("{}, {}{}: ", incline.name(), variant.name(), words(start));
@@ -114,7 +114,7 @@ void check_a1(Report& report)
                 check_incline(report, incline, variant, Start::loaded_joint);
     // What local damping does to a sliding block.
     const Incline incline;
-    const FileRun damped(report, "sliding/incline.toml", of_incline(incline, {"force", "paper", 1.0}, Start::loaded_joint));
+    const CaseRun damped(report, "sliding/incline.toml", of_incline(incline, {"force", "paper", 1.0}, Start::loaded_joint));
     report.inform({incline.name() + ", force, paper (local damping 0.8): way after 1 s [m]", "½ g (sin β − cos β tan φ) t²",
                    0.5 * incline.acceleration(), value_at(way_down(damped, Start::loaded_joint), 1.0, damped.step())});
 }
@@ -136,7 +136,7 @@ void check_a6(Report& report)
     variants.push_back({"force", "paper", 1.0});
     for (const Variant& variant : variants)
     {
-        const FileRun run(report, "sliding/stop.toml",
+        const CaseRun run(report, "sliding/stop.toml",
                           variant.overrides() + Overrides{set("load[0].acceleration", Vec2(speed / variant.step(), 0.0)),
                                                           set("stage[1].damping", variant.damping)});
         const Quantity way{variant.name() + ": way until rest [m]", "v² / (2 μ g)", speed * speed / (2.0 * mu * g),
@@ -159,7 +159,7 @@ void check_a7(Report& report)
     variants.push_back({"force", "paper", 1.0});
     for (const Variant& variant : variants)
     {
-        const FileRun run(report, "sliding/newmark.toml",
+        const CaseRun run(report, "sliding/newmark.toml",
                           variant.overrides() +
                               Overrides{set("load[0].until_cycle", static_cast<double>(held) + pulse / variant.step()),
                                         set("stage[1].damping", variant.damping)});

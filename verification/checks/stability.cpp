@@ -16,7 +16,7 @@ namespace hdem::verification
 namespace
 {
 /// A block that moved farther than 0.05 m or turned by more than 0.05 rad since the last stage began.
-bool falls(const FileRun& run)
+bool falls(const CaseRun& run)
 {
     const Blocks& blocks = run.state().blocks;
     for (Index i = 0; i < blocks.size(); ++i)
@@ -48,7 +48,7 @@ Overrides last_stage(const std::string& case_file, const Variant& variant, int s
 {
     if (end == End::after_its_duration)
         return {};
-    const FileRun as_written(case_file, variant.overrides());
+    const CaseRun as_written(case_file, variant.overrides());
     const double duration = *as_written.definition().stages.back().duration;
     return {{fmt::format("stage[{}]", stage), fmt::format("{{until = \"converged\", max_cycles = {}}}",
                                                           static_cast<std::int64_t>(std::ceil(duration / as_written.step())))}};
@@ -63,7 +63,7 @@ void check_tilt(Report& report, const Tilt& tilt, const Variant& variant, End en
         for (std::size_t i = 0; i < steps.size(); ++i)
             overrides.push_back(set(fmt::format("load[{}].acceleration", i),
                                     Vec2(steps[i] * g * std::sin(beta), steps[i] * g * (1.0 - std::cos(beta)))));
-        const FileRun run(report, tilt.case_file, overrides);
+        const CaseRun run(report, tilt.case_file, overrides);
         report.require({fmt::format("{}, {}: moves at {:.3f}° (1 = yes)", variant.name(), tilt.name, tilt.critical_deg + off),
                         tilt.source, off > 0.0 ? 1.0 : 0.0, falls(run) ? 1.0 : 0.0},
                        absolute(0.0));
@@ -120,7 +120,7 @@ bool overhang_falls(Report& report, const Variant& variant, int n, double share,
             set(fmt::format("block[{}].polygon", k), Polygon{{end - 1.0, y}, {end, y}, {end, y + 0.5}, {end - 1.0, y + 0.5}}));
         bricks.push_back({fmt::format("block[{}].fixed", k), k > n ? "true" : "false"});
     }
-    return falls(FileRun(report, "tilt/overhang.toml", bricks));
+    return falls(CaseRun(report, "tilt/overhang.toml", bricks));
 }
 
 void check_overhangs(Report& report, End end)
@@ -156,8 +156,8 @@ void check_a16_until(Report& report)
 double turned_difference(Report& report, const std::string& case_file, const Overrides& overrides)
 {
     const double angle = radians(37.0);
-    const FileRun plain(report, case_file, overrides);
-    const FileRun turned(report, case_file, turned_case(case_file, overrides, angle));
+    const CaseRun plain(report, case_file, overrides);
+    const CaseRun turned(report, case_file, turned_case(case_file, overrides, angle));
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     double off = 0.0;

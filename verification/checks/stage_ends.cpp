@@ -26,7 +26,7 @@ Overrides with_end(const Variant& variant, const std::string& first, const std::
 }
 
 /// How long the last stage took; nan where it has not come to its end.
-double time_of_end(const FileRun& run)
+double time_of_end(const CaseRun& run)
 {
     const std::vector<StageResult>& stages = run.stages();
     return stages.back().ended_by == 0 ? stages.back().time - stages.front().time : std::nan("");
@@ -48,9 +48,9 @@ void check_end(Report& report, const EndProblem& p)
             continue;
         const Overrides drawn = with_end(variant, p.first, p.until) + p.overrides;
         const std::string name = fmt::format("\"{}\", {}", p.until, variant.name());
-        const FileRun run(report, p.file, drawn);
+        const CaseRun run(report, p.file, drawn);
         report.require({name + ": time [s]", p.formula, p.time, time_of_end(run)}, relative(p.bar));
-        const FileRun other(report, p.file, drawn + turned_case(p.file, drawn, turn));
+        const CaseRun other(report, p.file, drawn + turned_case(p.file, drawn, turn));
         report.require({name + ", turned by 23°: time [s]", p.formula, p.time, time_of_end(other)}, relative(p.bar));
     }
 }

@@ -1,7 +1,7 @@
 /// Static condition test, [Lee2025] sect. 4.1: Table 2, Figs. 3 to 5.
 
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ struct ForcePlot
     double paper_cycle;     ///< Table 2
 };
 
-Panel force_panel(const FileRun& run, const ForcePlot& plot)
+Panel force_panel(const CaseRun& run, const ForcePlot& plot)
 {
     const bool impulse = std::string(plot.method) == "impulse";
     const double factor = impulse ? run.step() : 1e-3;
@@ -99,7 +99,7 @@ struct ForceFigures
 Forces run_method(Report& report, const std::string& method, const std::string& scale, ForceFigures* figures = nullptr,
                   const std::array<double, 2>& paper_cycles = {})
 {
-    const FileRun run(report, case_file, {set("contact.method", method), set("contact.threshold_scale", scale)});
+    const CaseRun run(report, case_file, {set("contact.method", method), set("contact.threshold_scale", scale)});
     if (figures != nullptr)
     {
         figures->normal.panels.push_back(force_panel(run, {method.c_str(), "normal", weight, 0, paper_cycles[0]}));
@@ -149,7 +149,7 @@ void check_table2(Report& report)
 }
 
 /// Where the elastic line meets the plateau. A cycle's force is found at the poses of its start, so force c belongs to displacement c - 1.
-double displacement_at_strength(const FileRun& run)
+double displacement_at_strength(const CaseRun& run)
 {
     const std::vector<double>& force = run.column("contact.shear_force");
     const std::vector<double>& way = run.column("contact.shear_displacement");
@@ -162,7 +162,7 @@ double displacement_at_strength(const FileRun& run)
     return std::nan("");
 }
 
-Panel displacement_panel(const FileRun& run, const std::string& method)
+Panel displacement_panel(const CaseRun& run, const std::string& method)
 {
     const std::vector<double>& force = run.column("contact.shear_force");
     const std::vector<double>& way = run.column("contact.shear_displacement");
@@ -191,7 +191,7 @@ void check_fig5(Report& report)
                   .columns = 3};
     for (const char* method : {"force", "hybrid"})
     {
-        const FileRun run(report, case_file,
+        const CaseRun run(report, case_file,
                           {set("contact.method", std::string(method)), set("contact.threshold_scale", std::string("model"))});
         report.require({fmt::format("plateau of the shear force, {} [N]", method), "Fig. 5", 25292.3,
                         std::abs(run.column("contact.shear_force").back())},
@@ -201,7 +201,7 @@ void check_fig5(Report& report)
                        relative(1e-3));
         figure.panels.push_back(displacement_panel(run, method));
     }
-    const FileRun run(report, case_file, {set("contact.method", std::string("impulse"))});
+    const CaseRun run(report, case_file, {set("contact.method", std::string("impulse"))});
     report.require(
         {"plateau of the shear force, impulse [N]", "Fig. 5", 25292.3, std::abs(run.column("contact.shear_force").back())},
         relative(1e-3));

@@ -1,7 +1,7 @@
 /// Rock bolts.
 
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/support_checks.h"
 #include "verification/checks/turned_case.h"
 
@@ -43,7 +43,7 @@ struct PullOut
 {
     std::vector<double> force, head;
 
-    explicit PullOut(const FileRun& run) : force(run.column("cable.axial_force")), head(run.column("cable.elongation"))
+    explicit PullOut(const CaseRun& run) : force(run.column("cable.axial_force")), head(run.column("cable.elongation"))
     {
         for (std::size_t i = 0; i < force.size(); ++i)
             head[i] -= 0.0001 * force[i] / section;
@@ -63,7 +63,7 @@ void check_pull_out(Report& report)
     const double lambda = std::sqrt(bond_stiffness / section), length = 0.5;
     for (const double angle : angles)
     {
-        const FileRun run(report, "support/pull.toml", turned_case("support/pull.toml", {}, radians_of(angle)));
+        const CaseRun run(report, "support/pull.toml", turned_case("support/pull.toml", {}, radians_of(angle)));
         const PullOut test(run);
         const std::string turn = fmt::format("turned {:g}°: ", angle);
         report.require({turn + "stiffness [MN/m]", "E A λ tanh λL", 1e-6 * section * lambda * std::tanh(lambda * length),
@@ -85,7 +85,7 @@ void check_pull_out(Report& report)
 
 void check_long_cable(Report& report)
 {
-    const FileRun run(report, "support/pull.toml",
+    const CaseRun run(report, "support/pull.toml",
                       {set("bolt[0].to", Vec2(17.7, 0.0)), set("bolt[0].yield", 0.5e6), set("bolt[0].segment", 0.04),
                        set("block[1].velocity", Vec2(-0.1, 0.0)), set("stage[0].cycles", 4500.0)});
     const PullOut test(run);
@@ -102,7 +102,7 @@ void check_hung_cable(Report& report)
 {
     for (const auto& [method, angle] : methods_and_angles())
     {
-        const FileRun run(report, "support/hung_cable.toml",
+        const CaseRun run(report, "support/hung_cable.toml",
                           turned_case("support/hung_cable.toml", {set("contact.method", std::string(method))}, radians_of(angle)));
         const std::string turn = fmt::format("{}, turned {:g}°: ", method, angle);
         report.require({turn + "opening of the joint [mm]", "W / (E A λ) (coth λL1 + coth λL2)", 1.351779,
@@ -118,7 +118,7 @@ void check_local(Report& report)
     const double across = weight * std::sin(slope) - weight * std::cos(slope) * std::tan(radians_of(30.0));
     for (const auto& [method, angle] : methods_and_angles())
     {
-        const FileRun run(report, "support/slab_local.toml",
+        const CaseRun run(report, "support/slab_local.toml",
                           turned_case("support/slab_local.toml", {set("contact.method", std::string(method))}, radians_of(angle)));
         const std::string turn = fmt::format("{}, turned {:g}°: ", method, angle);
         report.require(
@@ -133,7 +133,7 @@ double slip(Report& report, double tension, double safety, const char* method, d
     const double friction = std::atan(std::tan(radians_of(30.0)) / safety) / std::numbers::pi * 180.0;
     const Overrides given{set("bolt[0].pretension", tension), set("joint.default.friction_angle_deg", friction),
                           set("contact.method", std::string(method))};
-    const FileRun run(report, "support/slab.toml", turned_case("support/slab.toml", given, radians_of(angle)));
+    const CaseRun run(report, "support/slab.toml", turned_case("support/slab.toml", given, radians_of(angle)));
     return run.state().blocks.displacement(run.block("slab")).norm();
 }
 
@@ -158,13 +158,13 @@ void check_pretension(Report& report)
     {
         const std::string name = fmt::format("{}, turned {:g}°: ", method, angle);
         const Override with = set("contact.method", std::string(method));
-        const FileRun part(report, "support/hung.toml", turned_case("support/hung.toml", {with}, radians_of(angle)));
+        const CaseRun part(report, "support/hung.toml", turned_case("support/hung.toml", {with}, radians_of(angle)));
         // The bolt is installed with 100 428.57 N, of which 100 kN are left once the joint has given way. Under impulses it is rigid.
         const bool is_rigid = std::string(method) == "impulse";
         report.require({name + "bolt under 60 kN [N]", is_rigid ? "T as installed" : "T0 + W K_b / (K_b + K_c)",
                         is_rigid ? 100428.571 : 100256.05, part.column("bolt.axial_force").back()},
                        relative(1e-3));
-        const FileRun all(report, "support/hung.toml",
+        const CaseRun all(report, "support/hung.toml",
                           turned_case("support/hung.toml", {with, set("load[0].force", Vec2(0.0, -1.2e5))}, radians_of(angle)));
         report.require({name + "bolt under 120 kN [N]", "W", 120000.0, all.column("bolt.axial_force").back()}, relative(1e-3));
         report.require({name + "opening under 120 kN [mm]", "(W - T0 (1 + K_b / K_c)) / K_b", 0.652381,

@@ -4,7 +4,7 @@
 #include "core/motion/equilibrium.h"
 #include "core/support/bolt_forces.h"
 #include "parallel/critical_search.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/support_checks.h"
 #include "verification/checks/turned_case.h"
 
@@ -87,7 +87,7 @@ void check_tunnel_held(Report& report, const char* method, double angle)
     const std::string file = "support/tunnel.toml", key = "bolt[0].yield";
     const std::string as = fmt::format("{}{}: ", method, angle == 0.0 ? "" : ", turned by 23°");
     const Overrides base = turned_case(file, {set("contact.method", std::string(method))}, angle);
-    const FileRun without(report, file, base + Overrides{set(key, 1.0)});
+    const CaseRun without(report, file, base + Overrides{set(key, 1.0)});
     const std::vector<Index> lost = report_displacements(without.model(), without.state()).detached;
     const auto number = static_cast<double>(lost.size());
     if (angle == 0.0)
@@ -97,7 +97,7 @@ void check_tunnel_held(Report& report, const char* method, double angle)
     const FailureCondition falls{.quantity = FailureCondition::Quantity::detached, .blocks = {}, .limit = 0.0};
     const Bracket least = find_critical(file, base, key, {1e5, 1.0}, 2e3, falls);
     report.require({as + "least yield of a bolt that holds all [N]", "found between 0 and 100 kN", 1e5, *least.stands}, at_most());
-    const FileRun run(report, file, base + Overrides{set(key, *least.stands)});
+    const CaseRun run(report, file, base + Overrides{set(key, *least.stands)});
     const Model& model = run.model();
     report.require({as + "blocks that are lost with it", "none", 0.0,
                     static_cast<double>(report_displacements(model, run.state()).detached.size())},
@@ -138,7 +138,7 @@ void check_goodman_bray(Report& report)
                             "Goodman and Bray", published, found.middle()},
                            relative(1e-2));
         }
-    const FileRun held(report, file, {set("bolt[0].pretension", 1.02 * published)});
+    const CaseRun held(report, file, {set("bolt[0].pretension", 1.02 * published)});
     report.require({"with 2 % more: cycles to rest", "at rest", 2e4, static_cast<double>(held.state().cycle)}, at_most());
     const Bracket soft = find_critical(file, {set("joint.default.shear_stiffness", 5e8)}, "bolt[0].pretension", {3e6, 1e6}, 4e3,
                                        moves);

@@ -1,7 +1,7 @@
 /// Energy continuity at changes of regime, [Lee2025] sect. 4.3.
 
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/fit.h"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ double predicted_cycle(double collision_mass)
 }
 
 /// First cycle after `from` whose contact points are impulse-based, or are not.
-std::int64_t find_switch(const FileRun& run, std::int64_t from, bool to_impulse)
+std::int64_t find_switch(const CaseRun& run, std::int64_t from, bool to_impulse)
 {
     const std::vector<double>& points = run.column("contact.impulse_points");
     for (std::size_t c = static_cast<std::size_t>(from) + 1; c < points.size(); ++c)
@@ -62,7 +62,7 @@ struct Jump
     double energy = 0.0;   ///< what the jump added [J]
 };
 
-Jump find_jump(const FileRun& run, std::int64_t cycle, std::int64_t window)
+Jump find_jump(const CaseRun& run, std::int64_t cycle, std::int64_t window)
 {
     const std::vector<double>& v = run.column("block.velocity_x");
     const auto at = static_cast<double>(cycle - 1);
@@ -78,7 +78,7 @@ struct Variant
     double collision_mass;
 };
 
-FileRun run_with_release(Report& report, const Variant& variant, std::int64_t release)
+CaseRun run_with_release(Report& report, const Variant& variant, std::int64_t release)
 {
     const auto at = [&](std::int64_t later) { return static_cast<double>(release + later); };
     return {report,
@@ -93,7 +93,7 @@ FileRun run_with_release(Report& report, const Variant& variant, std::int64_t re
              set("stage[1].cycles", at(6000) - static_cast<double>(pushed_from))}};
 }
 
-Panel energy_panel(const FileRun& run, const char* title, std::int64_t first, std::int64_t last)
+Panel energy_panel(const CaseRun& run, const char* title, std::int64_t first, std::int64_t last)
 {
     Panel panel{.title = title, .x_label = "cycle", .y_label = "kinetic energy [J]"};
     Series energy = sampled("hdem", run.column("block.velocity_x"), static_cast<std::size_t>(first),
@@ -105,7 +105,7 @@ Panel energy_panel(const FileRun& run, const char* title, std::int64_t first, st
 }
 
 /// Left the switch to impulses, right the whole way until some cycles after the switch back.
-void add_panels(Figure& figure, const FileRun& run, const Variant& variant, double predicted, std::int64_t up, std::int64_t down)
+void add_panels(Figure& figure, const CaseRun& run, const Variant& variant, double predicted, std::int64_t up, std::int64_t down)
 {
     Panel near = energy_panel(run, variant.name, up - 300, up + 400);
     near.marks = {{"springs to impulses, hdem", Origin::ours, static_cast<double>(up)},
@@ -123,7 +123,7 @@ void check_variant(Report& report, const Variant& variant, Figure& figure)
 {
     const double predicted = predicted_cycle(variant.collision_mass);
     const std::int64_t late = std::llround(1.05 * predicted);
-    const FileRun pushed = run_with_release(report, variant, late);
+    const CaseRun pushed = run_with_release(report, variant, late);
     const std::int64_t up = find_switch(pushed, pushed_from, true);
     if (variant.collision_mass < mass)
         report.require(
@@ -132,7 +132,7 @@ void check_variant(Report& report, const Variant& variant, Figure& figure)
     report.require({fmt::format("{}: becomes impulse-based [cycle]", variant.name), "Eq. (25)", predicted, static_cast<double>(up)},
                    relative(0.01));
 
-    const FileRun run = run_with_release(report, variant, up + 200);
+    const CaseRun run = run_with_release(report, variant, up + 200);
     const std::int64_t down = find_switch(run, up + 200, false);
     add_panels(figure, run, variant, predicted, up, down);
     const Jump first = find_jump(run, up, 50);

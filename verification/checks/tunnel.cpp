@@ -34,7 +34,7 @@ struct NearBlocks
     Vec2 greatest = {0.0, 0.0};   ///< of these [m]
 };
 
-NearBlocks look_at_near_blocks(const FileRun& run)
+NearBlocks look_at_near_blocks(const CaseRun& run)
 {
     const State& state = run.state();
     NearBlocks near;

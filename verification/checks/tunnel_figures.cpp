@@ -90,7 +90,7 @@ TunnelRun::TunnelRun(const std::string& run_name, const std::string& run_method,
     run.run(watch, kinetic_every);
 }
 
-Ray profile_ray(const FileRun& run, double angle_deg)
+Ray profile_ray(const CaseRun& run, double angle_deg)
 {
     const ExcavationDef& opening = run.definition().excavations.at(0);
     const Vec2 centre = opening.position + Vec2(0.0, 0.5 * opening.height);
@@ -98,7 +98,7 @@ Ray profile_ray(const FileRun& run, double angle_deg)
     return {.from = centre - run.model().origin, .angle_deg = angle_deg, .begins_at = boundary, .reaches_to = boundary + 10.0};
 }
 
-double mean_traction(const FileRun& run, double angle_deg, double from, double to)
+double mean_traction(const CaseRun& run, double angle_deg, double from, double to)
 {
     double sum = 0.0;
     int count = 0;

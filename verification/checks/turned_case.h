@@ -1,7 +1,7 @@
 #pragma once
 /// A case with everything in it turned: the answer must turn with it.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include <string>
 

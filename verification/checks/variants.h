@@ -1,7 +1,7 @@
 #pragma once
 /// The ways each closed-form problem is solved: methods, damping, stiffness of the joint.
 
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include <string>
 #include <vector>

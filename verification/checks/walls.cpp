@@ -18,7 +18,7 @@ bool falls(Report& report, const Variant& variant, int pieces, double cohesion)
     std::string names;
     for (int i = 1; i <= pieces; ++i)
         names += fmt::format("{}\"right{}\"", i == 1 ? "" : ", ", i);
-    const FileRun run(report, "walls/walls.toml",
+    const CaseRun run(report, "walls/walls.toml",
                       variant.overrides() + Overrides{set("time.step", 5e-5 / std::sqrt(variant.factor)),
                                                       set("blocks_file", fmt::format("walls{}.wkt", pieces)),
                                                       {"load[0].blocks", '[' + names + ']'},

@@ -3,8 +3,8 @@
 #include "core/contact/contact_report.h"
 #include "core/stress/insitu_stress.h"
 #include "core/water/pore_pressure.h"
+#include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/file_run.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void check_block(Report& report)
 {
     for (const double angle : angles)
     {
-        const FileRun run("water/block.toml", turned_case("water/block.toml", {}, radians_of(angle)));
+        const CaseRun run("water/block.toml", turned_case("water/block.toml", {}, radians_of(angle)));
         const Triple& on = run.state().water[run.block("block")];
         const Vec2 up = -run.model().gravity.normalized(), force(on.x, on.y);
         const std::string turn = fmt::format("turned {:g}°: ", angle);
@@ -37,7 +37,7 @@ void check_block(Report& report)
         report.require({turn + "force across [kN]", "0", 1e-9, 1e-3 * std::abs(cross(up, force))}, at_most());
         report.require({turn + "moment [kN m]", "0", 1e-9, 1e-3 * std::abs(on.w)}, at_most());
     }
-    const FileRun run("water/block.toml", {});
+    const CaseRun run("water/block.toml", {});
     const auto side = [&](const Vec2& from, const Vec2& to)
     {
         const PressureSum p = pressure_along(run.model().water, 0, from - run.model().origin, to - run.model().origin);
@@ -58,7 +58,7 @@ struct BaseForces
     double normal = 0.0, shear = 0.0, from_toe = 0.0;
 };
 
-BaseForces base_forces(const FileRun& run, const Vec2& toe)
+BaseForces base_forces(const CaseRun& run, const Vec2& toe)
 {
     BaseForces sums;
     for (Index i = 0; i < run.state().contacts.size(); ++i)
@@ -83,7 +83,7 @@ void check_dam(Report& report)
         const double angle = radians_of(degrees);
         for (const char* method : {"force", "hybrid"})
         {
-            const FileRun run(report, "water/dam.toml",
+            const CaseRun run(report, "water/dam.toml",
                               turned_case("water/dam.toml", {set("contact.method", std::string(method))}, angle));
             const Vec2 toe(10.0 * std::cos(angle), 10.0 * std::sin(angle));
             const BaseForces base = base_forces(run, toe);
@@ -106,7 +106,7 @@ void check_slope(Report& report)
             const auto speed = [&](double factor)
             {
                 const double friction = std::atan(steepness * factor) / std::numbers::pi * 180.0;
-                const FileRun run(report, "water/slope.toml",
+                const CaseRun run(report, "water/slope.toml",
                                   {{"water", water},
                                    set("contact.method", std::string(method)),
                                    set("joint.default.friction_angle_deg", friction)});
@@ -121,7 +121,7 @@ void check_slope(Report& report)
 void check_effective_stress(Report& report)
 {
     // 2.5 MPa everywhere, by light water that stands high.
-    const FileRun run("insitu/rock.toml", {{"insitu", "{stress = [-5e6, -10e6, 0.0]}"},
+    const CaseRun run("insitu/rock.toml", {{"insitu", "{stress = [-5e6, -10e6, 0.0]}"},
                                            set("gravity.vector", Vec2(0.0, -9.81)),
                                            {"water", fmt::format("{{level = {}, density = 0.01}}", 2.5e6 / (0.01 * 9.81))},
                                            set("joint.default.friction_angle_deg", 30.0)});
@@ -134,7 +134,7 @@ void check_ground(Report& report)
 {
     for (const char* method : all_methods)
     {
-        const FileRun run(report, "insitu/rock.toml",
+        const CaseRun run(report, "insitu/rock.toml",
                           {{"insitu", "{surface = 0.0, ratio = 1.5}"},
                            set("gravity.vector", Vec2(0.0, -9.81)),
                            {"water", "{table = [[-300.0, -80.0], [-2.0, -96.0], [3.0, -99.0], [300.0, -110.0]]}"},

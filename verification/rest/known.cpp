@@ -1,7 +1,7 @@
 /// Scenes that once came to a wrong rest, each in its case file, turned by every ten degrees, by three methods.
 
 #include "io/case_reader.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/rest/families.h"
 #include "verification/rest/limit_analysis.h"
 #include "verification/rest/springs.h"

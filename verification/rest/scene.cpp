@@ -1,7 +1,7 @@
 #include "verification/rest/scene.h"
 
 #include "io/case_reader.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "core/model/block_order.h"
 #include "core/rock/build_model.h"
+#include "core/state/contact_order.h"
 #include "core/state/state_hash.h"
 #include "io/checkpoint.h"
 #include "io/stage_end_text.h"
@@ -290,6 +291,27 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfEachJointLaw)
             EXPECT_EQ(restart(scene, folder.path(), threads), unbroken)
                 << "law " << static_cast<int>(joint.law) << ", threads " << threads;
     }
+}
+
+/// Contacts of one law stand together: the list is not in the order of the parts, and its order goes into the checkpoint.
+TEST(Checkpoint, GivesTheUnbrokenRunOfTwoJointLaws)
+{
+    const ScratchFolder folder("checkpoint_two_laws");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
+    scene.joints = {test::sample_joints()[0], test::sample_joints()[1]};
+    scene.joints[1].name = "rough";
+    scene.joint_sets[0].joint = "rough";
+    const Ended unbroken = run_unbroken(scene);
+    for (const std::int64_t cycle : {310, 1150})
+    {
+        run_until(scene, cycle, folder.path());
+        for (const int threads : {1, 2, 3, 8})
+            EXPECT_EQ(restart(scene, folder.path(), threads), unbroken) << "cycle " << cycle << ", threads " << threads;
+    }
+    hdem::Setup setup = build_model(scene);
+    const State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
+    EXPECT_FALSE(std::ranges::is_sorted(order_by_parts(state.contacts)));
 }
 
 TEST(Checkpoint, GivesTheUnbrokenRunOfStepsThatVary)

@@ -183,6 +183,34 @@ std::optional<State> saved_and_loaded(const State& state, const Model& model, co
     }
 }
 
+/// The lists hold each field of a record (assertions of core/state/fields.h); here each list stands in a table.
+TEST_F(StateTables, HoldEachFieldOnce)
+{
+    State state = *state_;
+    std::size_t blocks = 0, support = 0, ends = 0, told = 0, contact = 0;
+    const auto counter = [](std::size_t& sum)
+    {
+        return [&sum](auto, const char*, auto& rows, const auto& list)
+        { fields::for_each(list, rows.front(), [&](auto&) { ++sum; }); };
+    };
+    tables::for_each_of_blocks(state, counter(blocks));
+    tables::for_each_of_support(state.support, counter(support));
+    tables::for_each_of_ends(state, counter(ends));
+    tables::for_each_told(state, counter(told));
+    Contact one = state.contacts.get(0);
+    tables::for_each_of_contact(
+        true, true, [&](auto, const char*, const auto& list) { fields::for_each(list, one, [&](auto&) { ++contact; }); });
+    const std::size_t other_arrays = 4 + 2 + 1;  // steps, margins, rest, presence; reference place and angle
+    EXPECT_EQ(blocks, 2 * field_count<BlockMotion>() + field_count<BlockForce>() - 1 + field_count<BlockInertia>() - 1 +
+                          other_arrays + field_count<Triple>());
+    EXPECT_EQ(support, field_count<BoltRecord>() + field_count<LinerRecord>() + 1);
+    EXPECT_EQ(ends, field_count<EndWatch>());
+    EXPECT_EQ(told, field_count<StageOutcome>() + 2 * field_count<StageBlock>() + field_count<StaticSolution>());
+    const std::size_t point = field_count<PointHistory>() - 1 + field_count<JointMemory>();
+    const std::size_t seen = 4;
+    EXPECT_EQ(contact, field_count<Contact>() - 3 + seen + field_count<EdgePair>() + 2 * point);
+}
+
 TEST_F(StateTables, AreAllInTheCheckpoint)
 {
     const ScratchFolder folder("state_tables");

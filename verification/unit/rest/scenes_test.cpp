@@ -1,7 +1,7 @@
 /// Scenes of rest.*: always the same, and what is said of them holds by limit analysis too.
 
 #include "io/load_case.h"
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 #include "verification/rest/families.h"
 #include "verification/rest/run.h"
 #include "verification/rest/springs.h"

@@ -34,16 +34,16 @@ struct LedgerSample
     StoredEnergy stored;
 };
 
-class FileRun
+class CaseRun
 {
   public:
     /// Called with the state at the start and after each cycle, or every so many.
     using Watch = std::function<void(const Model&, const State&)>;
 
     /// `case_file` relative to case_folder(). Throws InputError as `hdem run` would refuse the case.
-    FileRun(const std::string& case_file, const Overrides& overrides);
+    CaseRun(const std::string& case_file, const Overrides& overrides);
     /// Runs all stages; adds the run to the report.
-    FileRun(Report& report, const std::string& case_file, const Overrides& overrides, const Watch& watch = {});
+    CaseRun(Report& report, const std::string& case_file, const Overrides& overrides, const Watch& watch = {});
 
     void run(const Watch& watch = {}, std::int64_t watch_every = 1);
 

@@ -1,4 +1,4 @@
-#include "verification/checks/file_run.h"
+#include "verification/checks/case_run.h"
 
 #include "core/history_sampler.h"
 #include "core/observer.h"
@@ -87,12 +87,12 @@ class EnergyWatch final : public Observer
 class Watching final : public Observer
 {
   public:
-    Watching(const FileRun::Watch& watch, std::int64_t every) : watch_(watch), every_(every) {}
+    Watching(const CaseRun::Watch& watch, std::int64_t every) : watch_(watch), every_(every) {}
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return next_multiple(now, every_); }
     void observe(const Model& model, const State& state) override { watch_(model, state); }
 
   private:
-    const FileRun::Watch& watch_;
+    const CaseRun::Watch& watch_;
     std::int64_t every_;
 };
 
@@ -145,7 +145,7 @@ Overrides operator+(Overrides first, const Overrides& second)
     return first;
 }
 
-FileRun::FileRun(const std::string& case_file, const Overrides& overrides)
+CaseRun::CaseRun(const std::string& case_file, const Overrides& overrides)
     : loaded_(load_case(case_folder() / case_file, overrides)),
       simulation_(loaded_.setup.model, loaded_.setup.state),
       command_(command_line(case_file, overrides))
@@ -154,14 +154,14 @@ FileRun::FileRun(const std::string& case_file, const Overrides& overrides)
         throw InputError(loaded_.file.source.located(problems));
 }
 
-FileRun::FileRun(Report& report, const std::string& case_file, const Overrides& overrides, const Watch& watch)
-    : FileRun(case_file, overrides)
+CaseRun::CaseRun(Report& report, const std::string& case_file, const Overrides& overrides, const Watch& watch)
+    : CaseRun(case_file, overrides)
 {
     run(watch);
     report.add_run(*this);
 }
 
-void FileRun::run(const Watch& watch, std::int64_t watch_every)
+void CaseRun::run(const Watch& watch, std::int64_t watch_every)
 {
     Histories histories(model(), columns_);
     EnergyWatch energies(ledger_, std::min<std::int64_t>(model().output.row_every, 100));
@@ -173,12 +173,12 @@ void FileRun::run(const Watch& watch, std::int64_t watch_every)
     worst_residual_ = energies.worst();
 }
 
-Index FileRun::block(const std::string& name) const
+Index CaseRun::block(const std::string& name) const
 {
     return model().find_block(name);
 }
 
-const std::vector<double>& FileRun::column(const std::string& name) const
+const std::vector<double>& CaseRun::column(const std::string& name) const
 {
     const auto at = columns_.find(name);
     if (at == columns_.end())
@@ -186,7 +186,7 @@ const std::vector<double>& FileRun::column(const std::string& name) const
     return at->second;
 }
 
-bool FileRun::had_impulses() const
+bool CaseRun::had_impulses() const
 {
     const EnergyLedger& ledger = state().ledger;
     return ledger.impulse_loss != 0.0 || ledger.position_correction != 0.0;
