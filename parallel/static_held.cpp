@@ -27,7 +27,8 @@ bool StaticSearch::too_many_held() const
 /// False when too many have come away.
 bool StaticSearch::hold_loose()
 {
-    const std::vector<Index> loose = find_loose(state_, unknowns_, is_held_, tangents_, moved_, std::max(away * block_size_, far_));
+    const std::vector<Index> loose = find_loose(state_, whole_.unknowns, is_held_, tangents_, moved_,
+                                                std::max(away * block_size_, far_));
     if (loose.empty())
         return true;
     for (const Index b : loose)
@@ -35,7 +36,7 @@ bool StaticSearch::hold_loose()
     if (too_many_held())
         return false;
     number();
-    find_imbalance(false, false);
+    find_imbalance(whole_, false, false);
     return true;
 }
 
@@ -43,15 +44,15 @@ bool StaticSearch::hold_loose()
 bool StaticSearch::freeze_worst()
 {
     std::vector<Index> worst;
-    for (std::size_t u = 0; u < unknowns_.block.size(); ++u)
-        if (unbalanced(model_, unknowns_.block[u], &net_[3 * u]) > frozen_share * imbalance_.worst)
-            worst.push_back(unknowns_.block[u]);
-    if (static_cast<double>(worst.size()) > most_frozen * static_cast<double>(unknowns_.block.size()))
+    for (std::size_t u = 0; u < whole_.unknowns.block.size(); ++u)
+        if (unbalanced(model_, whole_.unknowns.block[u], &whole_.net[3 * u]) > frozen_share * whole_.imbalance.worst)
+            worst.push_back(whole_.unknowns.block[u]);
+    if (static_cast<double>(worst.size()) > most_frozen * static_cast<double>(whole_.unknowns.block.size()))
         return false;
     for (const Index b : worst)
         is_held_[b] = frozen;
     number();
-    find_imbalance(false, false);
+    find_imbalance(whole_, false, false);
     return true;
 }
 }  // namespace hdem

@@ -21,8 +21,6 @@ constexpr int freezes_after = 15;        // iterations without gain, and below t
 constexpr int keeps_features_after = 5;  // searches for contacts
 constexpr double least_far = 5e-3;       // of the middle size of a block
 constexpr double moves = 0.2;            // of far: what a point has moved whose block is named when the search is given up
-constexpr double longest_way = 0.3;      // of far, of a point in one step
-constexpr int most_restraints = 3;       // of points that go farther, until the step is taken as it is
 constexpr int shortens_after = 12;       // iterations without gain
 constexpr int stuck_after = 10;          // iterations without gain after which what is accepted is taken
 constexpr double short_far = 0.02;
@@ -40,6 +38,7 @@ StaticSearch::StaticSearch(const Model& model, State& state, int threads, const 
       step_(moved_.size()),
       is_held_(static_cast<std::size_t>(model.blocks()))
 {
+    spots_.is_whole = false;
     std::vector<double> sizes(static_cast<std::size_t>(model.blocks()));
     for (Index b = 0; b < model.blocks(); ++b)
         sizes[b] = model.size(b);
@@ -103,35 +102,47 @@ void StaticSearch::keep_features(const Contacts& before)
 
 void StaticSearch::number()
 {
-    unknowns_ = number_unknowns(state_, is_held_);
-    has_prescribed_ = std::any_of(unknowns_.block.begin(), unknowns_.block.end(),
-                                  [&](Index b)
-                                  {
-                                      const BlockInertia& i = state_.blocks.inertia[b];
-                                      return i.inverse_mass_x == 0.0 || i.inverse_mass_y == 0.0 || i.inverse_inertia == 0.0;
-                                  });
-    const auto size = static_cast<Index>(unknowns_.block.size());
-    const std::vector<CoupledPair> pairs = coupled_pairs(state_.contacts, unknowns_);
-    tangent_.set_pattern(size, pairs);
-    symmetric_.set_pattern(size, pairs);
+    number(whole_, number_unknowns(state_, is_held_));
+    std::ranges::fill(step_, 0.0);  // what is not sought any more stays where it is
+}
+
+void StaticSearch::number(Part& part, Unknowns unknowns)
+{
+    part.unknowns = std::move(unknowns);
+    const std::vector<Index>& block = part.unknowns.block;
+    part.has_prescribed = std::ranges::any_of(block,
+                                              [&](Index b)
+                                              {
+                                                  const BlockInertia& i = state_.blocks.inertia[b];
+                                                  return i.inverse_mass_x == 0.0 || i.inverse_mass_y == 0.0 ||
+                                                         i.inverse_inertia == 0.0;
+                                              });
+    const auto size = static_cast<Index>(block.size());
+    std::vector<CoupledPair> pairs;
+    if (part.is_whole)
+        pairs = coupled_pairs(state_.contacts, part.unknowns);
+    else
+        for (const Index i : part.contacts)
+            pairs.push_back({part.unknowns.of_block[state_.contacts.ref[i]], part.unknowns.of_block[state_.contacts.inc[i]]});
+    part.tangent.set_pattern(size, pairs);
+    part.symmetric.set_pattern(size, pairs);
     std::vector<Vec2> places(static_cast<std::size_t>(size));
     for (Index u = 0; u < size; ++u)
-        places[u] = {start_[unknowns_.block[u]].x, start_[unknowns_.block[u]].y};
-    with_team(threads_, [&](const Team& team) { factor_.analyse(team, symmetric_.graph(), places); });
-    net_.resize(3 * static_cast<std::size_t>(size));
-    solution_.resize(net_.size());
-    std::ranges::fill(step_, 0.0);  // what is not sought any more stays where it is
+        places[u] = {start_[block[u]].x, start_[block[u]].y};
+    with_team(threads_, [&](const Team& team) { part.factor.analyse(team, part.symmetric.graph(), places); });
+    part.net.resize(3 * static_cast<std::size_t>(size));
+    part.solution.resize(part.net.size());
 }
 
 void StaticSearch::begin()
 {
     std::fill(moved_.begin(), moved_.end(), 0.0);
-    unknowns_ = number_unknowns(state_, is_held_);
-    for (const Index b : find_loose(state_, unknowns_, is_held_, tangents_, moved_, std::numeric_limits<double>::infinity()))
+    whole_.unknowns = number_unknowns(state_, is_held_);
+    for (const Index b : find_loose(state_, whole_.unknowns, is_held_, tangents_, moved_, std::numeric_limits<double>::infinity()))
         is_held_[b] = come_away;  // no chain of contacts leads to what stands still
     number();
     place_blocks({0, state_.blocks.size()}, start_, moved_, state_);
-    for_contacts([&](IndexRange range) { begin_points(range, model_, state_, points_); });
+    for_contacts(whole_, [&](IndexRange range) { begin_points(range, model_, state_, points_); });
     far_ = 0.0;
 }
 
@@ -148,7 +159,8 @@ StaticSearch::End StaticSearch::run()
 
 bool StaticSearch::is_balanced(const StaticRule& goal) const
 {
-    return imbalance_.ratio() < goal.ratio && imbalance_.worst < goal.acceleration && tally_.newly_parted == 0 && tally_.open == 0;
+    return whole_.imbalance.ratio() < goal.ratio && whole_.imbalance.worst < goal.acceleration && tally_.newly_parted == 0 &&
+           tally_.open == 0;
 }
 
 StaticSearch::End StaticSearch::iterate(const Pass& pass)
@@ -162,71 +174,52 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
     for (int i = 0;; ++i, ++since_best)
     {
         stop_if_asked(rule_);
-        find_imbalance(false, false);
-        const PointRule rule{.part_all_open = imbalance_.ratio() < parts_below, .is_first = i == 0};
-        tally_ = sum_pieces<PointTally>(threads_, state_.contacts.size(),
-                                        [&](IndexRange range)
-                                        { return renew_points(range, model_, state_, rule, points_, tangents_); });
+        find_imbalance(whole_, false, false);
+        tally_ = renew(whole_, {.part_all_open = whole_.imbalance.ratio() < parts_below, .is_first = i == 0});
         if (tally_.newly_parted > 0)
-            find_imbalance(false, false);
-        if (i == 0 && imbalance_.ratio() > settled)
+            find_imbalance(whole_, false, false);
+        if (i == 0 && whole_.imbalance.ratio() > settled)
         {
             goal.ratio = std::max(goal.ratio, 0.1 * settled);
             goal.acceleration = std::numeric_limits<double>::infinity();
         }
         if (is_balanced(goal))
             return i == 0 ? End::in_balance_from_the_start : End::in_balance;
-        if (imbalance_.ratio() < 0.9 * best || tally_.newly_parted > many_parted * static_cast<double>(points_.size()))
+        if (whole_.imbalance.ratio() < 0.9 * best || tally_.newly_parted > many_parted * static_cast<double>(points_.size()))
         {
-            best = imbalance_.ratio();
+            best = whole_.imbalance.ratio();
             since_best = 0;
         }
-        if (imbalance_.ratio() < rule_.accepted && since_best > stuck_after && tally_.open == 0)
+        if (whole_.imbalance.ratio() < rule_.accepted && since_best > stuck_after && tally_.open == 0)
             return End::nearly_in_balance;
-        if (since_best > freezes_after && imbalance_.ratio() < freezes_below && freeze_worst())
+        if (since_best > freezes_after && whole_.imbalance.ratio() < freezes_below && freeze_worst())
         {
-            best = imbalance_.ratio();
+            best = whole_.imbalance.ratio();
             since_best = 0;
         }
-        const bool looks_for_loose = i > 0 && (imbalance_.ratio() < holds_below || since_best >= holds_after);
+        const bool looks_for_loose = i > 0 && (whole_.imbalance.ratio() < holds_below || since_best >= holds_after);
         const bool too_many = looks_for_loose && !hold_loose();
+        if (!too_many && std::isfinite(whole_.imbalance.ratio()))
+            relax_spots();
         if (too_many || since_best > rule_.stagnation || iterations_ >= rule_.most_iterations ||
-            !std::isfinite(imbalance_.ratio()) || !find_step())
+            !std::isfinite(whole_.imbalance.ratio()) || !find_step(whole_))
         {
-            moving_ = find_loose(state_, unknowns_, is_held_, tangents_, moved_, moves * far_);
+            moving_ = find_loose(state_, whole_.unknowns, is_held_, tangents_, moved_, moves * far_);
             return End::gave_up;
         }
         ++iterations_;
         if (far_ == 0.0)
-            far_ = std::max(least_far * block_size_, 20.0 * greatest_way_of_step());
+            far_ = std::max(least_far * block_size_, 20.0 * greatest_way_of_step(whole_));
         // For the rest of the pass: after long steps it would soon be as far off as before.
         is_careful = is_careful || since_best >= shortens_after;
-        for (int k = 0; k < most_restraints && greatest_way_of_step() > longest_way * far_; ++k)
-        {
-            for_contacts([&](IndexRange range)
-                         { restrain_points(range, state_, step_, pass.far_share * far_, points_, tangents_); });
-            if (!find_step())
-                break;
-        }
-        const double restrained = (is_careful ? short_far : pass.far_share) * far_;
-        for_contacts([&](IndexRange range) { restrain_points(range, state_, step_, restrained, points_, tangents_); });
-        take_step(is_careful ? 0.0 : pass.least_share);
+        shorten_step(whole_, pass.far_share, is_careful ? short_far : pass.far_share);
+        take_step(whole_, is_careful ? 0.0 : pass.least_share);
     }
-}
-
-void StaticSearch::find_imbalance(bool frozen, bool along_step)
-{
-    for_contacts([&](IndexRange range) { put_loads(range, model_, state_, points_, frozen, loads_); });
-    const std::vector<double> none;
-    imbalance_ = sum_pieces<Imbalance>(
-        threads_, static_cast<Index>(unknowns_.block.size()),
-        [&](IndexRange range)
-        { return net_forces(range, model_, state_, unknowns_, list_, loads_, given_, along_step ? step_ : none, net_); });
 }
 
 void StaticSearch::commit()
 {
     friction_ += tally_.friction;
-    for_contacts([&](IndexRange range) { commit_points(range, model_, points_, state_); });
+    for_contacts(whole_, [&](IndexRange range) { commit_points(range, model_, points_, state_); });
 }
 }  // namespace hdem

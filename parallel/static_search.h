@@ -36,7 +36,7 @@ class StaticSearch
 
     [[nodiscard]] int iterations() const { return iterations_; }
     [[nodiscard]] int solves() const { return solves_; }
-    [[nodiscard]] double ratio() const { return imbalance_.ratio(); }
+    [[nodiscard]] double ratio() const { return whole_.imbalance.ratio(); }
     [[nodiscard]] double friction() const { return friction_; }
     [[nodiscard]] const std::vector<std::uint8_t>& is_held() const { return is_held_; }
     /// Held blocks, and after giving up those that moved as well; ascending.
@@ -50,29 +50,65 @@ class StaticSearch
         double far_share = 0.1;
     };
 
+    /// Blocks that are sought together, the others where they are, and the linear system of a step.
+    struct Part
+    {
+        Unknowns unknowns;
+        std::vector<Index> contacts;  ///< that touch them, ascending; of the whole model: all, and none is listed
+        bool is_whole = true;
+        bool has_prescribed = false;
+        BlockMatrix tangent, symmetric;
+        Factorisation factor;
+        std::vector<double> net, solution;  ///< three per unknown
+        Imbalance imbalance;
+    };
+
     void begin();
     void keep_features(const Contacts& before);
     void number();
     End iterate(const Pass& pass);
-    void find_imbalance(bool frozen, bool along_step);
+    void number(Part& part, Unknowns unknowns);
+    void find_imbalance(Part& part, bool frozen, bool along_step);
+    PointTally renew(const Part& part, const PointRule& rule);
+    void restrain(const Part& part, double far);
     bool hold_loose();
     bool freeze_worst();
     [[nodiscard]] bool too_many_held() const;
-    bool find_step();
-    [[nodiscard]] double greatest_way_of_step();
-    void take_step(double least_share);
-    void place(double share);
+    bool find_step(Part& part);
+    [[nodiscard]] double greatest_way_of_step(const Part& part);
+    void shorten_step(Part& part, double far_share, double next_far_share);
+    void take_step(Part& part, double least_share);
+    void place(const Part& part, double share);
+    void relax_spots();
+    [[nodiscard]] std::vector<Index> blocks_around_spots() const;
+    void add_rings(std::vector<Index>& near) const;
+    void number_spots(std::vector<Index> blocks);
+    void step_spots(double goal);
     [[nodiscard]] bool is_balanced(const StaticRule& goal) const;
-    [[nodiscard]] IndexRange contacts() const { return {0, state_.contacts.size()}; }
-    template <typename Work>
-    void for_contacts(const Work& work)
+    /// work(range) for all contacts of a part, returning a sum.
+    template <typename Sum, typename Work>
+    Sum sum_contacts(const Part& part, const Work& work)
     {
-        sum_pieces<Nothing>(threads_, state_.contacts.size(),
-                            [&](IndexRange range)
-                            {
-                                work(range);
-                                return Nothing{};
-                            });
+        if (part.is_whole)
+            return sum_pieces<Sum>(threads_, state_.contacts.size(), work);
+        return sum_pieces<Sum>(threads_, static_cast<Index>(part.contacts.size()),
+                               [&](IndexRange range)
+                               {
+                                   Sum sum{};
+                                   for (Index k = range.begin; k < range.end; ++k)
+                                       sum += work(IndexRange{part.contacts[k], part.contacts[k] + 1});
+                                   return sum;
+                               });
+    }
+    template <typename Work>
+    void for_contacts(const Part& part, const Work& work)
+    {
+        sum_contacts<Nothing>(part,
+                              [&](IndexRange range)
+                              {
+                                  work(range);
+                                  return Nothing{};
+                              });
     }
 
     const Model& model_;
@@ -92,15 +128,10 @@ class StaticSearch
     std::vector<ContactTangent> tangents_;
     std::vector<BlockLoad> loads_;
     BlockContacts list_;
-    Unknowns unknowns_;
-    bool has_prescribed_ = false;
-    BlockMatrix tangent_, symmetric_;
-    Factorisation factor_;
+    Part whole_, spots_;
     Gmres gmres_;
-    std::vector<double> net_, solution_;  ///< three per unknown
 
     PointTally tally_;
-    Imbalance imbalance_;
     double block_size_ = 0.0;  ///< of the middle block [m]
     double far_ = 0.0;         ///< a point that moves farther has left its place [m]
     double friction_ = 0.0;

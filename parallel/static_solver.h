@@ -57,7 +57,8 @@ struct StaticOutcome
 /// 1. residual, status of each point, tangent with friction (core/statics/static_contacts.h)
 /// 2. Cholesky factor of the tangent without the coupling of friction; GMRES on the whole tangent with it, to 1e-2
 /// 3. a share t in [1/2, 1] of the step, by the energy with frozen shear strengths, which is convex
-/// 4. in balance: features and contacts are found anew; the state is the answer if it is still in balance
+/// 4. blocks far more out of balance than the others are brought near to it by such steps of their own (parallel/static_spots.cpp)
+/// 5. in balance: features and contacts are found anew; the state is the answer if it is still in balance
 ///
 /// From zero stress, and where that leads nowhere, Newton and cycles take turns first (parallel/static_approach.h).
 ///

@@ -13,17 +13,39 @@ namespace
 constexpr double enough_gain = 0.5;   // of the unbalanced ratio, by a whole step that needs no closer look
 constexpr double first_shift = 1e-8;  // of the diagonal
 constexpr int line_search_steps = 4;
+constexpr double longest_way = 0.3;  // of far, of a point in one step
+constexpr int most_restraints = 3;   // of points that go farther, until the step is taken as it is
 }  // namespace
 
-double StaticSearch::greatest_way_of_step()
+void StaticSearch::find_imbalance(Part& part, bool frozen, bool along_step)
 {
-    return sum_pieces<Greatest>(threads_, state_.contacts.size(),
-                                [&](IndexRange range) { return Greatest{greatest_way(range, state_, tangents_, step_)}; })
+    for_contacts(part, [&](IndexRange range) { put_loads(range, model_, state_, points_, frozen, loads_); });
+    const std::vector<double> none;
+    part.imbalance = sum_pieces<Imbalance>(
+        threads_, static_cast<Index>(part.unknowns.block.size()),
+        [&](IndexRange range)
+        { return net_forces(range, model_, state_, part.unknowns, list_, loads_, given_, along_step ? step_ : none, part.net); });
+}
+
+PointTally StaticSearch::renew(const Part& part, const PointRule& rule)
+{
+    return sum_contacts<PointTally>(part, [&](IndexRange range)
+                                    { return renew_points(range, model_, state_, rule, points_, tangents_); });
+}
+
+void StaticSearch::restrain(const Part& part, double far)
+{
+    for_contacts(part, [&](IndexRange range) { restrain_points(range, state_, step_, far, points_, tangents_); });
+}
+
+double StaticSearch::greatest_way_of_step(const Part& part)
+{
+    return sum_contacts<Greatest>(part, [&](IndexRange range) { return Greatest{greatest_way(range, state_, tangents_, step_)}; })
         .value;
 }
 
 /// Solve for the step from the tangents. False where nothing helps.
-bool StaticSearch::find_step()
+bool StaticSearch::find_step(Part& part)
 {
     double shift = first_shift;
     for (;; shift *= 100.0)
@@ -32,24 +54,25 @@ bool StaticSearch::find_step()
         with_team(threads_,
                   [&](const Team& team)
                   {
-                      const IndexRange rows = team.share(static_cast<Index>(unknowns_.block.size()));
-                      const auto stiffness = [&](Index i, bool coupled)
+                      const IndexRange rows = team.share(static_cast<Index>(part.unknowns.block.size()));
+                      const auto stiffness = [&](Index k, bool coupled)
                       {
-                          Matrix6 k = tangents_[i].stiffness(coupled);
-                          if (has_prescribed_)
+                          const Index i = part.is_whole ? k : part.contacts[k];
+                          Matrix6 stiff = tangents_[i].stiffness(coupled);
+                          if (part.has_prescribed)
                               leave_out_prescribed(state_.blocks.inertia[state_.contacts.ref[i]],
-                                                   state_.blocks.inertia[state_.contacts.inc[i]], k);
-                          return k;
+                                                   state_.blocks.inertia[state_.contacts.inc[i]], stiff);
+                          return stiff;
                       };
-                      tangent_.assemble(rows, [&](Index i) { return stiffness(i, true); });
-                      symmetric_.assemble(rows, [&](Index i) { return stiffness(i, false); });
+                      part.tangent.assemble(rows, [&](Index i) { return stiffness(i, true); });
+                      part.symmetric.assemble(rows, [&](Index i) { return stiffness(i, false); });
                       for (Index u = rows.begin; u < rows.end; ++u)
                       {
-                          finish_diagonal(state_.blocks.inertia[unknowns_.block[u]], shift, tangent_.diagonal(u));
-                          finish_diagonal(state_.blocks.inertia[unknowns_.block[u]], shift, symmetric_.diagonal(u));
+                          finish_diagonal(state_.blocks.inertia[part.unknowns.block[u]], shift, part.tangent.diagonal(u));
+                          finish_diagonal(state_.blocks.inertia[part.unknowns.block[u]], shift, part.symmetric.diagonal(u));
                       }
                       team.barrier();
-                      const Index block = factor_.factorise(team, symmetric_);
+                      const Index block = part.factor.factorise(team, part.symmetric);
                       if (team.is_first())
                           failed = block;
                   });
@@ -64,43 +87,65 @@ bool StaticSearch::find_step()
               {
                   const auto product = [&](const Team& t, const double* x, double* y)
                   {
-                      tangent_.multiply(t.share(tangent_.blocks()), x, y);
+                      part.tangent.multiply(t.share(part.tangent.blocks()), x, y);
                       t.barrier();
                   };
-                  const auto precondition = [&](const Team& t, const double* x, double* y) { factor_.solve(t, x, y); };
-                  const GmresResult mine = gmres_.solve(team, static_cast<Index>(net_.size()), product, precondition, net_.data(),
-                                                        solution_.data(), {.tolerance = 1e-2, .most_iterations = 60});
+                  const auto precondition = [&](const Team& t, const double* x, double* y) { part.factor.solve(t, x, y); };
+                  const GmresResult mine = gmres_.solve(team, static_cast<Index>(part.net.size()), product, precondition,
+                                                        part.net.data(), part.solution.data(),
+                                                        {.tolerance = 1e-2, .most_iterations = 60});
                   if (team.is_first())
                       result = mine;
               });
     solves_ += result.iterations;
-    for (std::size_t u = 0; u < unknowns_.block.size(); ++u)
+    for (std::size_t u = 0; u < part.unknowns.block.size(); ++u)
         for (std::size_t k = 0; k < 3; ++k)
-            step_[3 * static_cast<std::size_t>(unknowns_.block[u]) + k] = solution_[3 * u + k];
+            step_[3 * static_cast<std::size_t>(part.unknowns.block[u]) + k] = part.solution[3 * u + k];
     return std::isfinite(result.residual);
 }
 
-void StaticSearch::place(double share)
+/// The step, found anew a few times with more resistance where a point goes far, and less trust in those points at the next iterate.
+void StaticSearch::shorten_step(Part& part, double far_share, double next_far_share)
 {
-    for (std::size_t i = 0; i < moved_.size(); ++i)
-        moved_[i] = from_[i] + share * step_[i];
-    place_blocks({0, state_.blocks.size()}, start_, moved_, state_);
+    for (int k = 0; k < most_restraints && greatest_way_of_step(part) > longest_way * far_; ++k)
+    {
+        restrain(part, far_share * far_);
+        if (!find_step(part))
+            break;
+    }
+    restrain(part, next_far_share * far_);
+}
+
+void StaticSearch::place(const Part& part, double share)
+{
+    const auto put = [&](Index b)
+    {
+        for (std::size_t i = 3 * static_cast<std::size_t>(b); i < 3 * static_cast<std::size_t>(b) + 3; ++i)
+            moved_[i] = from_[i] + share * step_[i];
+        place_blocks({b, b + 1}, start_, moved_, state_);
+    };
+    if (part.is_whole)
+        for (Index b = 0; b < state_.blocks.size(); ++b)
+            put(b);
+    else
+        for (const Index b : part.unknowns.block)
+            put(b);
 }
 
 /// All of the step if that brings enough. Else the share of it at which the work along it ends: with shear strengths frozen forces are those of a convex energy. Not less than `least_share`.
-void StaticSearch::take_step(double least_share)
+void StaticSearch::take_step(Part& part, double least_share)
 {
     from_ = moved_;
-    const double before = imbalance_.ratio();
-    place(1.0);
-    find_imbalance(false, false);
-    if (imbalance_.ratio() < enough_gain * before)
+    const double before = part.imbalance.ratio();
+    place(part, 1.0);
+    find_imbalance(part, false, false);
+    if (part.imbalance.ratio() < enough_gain * before)
         return;
     const auto work_at = [&](double share)
     {
-        place(share);
-        find_imbalance(true, true);
-        return imbalance_.work;
+        place(part, share);
+        find_imbalance(part, true, true);
+        return part.imbalance.work;
     };
     double high = 1.0, work_high = work_at(1.0);
     if (work_high >= 0.0)
@@ -109,7 +154,7 @@ void StaticSearch::take_step(double least_share)
     double work_low = work_at(low);
     if (work_low <= 0.0)
     {
-        place(std::max(low, 1.0 / 64.0));
+        place(part, std::max(low, 1.0 / 64.0));
         return;
     }
     for (int i = 0; i < line_search_steps; ++i)
@@ -130,6 +175,6 @@ void StaticSearch::take_step(double least_share)
             work_high = work;
         }
     }
-    place(std::max(low, 1.0 / 64.0));
+    place(part, std::max(low, 1.0 / 64.0));
 }
 }  // namespace hdem

@@ -38,6 +38,16 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
             fmt::format("blocks have left the model and are held outside it: {}. Give walls or a ground to hold them, or a "
                         "greater convergence.lost_distance.",
                         first_of(s.lost_blocks)));
+    std::vector<std::string> outside;
+    const Model& model = simulation.model();
+    for (const Index block : model.slot_of_user)
+        if (has_left(block, model, simulation.state().blocks) && simulation.state().blocks.is_free(block))
+            outside.push_back(model.name[block]);
+    if (!outside.empty())
+        warnings.push_back(
+            fmt::format("blocks have left the model and move on outside it: {}. Give walls or a ground to hold them, or "
+                        "a stage with until = \"converged\", which ends their way.",
+                        first_of(outside)));
     if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
         warnings.push_back(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
