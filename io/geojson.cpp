@@ -140,12 +140,12 @@ class Walker
     std::size_t points_ = 0;
 };
 
-/// fixed = true, or text as in files of WKT: "fixed", "x rotation".
+/// fixed = true, or text as in files of WKT: "fixed", "x rotation". Shapefiles know no truth values: they come back as "true" or 1.
 bool read_fixed(const Json& value, BlockDef& block)
 {
-    if (value.is_null() || (value.is_boolean() && !value.get<bool>()))
+    if (value.is_null() || value == Json(false) || value == Json("false") || value == Json(0))
         return true;
-    if (value.is_boolean())
+    if (value == Json(true) || value == Json("true") || value == Json(1))
         return block.fix_x = block.fix_y = block.fix_rotation = true;
     if (!value.is_string())
         return false;

@@ -98,6 +98,11 @@ def colour_range(values, signed):
     return -high, high, "both" if outliers else "neither"
 
 
+def number_of(chosen):
+    count = np.count_nonzero(chosen)
+    return f"{count} block" if count == 1 else f"{count} blocks"
+
+
 def pick(parts_of, chosen, blocks):
     return [part for part, block in zip(parts_of, blocks["part_block"]) if chosen[block]]
 
@@ -123,7 +128,7 @@ def draw_field(axes, blocks, options):
         return []
     axes.add_collection(PolyCollection(pick(blocks["part_polygon"], hatched, blocks), facecolors=FALLEN, edgecolors=ORANGE, linewidths=0.0, hatch="//////"))
     distance = 1e3 * blocks["info"]["detached_distance"]
-    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:.4g} mm ({np.count_nonzero(hatched)} blocks)")]
+    return [Patch(facecolor=FALLEN, edgecolor=ORANGE, linewidth=0.0, hatch="//////", label=f"detached: moved more than {distance:.4g} mm ({number_of(hatched)})")]
 
 
 def draw_classes(axes, blocks, options):
@@ -140,7 +145,7 @@ def draw_classes(axes, blocks, options):
     axes.add_collection(faces)
     if options.colour == "none":
         return []
-    return [Patch(facecolor=colours[i], edgecolor=DARK, linewidth=0.4, label=f"{names[i]} ({np.count_nonzero(numbers == i)} blocks)") for i in np.unique(numbers)]
+    return [Patch(facecolor=colours[i], edgecolor=DARK, linewidth=0.4, label=f"{names[i]} ({number_of(numbers == i)})") for i in np.unique(numbers)]
 
 
 def draw_contacts(axes, blocks, contacts, width_mm):

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 
 namespace hdem
@@ -130,13 +131,28 @@ CLI::App* add_script(CLI::App& app, const std::string& name, const std::string& 
     return script;
 }
 
+/// What is wrong with the words of a command, and where help is. The whole help would hide it.
+std::string refusal(const CLI::App* app, const CLI::Error& error)
+{
+    const std::vector<CLI::App*> given = app->get_subcommands();
+    const std::string command = given.empty() ? "hdem" : "hdem " + given.front()->get_name();
+    if (!given.empty() || error.get_name() != "RequiredError")
+        return fmt::format("error: {}: {}. {} --help lists all options.\n", command, error.what(), command);
+    std::vector<std::string> known;
+    for (const CLI::App* one : app->get_subcommands([](const CLI::App*) { return true; }))
+        known.push_back(one->get_name());
+    const std::vector<std::string> words = app->remaining();
+    const std::string why = words.empty() ? "needs a command" : words.front() + " is no command";
+    return fmt::format("error: hdem: {}. There are {}; hdem --help says what they do.\n", why, fmt::join(known, ", "));
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("hdem: hybrid discrete element method for jointed rock in two dimensions", "hdem");
     app.set_version_flag("--version", build_facts());
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::help);
+    app.failure_message(&refusal);
     RunOptions run;
     run.command_line.assign(argv, argv + argc);
     CheckOptions check;

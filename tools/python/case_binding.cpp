@@ -2,6 +2,7 @@
 
 #include "core/rock/rock_mass.h"
 #include "tools/python/bindings.h"
+#include "tools/python/python_lock.h"
 
 #include <pybind11/stl.h>
 
@@ -47,7 +48,7 @@ void bind_case(py::module_& module)
     type.def(py::init(
                  [](const std::optional<std::string>& text, const std::string& file, const std::vector<std::string>& overrides)
                  {
-                     const py::gil_scoped_release release;
+                     const WithoutPython free;
                      return build_case(text, file, overrides);
                  }),
              py::arg("text"), py::arg("file"), py::arg("overrides"));

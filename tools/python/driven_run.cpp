@@ -4,8 +4,10 @@
 #include "io/atomic_file.h"
 #include "io/summary.h"
 #include "tools/python/changed_case.h"
+#include "tools/python/python_lock.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -47,7 +49,7 @@ class DrivenRun::Watch : public Observer, public Keeper
         if (!piece_.callback || state.cycle == first_ || state.cycle == called_ || state.cycle % piece_.every != 0)
             return;
         called_ = state.cycle;
-        const py::gil_scoped_acquire acquire;
+        const WithPython lock;
         run_.phase_ = Phase::callback;
         hold(
             [&]
@@ -99,7 +101,7 @@ class DrivenRun::Watch : public Observer, public Keeper
     {
         if (error_)
             return;
-        const py::gil_scoped_acquire acquire;
+        const WithPython lock;
         if (PyErr_CheckSignals() != 0)
             hold([] { throw py::error_already_set(); });
     }
@@ -127,7 +129,10 @@ class DrivenRun::Guard
     Phase& phase_;
 };
 
-DrivenRun::DrivenRun(RunStart start, RunOptions options) : start_(std::move(start)), options_(std::move(options))
+DrivenRun::DrivenRun(RunStart start, RunOptions options)
+    : start_(std::move(start)),
+      options_(std::move(options)),
+      process_(::getpid())
 {
     const RunKeeper::Clock::time_point begin = RunKeeper::Clock::now();
     Setup& setup = start_.loaded.setup;
@@ -159,6 +164,14 @@ void DrivenRun::require_no_view() const
                         views_));
 }
 
+void DrivenRun::require_own_folder(const char* what) const
+{
+    if (files_ && process_ != ::getpid())
+        throw std::runtime_error(fmt::format("{}: the folder {} belongs to the process that began the run, and this one was forked "
+                                             "from it. Begin runs with a folder after the fork.",
+                                             what, start_.folder.string()));
+}
+
 const Simulation& DrivenRun::simulation() const
 {
     if (phase_ == Phase::cycles)
@@ -186,6 +199,7 @@ const std::vector<StageResult>& DrivenRun::run(const Piece& piece)
 {
     require_idle("run()");
     require_no_view();
+    require_own_folder("run()");
     if (!failure_.empty())
         throw RunError("the run has failed before: " + failure_);
     const State& state = simulation_->state();
@@ -198,7 +212,7 @@ const std::vector<StageResult>& DrivenRun::run(const Piece& piece)
     Watch watch(*this, piece);
     {
         const Guard guard(phase_);
-        const py::gil_scoped_release release;
+        const WithoutPython free;
         try
         {
             run_stages_of(watch, {.end = end, .over = over_ ? &*over_ : nullptr});
@@ -241,6 +255,7 @@ void DrivenRun::take_case(const BuiltCase& next)
 {
     require_idle("a change of the case");
     require_no_view();
+    require_own_folder("a change of the case");
     LoadedCase loaded = *next.loaded;
     Moment moment = with_other_stages(*simulation_, std::move(loaded.setup));
     Simulation changed(std::move(moment.model), std::move(moment.state), thread_rule(options_.threads));

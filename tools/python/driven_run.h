@@ -67,6 +67,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
 
     void require_idle(const char* what) const;
     void require_no_view() const;
+    void require_own_folder(const char* what) const;  ///< two processes would write the same files
     [[nodiscard]] pybind11::capsule lend();
     void run_stages_of(Watch& watch, const StagePart& part);
 
@@ -81,6 +82,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     std::string summary_;  ///< JSON, once the last stage is over and there is a folder
     Phase phase_ = Phase::idle;
     int views_ = 0;
+    int process_ = 0;  ///< that it was made in
 };
 
 template <typename T>

@@ -2,6 +2,7 @@
 #include "tools/hdem/options.h"
 #include "tools/python/bindings.h"
 #include "tools/python/case_binding.h"
+#include "tools/python/python_lock.h"
 
 #include <pybind11/stl.h>
 
@@ -66,7 +67,7 @@ std::string find(const BuiltCase& built, const std::optional<int>& threads, cons
     std::exception_ptr error;  // of the callback; written with the GIL
     const Show show = [&](const FactorTrial& trial, const Model& model)
     {
-        const py::gil_scoped_acquire acquire;
+        const WithPython lock;
         if (callback.is_none() || error)
             return;
         try
@@ -82,12 +83,12 @@ std::string find(const BuiltCase& built, const std::optional<int>& threads, cons
     const std::shared_ptr<const LoadedCase> loaded = built.loaded;
     std::future<std::string> answer;
     {
-        const py::gil_scoped_release release;
+        const WithoutPython free;
         answer = std::async(std::launch::async,
                             [&] { return factor_text_of(*loaded, thread_rule(threads), stop.get_token(), show); });
         while (answer.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready)
         {
-            const py::gil_scoped_acquire acquire;
+            const WithPython lock;
             if (error || PyErr_CheckSignals() == 0)
                 continue;
             try

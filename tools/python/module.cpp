@@ -4,6 +4,7 @@
 #include "core/version.h"
 #include "parallel/team.h"
 #include "tools/python/bindings.h"
+#include "tools/python/python_lock.h"
 
 #include <exception>
 #include <string>
@@ -57,6 +58,7 @@ PYBIND11_MODULE(_core, module)
         "version_line", [] { return std::string(hdem::version_line()); }, "Version, commit and build of the library.");
     module.def("default_threads", &hdem::default_threads,
                "Threads that there can be: OMP_NUM_THREADS, else the processors at hand.");
+    py::module_::import("atexit").attr("register")(py::cpp_function(&hdem::PythonEnd::begin));
     hdem::bind_case(module);
     hdem::bind_run(module);
     hdem::bind_factor(module);

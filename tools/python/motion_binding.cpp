@@ -16,6 +16,8 @@ namespace
 {
 namespace py = pybind11;
 
+constexpr double greatest = 1e12;  // in SI units; farther places would be read by no program
+
 /// Rows of an array of the users, checked: `width` numbers a block, all finite.
 const double* rows_of(const DoubleArray& array, const Model& model, py::ssize_t width, const char* name)
 {
@@ -27,9 +29,14 @@ const double* rows_of(const DoubleArray& array, const Model& model, py::ssize_t 
                         width == 1 ? fmt::format("({},)", model.blocks()) : fmt::format("({}, {})", model.blocks(), width)));
     const double* const values = array.data();
     for (py::ssize_t i = 0; i < array.size(); ++i)
-        if (!std::isfinite(values[i]))
-            throw py::value_error(
-                fmt::format("{}: the number of block \"{}\" is not finite", name, model.name[model.slot_of_user[i / width]]));
+        if (!(std::abs(values[i]) <= greatest))
+        {
+            const std::string& block = model.name[model.slot_of_user[i / width]];
+            throw py::value_error(std::isfinite(values[i])
+                                      ? fmt::format("{}: the number of block \"{}\" is {:g}, and may be {:g} at most", name, block,
+                                                    values[i], greatest)
+                                      : fmt::format("{}: the number of block \"{}\" is not finite", name, block));
+        }
     return values;
 }
 

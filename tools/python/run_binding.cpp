@@ -4,6 +4,7 @@
 #include "tools/python/bindings.h"
 #include "tools/python/contact_table.h"
 #include "tools/python/motion_binding.h"
+#include "tools/python/python_lock.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -14,10 +15,13 @@ namespace
 {
 namespace py = pybind11;
 
+constexpr int most_threads = 4096;  // as of hdem run --threads
+
 RunOptions options_of(const std::optional<std::string>& folder, const std::optional<int>& threads, bool overwrite)
 {
-    if (threads && *threads < 1)
-        throw py::value_error(fmt::format("threads = {} (must be at least 1). Give None for as many as are fastest.", *threads));
+    if (threads && (*threads < 1 || *threads > most_threads))
+        throw py::value_error(
+            fmt::format("threads = {} (must be 1 to {}). Give None for as many as are fastest.", *threads, most_threads));
     return {.folder = folder.value_or(""),
             .overwrite = overwrite,
             .threads = threads,
@@ -138,8 +142,10 @@ void bind_files(RunType& type)
                 write_contact_frame(file, look.model, look.state);
             else if (kind == "bolts")
                 write_bolt_frame(file, look.model, look.state);
+            else if (kind == "liners")
+                write_liner_frame(file, look.model, look.state);
             else
-                throw py::value_error(fmt::format("kind = \"{}\" (unknown). Give blocks, contacts or bolts.", kind));
+                throw py::value_error(fmt::format("kind = \"{}\" (unknown). Give blocks, contacts, bolts or liners.", kind));
         },
         py::arg("file"), py::arg("kind") = "blocks", "Write one VTKHDF file of the present state, as those in frames/ of a run.");
     type.def("_take_case", [](DrivenRun& run, const std::string& text, const std::vector<std::string>& overrides)
@@ -184,9 +190,9 @@ void bind_run(py::module_& module)
                          slip, plastic_slip, broken);
     RunType type(module, "Run");
     type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"),
-             py::call_guard<py::gil_scoped_release>());
+             py::call_guard<WithoutPython>());
     type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"),
-             py::call_guard<py::gil_scoped_release>());
+             py::call_guard<WithoutPython>());
     type.def("_run", &run_piece, py::arg("cycles"), py::arg("stages"), py::arg("callback"), py::arg("every"));
     type.def(
         "contacts", [](const DrivenRun& run, bool also_open) { return contact_table(run.look(), also_open); },

@@ -7,8 +7,6 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import hdem
-import matplotlib
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -29,16 +27,15 @@ one = run(1)
 moved = np.hypot(*one.displacements.T)
 print(f"{one.present.sum()} blocks; farthest {one.names[moved.argmax()]}: {1e3 * moved.max():.1f} mm after {one.cycle} cycles")
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5))
-polygons = [polygon for polygon, is_there in zip(one.polygons, one.present) if is_there]
-drawn = left.add_collection(PolyCollection(polygons, array=1e3 * moved[one.present], edgecolors="k", linewidths=0.3))
-left.set(aspect="equal", xlim=(0, 14), ylim=(0, 12), title="seed 1")
-figure.colorbar(drawn, ax=left, label="displacement [mm]")
-
 with ThreadPoolExecutor(2) as two_cores:    # cycles run without Python's lock
     farthest = list(two_cores.map(lambda seed: np.hypot(*run(seed).displacements.T).max(), range(1, 21)))
 print(f"20 seeds: median {1e3 * np.median(farthest):.1f} mm, {sum(way > 0.1 for way in farthest)} with a block that fell")
 
+figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3), layout="constrained")
+polygons = [polygon for polygon, is_there in zip(one.polygons, one.present) if is_there]
+drawn = left.add_collection(PolyCollection(polygons, array=1e3 * moved[one.present], edgecolors="k", linewidths=0.3))
+left.set(aspect="equal", xlim=(0, 14), ylim=(0, 12), title="seed 1")
+figure.colorbar(drawn, ax=left, label="displacement [mm]")
 right.plot(range(1, 21), farthest, "o")
 right.set(yscale="log", xlabel="seed", ylabel="farthest displacement [m]")
-figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "seeds.png", dpi=80)
+figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "seeds.png", dpi=70)

@@ -1,6 +1,7 @@
 """A case: read, checked, its blocks made."""
 from __future__ import annotations
 
+import operator
 import os
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -19,6 +20,24 @@ def override_texts(changes: Mapping[str, Any] | Iterable[str]) -> list[str]:
     return [str(change) for change in changes]
 
 
+def whole(name: str, value: Any) -> int | None:
+    """A whole number of any kind, numpy's too, or None."""
+    if value is None:
+        return None
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} = {value!r:.80}: a whole number is needed, or None") from None
+    if abs(number) >= 2**31 and name != "cycles" or abs(number) >= 2**62:
+        raise ValueError(f"{name} = {number:.4g}: too great")
+    return number
+
+
+def require_case(case: Any, what: str) -> None:
+    if not isinstance(case, _core.Case):
+        raise TypeError(f"{what}: an hdem.Case is needed, not {case!r:.80}. hdem.Case(file or dict) makes one.")
+
+
 class Case(_core.Case):
     """A case that has been read, and the blocks that it makes.
 
@@ -33,8 +52,14 @@ class Case(_core.Case):
     def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any], *, set: Mapping[str, Any] | Iterable[str] = (),
                  name: str | os.PathLike[str] = "case.toml") -> None:
         if isinstance(source, Mapping):
-            super().__init__(to_toml(source), os.fspath(name), override_texts(set))
+            try:
+                text = to_toml(source)
+            except RecursionError:
+                raise ValueError("a case holds itself, or is nested without end") from None
+            super().__init__(text, os.fspath(name), override_texts(set))
         else:
+            if not isinstance(source, (str, os.PathLike)):
+                raise TypeError(f"Case: a file name or a dict is needed, not {source!r:.80}")
             super().__init__(None, os.fspath(source), override_texts(set))
         self._is_read = True
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import _core
-from ._case import Case
+from ._case import Case, require_case, whole
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,10 @@ def fos(case: Case, *, threads: int | None = None, callback: Callable[[Trial], o
     callback(trial) is called after each trial that counts, from another thread. Ctrl-C ends the search. `[factor_of_safety]` of the case
     says which joints and how narrow the bracket is. Raises CaseError where the rock is never at rest, RunError where a run fails.
     """
+    require_case(case, "fos")
+    if callback is not None and not callable(callback):
+        raise TypeError(f"fos(): callback must be a function of one trial, not {callback!r:.80}")
     show = None if callback is None else lambda text: callback(Trial(**json.loads(text)))
-    data = json.loads(_core.find_factor(case, threads, show))
+    data = json.loads(_core.find_factor(case, whole("threads", threads), show))
     return FactorOfSafety(trials=[Trial(**trial) for trial in data["trials"]], data=data,
                           **{key: data[key] for key in ("factor", "stable_at", "failed_at", "bound", "failing_blocks", "warnings")})

@@ -7,11 +7,25 @@ import tomllib
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+
 from . import _core
-from ._case import Case
+from ._case import Case, require_case, whole
 from ._toml import to_toml, toml_value
 
+ASSIGNED = ("positions", "velocities", "rotations", "angular_velocities")
 REGIMES = ("open", "stick", "slip", "impulse")    # by the number in contacts()["regime"]
+
+
+def numbers(name: str, value: Any) -> Any:
+    """As an array of float64."""
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind == "c":
+            raise TypeError("complex")
+        return array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: an array of numbers is needed, not {value!r:.80}") from None
 
 
 class Simulation(_core.Run):
@@ -29,7 +43,8 @@ class Simulation(_core.Run):
 
     def __init__(self, case: Case, *, folder: str | os.PathLike[str] | None = None, threads: int | None = None,
                  overwrite: bool = False) -> None:
-        super().__init__(case, None if folder is None else os.fspath(folder), threads, overwrite)
+        require_case(case, "Simulation")
+        super().__init__(case, None if folder is None else os.fspath(folder), whole("threads", threads), bool(overwrite))
         self._is_there = True
 
     @classmethod
@@ -45,7 +60,7 @@ class Simulation(_core.Run):
     @classmethod
     def _loaded(cls, checkpoint: str, writes: bool, threads: int | None) -> Simulation:
         simulation = cls.__new__(cls)
-        _core.Run.__init__(simulation, checkpoint, writes, threads)
+        _core.Run.__init__(simulation, checkpoint, writes, whole("threads", threads))
         simulation._is_there = True
         return simulation
 
@@ -59,7 +74,9 @@ class Simulation(_core.Run):
         Returns all stages that have begun, each a dict: name, first_cycle, cycles, time [s] of the run at its end or now, is_over, converged,
         met_end (an end that the case asks for), not_at_rest (names of blocks), to_come (texts). Raises RunError where the run cannot go on.
         """
-        return self._run(cycles, stages, callback, every)
+        if callback is not None and not callable(callback):
+            raise TypeError(f"run(): callback must be a function of one simulation, not {callback!r:.80}")
+        return self._run(whole("cycles", cycles), whole("stages", stages), callback, whole("every", every))
 
     def contacts(self, also_open: bool = False) -> Any:
         """Points of contacts as a structured array, a copy; closed ones, or all of faces near each other.
@@ -131,6 +148,12 @@ class Simulation(_core.Run):
         overrides = [text for text in self.case_overrides
                      if text.split("=")[0].strip() not in (prefix + "cycles", prefix + "duration", prefix + "max_cycles")]
         self._take_case(to_toml(case), overrides)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """A misspelt name would be a new attribute that does nothing. Classes of your own may have more."""
+        if type(self) is Simulation and not name.startswith("_") and not hasattr(Simulation, name):
+            raise AttributeError(f"a Simulation has no {name!r}. What can be assigned: {', '.join(ASSIGNED)}.")
+        super().__setattr__(name, numbers(name, value) if name in ASSIGNED else value)
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Simulation cannot be copied or sent to another process: write_checkpoint() there, from_checkpoint() here")

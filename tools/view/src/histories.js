@@ -8,6 +8,16 @@ const LOG_FROM = 1e3; // greatest value over least positive one, from which on e
 
 const panelOf = (name, unit) => (unit !== "1" ? unit : name.endsWith("_points") ? "points" : name);
 
+// As few digits as tell all ticks apart.
+export function tickTexts(ticks) {
+    const given = ticks.filter((tick) => tick !== null && tick !== undefined), far = (tick) => tick && (Math.abs(tick) >= 1e5 || Math.abs(tick) < 1e-3);
+    for (let digits = 4; ; ++digits) {
+        const texts = given.map((tick) => (given.some(far) ? (tick ? tick.toExponential(Math.max(0, digits - 4)) : "0") : `${+tick.toPrecision(digits)}`));
+        if (digits < 12 && new Set(texts).size < new Set(given).size) continue;
+        return ticks.map((tick) => (tick === null || tick === undefined ? "" : texts[given.indexOf(tick)]));
+    }
+}
+
 export class Histories {
     constructor(root, onTime) {
         Object.assign(this, { root, onTime, charts: [], tables: [], time: 0 });
@@ -58,8 +68,8 @@ export class Histories {
         this.root.append(holder);
         const chart = new uPlot({
             width: this.root.clientWidth, height: 150, scales: { x: { time: false }, y: { distr: log ? 3 : 1 } },
-            axes: [{ ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${+tick.toPrecision(4)}`) },
-                   { ...axis, ...(log ? { grid: { show: false }, ticks: { show: false } } : {}), size: 52, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : Math.abs(tick) >= 1e4 || (tick && Math.abs(tick) < 1e-3) ? tick.toExponential(0) : `${+tick.toPrecision(4)}`)) }],
+            axes: [{ ...axis, size: 26, values: (_, ticks) => tickTexts(ticks) },
+                   { ...axis, ...(log ? { grid: { show: false }, ticks: { show: false } } : {}), size: 52, values: (_, ticks) => tickTexts(ticks) }],
             series: [{ label: "s", value: (_, time) => (time === null || time === undefined ? "–" : time.toPrecision(5)) }, ...series],
             legend: { live: false }, cursor: { sync: { key: "hdem" }, drag: { x: true, y: false }, points: { size: 5 } }, hooks: { draw: [(u) => this.drawMark(u)] },
         }, data, holder);

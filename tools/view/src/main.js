@@ -14,7 +14,7 @@ async function start() {
     const runs = await Promise.all(facts.runs.map(Run.open)), view = new View(runs);
     const words = runs.map(({ facts: run }) => run.title || run.name), first = facts.runs[0];
     byId("title").textContent = [...new Set(words)].join(" | ");
-    byId("about").textContent = runs.map(({ facts: run }) => `${run.name}${run.state === "done" ? "" : ` (${run.state})`}: ${run.blocks.toLocaleString("en").replaceAll(",", "\u202f")} blocks, ${run.frames.length} frames`).join(" · ");
+    byId("about").textContent = runs.map(({ facts: run }) => `${run.name}${run.state === "done" ? "" : ` (${run.state})`}: ${run.blocks.toLocaleString("en").replaceAll(",", "\u202f")} blocks, ${run.frames.length} ${run.frames.length === 1 ? "frame" : "frames"}`).join(" · ");
     byId("about").title = `${first.case}, hdem ${first.program}, page made ${facts.made}`;
     byId("panes").append(...view.panes.map((pane) => pane.root));
     view.start();

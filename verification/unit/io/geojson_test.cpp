@@ -73,7 +73,9 @@ TEST(GeoJson, SaysWhatIsWrongAndWhere)
                                                      "b.geojson");
         return file.problems.empty() ? "" : file.problems.front().text;
     };
-    EXPECT_EQ(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "false"), "");
+    for (const char* fixed : {"false", "\"false\"", "0", "null", "true", "\"true\"", "1"})
+        EXPECT_EQ(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", fixed), "") << fixed;
+    EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "2"), HasSubstr("fixed does not say what is fixed"));
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "\"z\""), HasSubstr("fixed does not say what is fixed"));
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 1]]]", "false"), HasSubstr("its ring is not closed"));
     EXPECT_THAT(block("[[[0, 0], [9, 0], [9, 9], [0, 0]], [[2, 1], [3, 1], [3, 2], [2, 1]]]", "false"), HasSubstr("has a hole"));

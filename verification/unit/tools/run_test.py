@@ -84,6 +84,15 @@ class TheStart(unittest.TestCase):
         self.assertIn("threads   2 (--threads)", said)
         self.assertRegex(said, r"(?m)^threads   cycles: 100 % on 1$")
 
+    def test_wrong_words_are_told_in_one_line(self):
+        for words, said in (((), "error: hdem: needs a command. There are run, check, "), (("rum",), "error: hdem: rum is no command. There are run, "), (("run",), "error: hdem run: case is required"),
+                            (("run", "a.toml", "--metod", "force"), "error: hdem run: The following arguments were not expected: "), (("fos", "--quite"), "error: hdem fos: ")):
+            done = subprocess.run([HDEM, *words], check=False, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), words)
+            self.assertTrue(done.stderr.startswith(said), done.stderr)
+            self.assertRegex(done.stderr, r"--help [a-z ]+\.\n\Z")
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
     def test_a_number_of_threads_is_a_number_or_auto(self):
         for wrong in ("0", "4097", "2.5", "all", "-1", "2x"):
             done = subprocess.run([HDEM, "run", "small.toml", f"--threads={wrong}"], check=False, capture_output=True, text=True)

@@ -1,6 +1,12 @@
+#include "core/support/bolt_link.h"
 #include "core/support/liner_beam.h"
 #include "core/support/liner_forces.h"
+#include "io/frame_writer.h"
+#include "io/hdf5_reader.h"
 #include "verification/unit/case_run.h"
+#include "verification/unit/small_run.h"
+
+#include <gmock/gmock.h>
 
 namespace hdem
 {
@@ -78,6 +84,34 @@ TEST(Liners, HaveNoForceWhenInstalledNorWhereNoBlockIsLeft)
     pushes.clear();
     press_liners(run.model(), after, solvers, pushes);
     EXPECT_TRUE(pushes.empty());
+}
+
+TEST(Liners, AreInTheFrameOnceInstalled)
+{
+    const ScratchFolder folder("liner_frame");
+    CaseDef scene = flying_pair(lining());
+    scene.liners[0].stage = "hold";
+    scene.stages = {{.name = "fly", .cycles = 200}, {.name = "hold", .cycles = 100}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(200);
+    write_liner_frame(folder / "liners_000000.hdf", run.model(), run.state());
+    EXPECT_TRUE(Hdf5Reader(folder / "liners_000000.hdf").read<std::int32_t>("/VTKHDF/CellData/liner", {any_extent}).empty());
+    run.simulation.begin_stage(1);
+    run.advance(100);
+    write_liner_frame(folder / "liners_000001.hdf", run.model(), run.state());
+    const Hdf5Reader in(folder / "liners_000001.hdf");
+    EXPECT_THAT(in.read_texts("/hdem/liner_names"), testing::ElementsAre("liner"));
+    const auto thrust = in.read<float>("/VTKHDF/CellData/thrust", {any_extent});
+    ASSERT_EQ(thrust.size(), 20U) << "2 m in segments of 0.1 m";
+    EXPECT_LT(*std::ranges::min_element(thrust), -1e3F) << "the blocks pull it apart in its middle";
+    const auto points = in.read<double>("/VTKHDF/Points", {40, 3});
+    const Blocks& blocks = run.state().blocks;
+    const Vec2 corner = run.model().origin + Vec2(blocks.motion[1].x, blocks.motion[1].y) +
+                        turned_with(blocks.motion[1], Vec2(0.5, -0.5));
+    EXPECT_NEAR(points[0], corner.x(), 3e-4) << "it follows the rock behind it";
+    EXPECT_NEAR(points[1], corner.y(), 3e-4);
+    EXPECT_GT((corner - Vec2(1.0, 0.0)).norm(), 9e-4) << "it has come far enough to tell";
 }
 
 TEST(LinerBeam, StaysWithinItsStrengthsAndGivesItsTangents)
