@@ -75,7 +75,7 @@ SCENES = {
     "cavern": Scene(CASES / "cavern/cavern.toml", [tunnel_stages('excavate=["heading"], relax_cycles=300, until="converged", max_cycles=1500')],
                     lambda s: s["energy"]["insitu"] != 0 and s["energy"]["bond_breaking"] > 0),
     "supported": Scene(CASES / "cavern/supported.toml", [f"stage[{i}].{key}" for i in range(8) for key in ("relax_cycles=200", "max_cycles=500")],
-                       lambda s: s["energy"]["support"] > 0),
+                       lambda s: any(bolt["status"] == "yielded" for bolt in s["bolts"]) and s["liners"]),
     "mapped": Scene(CASES / "rockmass/mapped.toml", [], lambda s: len(s["joint_sets"]) > 2),
     "slope": Scene(CASES / "slope/slope.toml", ["stage[0].max_cycles=3000"], lambda s: s["energy"]["water"] != 0),
     **{f"random {number}": Scene(None, [], lambda s: True, scene_of(number).text) for number in range(10000, 10024, 2)},
