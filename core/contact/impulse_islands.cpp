@@ -247,7 +247,7 @@ double sweep_more(const Model& model, Blocks& blocks, std::vector<Triple>& pseud
     std::vector<ImpulsePoint> points;
     for (const ImpulsePoint* p : cluster.points)
         points.push_back(*p);
-    for (int round = 0; round < more_sweeps && are_unsolved(model, points, false, blocks, pseudo); ++round)
+    for (int round = 0; round < more_sweeps && are_unsolved(model, points, cluster.is_hit, blocks, pseudo); ++round)
         for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         {
             loss += sweep_impulses(points, blocks);
@@ -320,8 +320,10 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
     if (suits_sweeps && which != ExactIslands::small && !is_hit)
         return;
     const std::size_t size = island.points.size();
-    if (size > small_island && size <= middle_island && is_hit)
-        island.loss += sweep_more(model, blocks, pseudo, {.points = island.points});
+    if (size <= middle_island && is_hit)
+        island.loss += sweep_more(model, blocks, pseudo, {.points = island.points, .is_hit = true});
+    if (suits_sweeps && which == ExactIslands::hit && size > small_island)
+        return;
     const std::vector<Cluster> clusters = size <= small_island ? std::vector<Cluster>{{.points = island.points, .is_hit = is_hit}}
                                                                : cut(model, island, blocks, pseudo);
     for (const Cluster& cluster : clusters)
