@@ -25,12 +25,14 @@ using OverlapCourse = BasicOverlapCourse<double>;
 ///   u", u, u'  overlaps at t - dt, t, t + dt      u+ = max(u, 0)
 ///
 /// A force works over (u' - u") / 2 in a step (energy_ledger.h), so this one changes the springs' energy from K_N L u"+ u+ / 2 to K_N L u+ u'+ / 2 and
-/// nothing else. A whole force begins up to a cycle late and ends up to a cycle late. The blocks lose K_N L |u"| u / 2 as the spring closes, and gain as much
-/// as it opens: up to (omega dt)^2 / 4 of their energy each.
+/// nothing else. Whole forces take K_N L |u"| u / 2 from the blocks as a spring takes hold up to a cycle late, and as it lets go late as much comes
+/// from nowhere: up to (omega dt)^2 / 4 of their energy each. Needles that lay on each other undamped rattled so by themselves, and six that fell gained up to
+/// half of the energy of the fall; now 0.7 % at most in 364 scenes at the same step.
 ///
-/// Exact for a point by itself and for the two of a face. Other forces are estimated from the last cycle, biased so that energy is lost, not gained: as the spring
-/// closes, only what they press together counts; as it opens, twice what they pull apart. Where the answer is more than the overlap, what presses counts too:
-/// else nothing could rest there. core/tried.md has other forms.
+/// Exact for a point by itself and for the two of a face. What other forces do is known from the last cycle only, and counts on the side that loses energy: as a
+/// spring closes, what they press together; as it opens, twice what they pull apart. (With all of it 4 of 184 scenes gained 1 to 2 %; with nothing, 7 up to 5 %;
+/// with nothing and 1.2 times the answer none, but twice the energy was lost.) Where the answer is more than the overlap, what presses counts too: else
+/// nothing could rest there.
 ///
 /// Not in the paper, whose figures of bounces by springs have the late hold: see Closing in regime.h.
 /// @see verification/unit/core/contact/closing_test.cpp
@@ -79,7 +81,7 @@ template <typename P>
 }
 
 /// closing_share of both points of four contacts. `stiffness`: K_N L of each point [N/m], `recovery`: way of rest_overlap [m].
-/// The touch goes in as a copy, and the function is not in line: to hand out its address slows the force law down even where this is never called.
+/// (The touch as a copy, not in line: to hand out its address costs the force law 4 % even where this is never called.)
 template <typename P>
 [[nodiscard, gnu::noinline]] inline std::array<P, 2> closing_shares(const Blocks& blocks, const ContactLanes& l,
                                                                     const Index* at_ref, const Index* at_inc,
