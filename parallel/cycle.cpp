@@ -27,6 +27,26 @@ namespace
 /// Below this many contacts a team loses more by waiting than it gains.
 constexpr Index least_contacts_a_thread = 256;
 constexpr std::int64_t timed_every = 16;
+
+/// Ask for what the contacts of a part need that comes soon: processors do not see these addresses coming. `sums`: to be added to, or none.
+void fetch_ahead(const Partition& partition, Index now, Index end, const Blocks& blocks, BlockForce* sums)
+{
+    constexpr Index own_ahead = 3;
+    if (now + own_ahead < end)
+    {
+        const char* const part = reinterpret_cast<const char*>(&partition.contacts[now + own_ahead]);
+        for (std::size_t b = 0; b < sizeof(ContactPart); b += 64)
+            __builtin_prefetch(part + b, 1);
+    }
+    if (now + 1 == end)
+        return;
+    const IndexRange next = partition.contacts[now + 1].blocks;
+    for (Index i = next.begin; i < next.end; ++i)
+        __builtin_prefetch(&blocks.motion[partition.blocks_of_contacts[i]]);
+    if (sums != nullptr)
+        for (Index i = next.begin; i < next.end; ++i)
+            __builtin_prefetch(&sums[partition.blocks_of_contacts[i]], 1);
+}
 }  // namespace
 
 void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
@@ -71,6 +91,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
 {
     const Index blocks = state.blocks.size();
     make_partition(state, rules_.contact.law != ContactLaw::springs, partition_);
+    look_at_blocks(model, state, partition_);
     for (ContactPart& part : partition_.contacts)
         part.tally.stale = static_cast<Index>(std::count(state.contacts.stale.begin() + part.range.begin,
                                                          state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
@@ -79,6 +100,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
     {
         part.unstable = no_index;
         part.stiff.clear();
+        part.forget();
         if (rules_.contact.law != ContactLaw::impulses)
         {
             find_stiff_contacts(part.range, model, state.blocks, state.contacts, part.stiff);
@@ -192,20 +214,21 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, Th
         std::ranges::fill(state.blocks.stable_step, 0.0);
     threads.limit(static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread)));
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads.rule().most)));
-    // A bound on the share of their margins that blocks have used up since the contacts were found; it only decides when to look closely.
-    double way = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at);
-    const std::int64_t end = state.cycle + cycles;
+    for (ContactPart& part : partition_.contacts)  // whoever has had the state may have changed anything
+        part.forget();
+    Way way{margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at)};
+    const std::int64_t end = run_end_ = state.cycle + cycles;
     for (bool goes_on = true; goes_on && state.cycle < end && !state.contacts_outdated;)
     {
         const std::int64_t first = state.cycle;
         const std::int64_t last = first + threads.piece(end - first);
         const StageSamples& samples = samples_.front();
-        const double used = way;
+        const Way used = way;
         const double before = samples.in_cycles();
         with_team(threads.threads(),
                   [&](const Team& team)
                   {
-                      double mine = used;
+                      Way mine = used;
                       const bool stable = run_piece(model, state, first, last, team, mine);
                       if (team.is_first())
                       {
@@ -218,7 +241,7 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, Th
     return find_unstable_contact();
 }
 
-bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, double& way)
+bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, Way& way)
 {
     StageSamples& samples = samples_of(team);
     const ScopedTime time(samples.all);
@@ -238,20 +261,20 @@ bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first
     return stable;
 }
 
-bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock)
+bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std::int64_t now, Way& way, StageClock& clock)
 {
     bool renewed = false;
     const double most = rules_.step.varies ? 1.0 - flight_share : 1.0;
-    if (!(way <= most))
+    if (!(way.since_found <= most))
     {
         team.alone([&] { used_ = margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at); });
-        way = used_;
-        if (!(way <= most))
+        way.since_found = used_;
+        if (!(way.since_found <= most))
         {
             renew_contacts(model, state, team);
             renewed = true;
             clock.skip();
-            way = 0.0;
+            way.since_found = 0.0;
             // This cycle is finished; then the caller sorts the blocks, which no cycle may do.
             team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
         }
@@ -284,7 +307,8 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
             });
     clock.lap(CycleStage::update);
 
-    evaluate(model, state, team, clock);
+    const bool is_last = now + 1 == run_end_ || state.contacts_outdated;
+    evaluate(model, state, team, way.in_run, is_last, clock);
     clock.lap(CycleStage::force);
     team.barrier(
         [&]
@@ -297,6 +321,8 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     bool goes_on = !has_stiff_contacts_ || find_unstable_contact() == no_index;
     for (const ContactPart& part : partition_.contacts)
         goes_on = goes_on && part.tally.deep == 0;
+    if (!goes_on && !is_last)
+        store_tilts(state, team);
     Index impulses = 0;
     if (rules_.contact.law != ContactLaw::springs)
         for (const ContactPart& part : partition_.contacts)
@@ -313,7 +339,8 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     double farthest = 0.0;
     for (const BlockPart& part : partition_.blocks)
         farthest = max(farthest, part.way);
-    way += farthest;
+    way.since_found += farthest;
+    way.in_run += farthest;
     if (team.is_first())
         close_cycle(model, state);
     if (rules_.step.varies || rules_.rest.leaves_out || step_changes)
@@ -375,12 +402,14 @@ void CycleRunner::leave_out(const State& state, const Team& team)
         [&] { left_out_ = std::ranges::any_of(partition_.contacts, misses) || std::ranges::any_of(partition_.blocks, misses); });
 }
 
-void CycleRunner::evaluate(const Model& model, State& state, const Team& team, StageClock& clock)
+void CycleRunner::evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock)
 {
+    const bool whole = !has_loads_ || !left_out_;  // each part is evaluated in one pass
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
+        fetch_ahead(partition_, i, mine.end, state.blocks, sums_run() ? sums_.sums.data() : nullptr);
         part.ledger = {};
         part.searched = 0;
         if (part.tally.stale > 0)
@@ -393,20 +422,28 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         RegimeRule rule = rules_.contact;
         if (rule.closing != Closing::whole_cycles)
             rule.closing = closing_of(part.answer, state.blocks.step.next);
+        const PassNeeds needs{.views = !whole || part.searched > 0 || !(gone <= part.seen_until),
+                              .rests = !whole || part.searched > 0 || part.rests,
+                              .tilts = is_last || rules_.rest.leaves_out};
         // Eqs. (1)-(10), (24)-(28)
         if (sums_run())
         {
             ContactLoads& loads = part_loads_[team.member()];
             loads.first = part.range.begin;
             sums_.begin(part.range, model, state.blocks.present, work_.external);
-            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, loads, part.tally);
-            sums_.add(part.range, state.contacts, loads, rules_.damping.needs_joint(), work_.loads);
+            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, loads, part.tally, needs);
+            sums_.add(part.range, loads, rules_.damping.needs_joint(), work_.loads);
         }
         else if (!has_loads_)
-            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, work_.loads, part.tally);
+            part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, work_.loads, part.tally, needs);
         else
             for (const IndexRange& range : part.active)
-                part.tally = evaluate_contacts(range, model, rule, state.blocks, state.contacts, work_.loads, part.tally);
+                part.tally = evaluate_contacts(range, model, rule, state.blocks, state.contacts, work_.loads, part.tally, needs);
+        part.rests = !whole || part.tally.unrested;
+        if (!whole)
+            part.forget();
+        else if (needs.views)
+            part.remember(gone);
         if (!part.stiff.empty())
             part.unstable = find_unstable(model, state.blocks, state.contacts, part.stiff);
         part.ledger.friction += sum(part.tally.friction);
@@ -424,6 +461,13 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, S
         if (std::isfinite(rules_.groups.speed))
             find_fast(partition_.blocks[i].range, model, rules_.groups, state.blocks, partition_.blocks[i].fast);
     }
+}
+
+void CycleRunner::store_tilts(State& state, const Team& team)
+{
+    const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
+    for (Index i = mine.begin; i < mine.end && !rules_.rest.leaves_out; ++i)
+        store_tilt_forces(partition_.contacts[i].range, state.blocks, state.contacts);
 }
 
 void CycleRunner::add_up_contacts(State& state)

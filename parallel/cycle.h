@@ -63,12 +63,19 @@ class CycleRunner
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
     [[nodiscard]] bool is_prepared(const Model& model, const State& state, const StageRules& rules) const;
+    /// Bounds on the share of their margins that blocks have used up.
+    struct Way
+    {
+        double since_found;   ///< since the contacts were found; it only decides when to look closely
+        double in_run = 0.0;  ///< since the call of run
+    };
+
     /// Up to `end`, unless the last of the cycles is to be looked at.
-    /// @param way  see cycle(); the first member's is that of all
+    /// @param way  the first member's is that of all
     /// @return  whether cycles go on
-    bool run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, double& way);
+    bool run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, Way& way);
     /// @return  whether the step is small enough for the springs that have begun to act
-    bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, double& way, StageClock& clock);
+    bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, Way& way, StageClock& clock);
     void close_cycle(const Model& model, State& state);
     void prepare(const Model& model, const State& state);
     void prepare_forces(const Model& model, const State& state);
@@ -76,7 +83,9 @@ class CycleRunner
     void take_loads(const Model& model, State& state);
     [[nodiscard]] Index find_unstable_contact() const;
     [[nodiscard]] StageSamples& samples_of(const Team& team);
-    void evaluate(const Model& model, State& state, const Team& team, StageClock& clock);
+    /// @param is_last  the state is looked at after this cycle
+    void evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock);
+    void store_tilts(State& state, const Team& team);
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team);
     void prepare_sums(const State& state, int threads);
@@ -110,5 +119,6 @@ class CycleRunner
     Index prepared_stage_ = no_index;
     std::int64_t first_evaluation_ = 0;  ///< cycle in which all contacts take part: they were found then, or a run goes on
     bool has_stiff_contacts_ = false;
+    std::int64_t run_end_ = 0;  ///< cycle at which the call of run ends
 };
 }  // namespace hdem

@@ -3,6 +3,7 @@
 
 #include "core/contact/impulse_islands.h"
 #include "core/contact/regime.h"
+#include "core/model/model.h"
 #include "core/motion/step_check.h"
 #include "core/motion/step_control.h"
 #include "core/state/energy_terms.h"
@@ -18,6 +19,7 @@ inline constexpr Index largest_part = 128;  ///< contacts; a multiple of that of
 struct ContactPart
 {
     IndexRange range;
+    IndexRange blocks;                   ///< of these contacts, in Partition::blocks_of_contacts
     ContactTally tally;                  ///< of this cycle
     Index searched = 0;                  ///< features searched in this cycle
     EnergyLedger ledger;                 ///< of this cycle
@@ -29,6 +31,17 @@ struct ContactPart
     std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
     Index unstable = no_index;           ///< of these, found in this cycle
     double answer = 0.0;                 ///< greatest_answer of its springs [1/s2]
+    // What its next pass need not do, see PassNeeds.
+    bool rests = true;           ///< some contact may have a rest overlap
+    double farthest_view = 0.0;  ///< no vertex is farther from its edge's start [m]
+    double view_way =
+        0.0;  ///< how far any incident vertex moves, as seen from its edge, while no block uses up more than its margin [m]
+    double seen_until = -1.0;  ///< until blocks have used up so many margins since the run began no features can be stale
+
+    /// Nothing is known of its contacts.
+    void forget();
+    /// Its contacts have been looked at. @param gone  margins that blocks have used up since the run began
+    void remember(double gone);
 };
 
 struct BlockPart
@@ -51,6 +64,7 @@ struct Partition
 {
     std::vector<ContactPart> contacts;
     std::vector<BlockPart> blocks;
+    std::vector<Index> blocks_of_contacts;  ///< of each contact part, ascending, part after part
     /// Numbers of contact parts: two of one colour share no movable block. Whatever the number of threads, impulses are swept colour after colour.
     std::vector<std::vector<Index>> colours;
     IslandFinder island_finder;
@@ -59,4 +73,7 @@ struct Partition
 
 /// Parts for the present contacts and blocks; `with_colours`: only impulses need them.
 void make_partition(const State& state, bool with_colours, Partition& partition);
+
+/// Blocks, farthest_view and view_way of all contact parts. @pre margins of blocks are those until contacts are found anew
+void look_at_blocks(const Model& model, const State& state, Partition& partition);
 }  // namespace hdem

@@ -61,7 +61,7 @@ void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks,
             ->Iterations(1)  // all runs of a scene end in the same state
             ->Unit(benchmark::kMillisecond);
     };
-    for (const char* scene : {"wall", "voronoi", "joints"})
+    for (const char* scene : named_scenes)
     {
         for (const Index blocks : {1'000, 10'000, 100'000, 1'000'000})
             for (const NamedMethod& method : named_methods)
@@ -73,6 +73,11 @@ void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks,
                     if (threads > 1)
                         add(scene, each * threads, method, threads);
     }
+    for (const char* scene : other_scenes)
+        for (const Index blocks : {1'000, 10'000, 100'000})
+            for (const NamedMethod& method : named_methods)
+                for (const int threads : thread_counts())
+                    add(scene, blocks, method, threads);
     return true;
 }();
 }  // namespace

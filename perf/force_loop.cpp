@@ -1,5 +1,7 @@
 #include "perf/force_loop.h"
 
+#include "perf/bare_wall.h"
+
 #include <xxhash.h>
 
 #include <algorithm>
@@ -11,14 +13,8 @@ namespace hdem::perf
 {
 namespace
 {
-constexpr double normal_stiffness = 3.5e9;  ///< of a point: half a metre of a joint of 7e9 Pa/m [N/m]
-constexpr double shear_stiffness = 2.5e8;   ///< [N/m]
-constexpr double friction = 0.57735;
-constexpr double density = 2700.0;  ///< [kg/m3]
-constexpr double mass = 2.0 * density;
-constexpr double inertia = mass * (2.0 * 2.0 + 1.0) / 12.0;
-constexpr double damping = 0.7;     ///< local damping
-constexpr double step_share = 0.2;  ///< of the least period of a brick on its springs, about
+constexpr double normal_stiffness = BareWall::normal_stiffness, shear_stiffness = BareWall::shear_stiffness,
+                 friction = BareWall::friction, mass = BareWall::mass, inertia = BareWall::inertia, damping = BareWall::damping;
 
 // Four contacts at a time. (Types of this file alone: it is compiled with the processor's fused operations, which hdem does without.)
 constexpr int width = 4;
@@ -164,11 +160,11 @@ constexpr Lanes signs[2] = {{1.0, 1.0, 1.0, 0.0}, {-1.0, -1.0, 0.0, 1.0}};  ///<
 
 struct ForceLoop::World
 {
-    explicit World(Index side);
+    explicit World(const BareWall& wall);
 
     double gravity = 0.0;       ///< [m/s2]
     double step = 0.0;          ///< [s]
-    std::vector<Block> blocks;  ///< the last one is fixed: floor, sides and the half bricks at them
+    std::vector<Block> blocks;  ///< the last one is fixed
     std::vector<Contacts> groups;
     std::vector<Load> loads;     ///< of contacts, one after the other
     std::vector<Index> begin;    ///< of a block's entries
@@ -176,55 +172,22 @@ struct ForceLoop::World
     std::int64_t contacts = 0;
 
     [[nodiscard]] Index fixed() const { return static_cast<Index>(blocks.size()) - 1; }
-    void lay_course(Index course, Index side);
-    void add(Index a, Index b, std::array<double, 4> points, std::array<double, 2> normal, double force);
+    void add(const BareWall::Contact& from);
     void list_entries();
     void move(Index i);
     void run(const Team& team, std::int64_t cycles);
 };
 
-ForceLoop::World::World(Index side)
-    : gravity(9.81 * std::min(1.0, 100.0 / side)),
-      step(step_share * std::sqrt(mass / (12.0 * normal_stiffness)))
+ForceLoop::World::World(const BareWall& wall) : gravity(wall.gravity), step(wall.step)
 {
-    for (Index i = 0; i < side * side; ++i)
-    {
-        const Index course = i / side;
-        blocks.push_back({Lanes{}, Lanes{2.0 * (i % side) + (course % 2 == 0 ? 1.0 : 2.0), course + 0.5, 1.0, 0.0}});
-    }
-    blocks.push_back({Lanes{}, Lanes{0.0, 0.0, 1.0, 0.0}});
-    for (Index course = 0; course < side; ++course)
-        lay_course(course, side);
+    for (const auto& [x, y] : wall.centroids)
+        blocks.push_back({Lanes{}, Lanes{x, y, 1.0, 0.0}});
+    for (const BareWall::Contact& contact : wall.contacts)
+        add(contact);
     list_entries();
 }
 
-/// A course stands on the one below, half a brick to the right or to the left of it; between its bricks is half of the stress that the foot has.
-void ForceLoop::World::lay_course(Index course, Index side)
-{
-    const double above = 0.25 * mass * gravity * (side - course), beside = 0.125 * mass * gravity * side;  // of a point [N]
-    for (Index k = 0; k < side; ++k)
-    {
-        const Index brick = course * side + k;
-        const auto below = [&](Index other)
-        { return course == 0 || other < 0 || other >= side ? fixed() : brick - k - side + other; };
-        const Index left = course % 2 == 0 ? k - 1 : k;
-        add(brick, k == 0 ? fixed() : brick - 1, {-1.0, -0.5, -1.0, 0.5}, {1.0, 0.0}, beside);
-        add(brick, below(left), {-1.0, -0.5, 0.0, -0.5}, {0.0, 1.0}, above);
-        add(brick, below(left + 1), {0.0, -0.5, 1.0, -0.5}, {0.0, 1.0}, above);
-        if (k == side - 1)
-            add(brick, fixed(), {1.0, 0.5, 1.0, -0.5}, {-1.0, 0.0}, beside);
-    }
-    if (course + 1 < side)  // the half brick of the next course, at its left or right end
-    {
-        const Index brick = course % 2 == 0 ? course * side : course * side + side - 1;
-        const double from = course % 2 == 0 ? 0.0 : 1.0;
-        add(brick, fixed(), {from, 0.5, from - 1.0, 0.5}, {0.0, -1.0}, above - 0.25 * mass * gravity);
-    }
-}
-
-/// @param points  from the centroid of `a`: x, y of one, x, y of the other [m]
-/// @param force   normal force of each in the beginning [N]
-void ForceLoop::World::add(Index a, Index b, std::array<double, 4> points, std::array<double, 2> normal, double force)
+void ForceLoop::World::add(const BareWall::Contact& from)
 {
     const Index lane = static_cast<Index>(contacts++ % width);
     if (lane == 0)  // the lanes that stay empty: contacts of the fixed block with itself, far from closed
@@ -236,16 +199,15 @@ void ForceLoop::World::add(Index a, Index b, std::array<double, 4> points, std::
         groups.push_back(empty);
     }
     Contacts& c = groups.back();
-    c.a[lane] = a;
-    c.b[lane] = b;
-    c.x1[lane] = points[0];
-    c.y1[lane] = points[1];
-    c.x2[lane] = points[2];
-    c.y2[lane] = points[3];
-    c.nx[lane] = normal[0];
-    c.ny[lane] = normal[1];
-    const double x = blocks[a].pose[0] - blocks[b].pose[0] + points[0], y = blocks[a].pose[1] - blocks[b].pose[1] + points[1];
-    c.offset[lane] = x * normal[0] + y * normal[1] + force / normal_stiffness;
+    c.a[lane] = from.a;
+    c.b[lane] = from.b;
+    c.x1[lane] = from.x[0];
+    c.y1[lane] = from.y[0];
+    c.x2[lane] = from.x[1];
+    c.y2[lane] = from.y[1];
+    c.nx[lane] = from.normal[0];
+    c.ny[lane] = from.normal[1];
+    c.offset[lane] = from.offset;
 }
 
 void ForceLoop::World::list_entries()
@@ -299,7 +261,7 @@ void ForceLoop::World::run(const Team& team, std::int64_t cycles)
     }
 }
 
-ForceLoop::ForceLoop(Index side) : world_(std::make_unique<World>(side))
+ForceLoop::ForceLoop(Index side) : world_(std::make_unique<World>(BareWall(side)))
 {
 }
 ForceLoop::~ForceLoop() = default;

@@ -1,10 +1,10 @@
 #pragma once
-/// The yardstick: the least that a force-based cycle in double precision has to do, and no more. A wall of bricks 2 m x 1 m in running bond between fixed
+/// The packed yardstick: the least that a force-based cycle in double precision has to do, and no more. A wall of bricks 2 m x 1 m in running bond between fixed
 /// sides, under the stress of hdem's wall; six contact points a brick, all of them closed.
 ///
 /// Each cycle finds the geometry of every contact anew from the poses of its two blocks: two points on an edge of one block, the edge of the other, its
 /// normal, two overlaps. Springs, Coulomb's limit, forces summed to blocks, local damping and leap-frog motion follow. What it has not: searches for contacts,
-/// energies, impulses, joints with a memory, polygons that meet in other ways. It uses nothing of hdem but its teams of threads, so a change of hdem does not change it.
+/// energies, impulses, joints with a memory, polygons that meet in other ways. It uses nothing of hdem but its teams of threads, so a change of hdem does not change it. Four contacts go at a time with fused operations.
 
 #include "parallel/team.h"
 

@@ -1,4 +1,4 @@
-/// Writes a scene of the benchmarks for other programs: hdem_scene <wall|voronoi|joints> <blocks> [FILE.json]. See perf/peers.md.
+/// Writes a scene of the benchmarks (bench_scenes.h) for other programs: hdem_scene <scene> <blocks> [FILE.json]. See perf/peers.md.
 
 #include "core/check.h"
 #include "io/atomic_file.h"
@@ -79,7 +79,7 @@ int main(int count, char** arguments)
 {
     if (count < 3 || count > 4)
     {
-        std::fputs("usage: hdem_scene <wall|voronoi|joints> <blocks> [FILE.json]\n", stderr);
+        std::fputs("usage: hdem_scene <scene> <blocks> [FILE.json]\n", stderr);
         return 2;
     }
     try

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <stdexcept>
 #include <thread>
 #include <tuple>
 
@@ -24,21 +23,6 @@ struct Settled
     Model model;
     State state;
 };
-
-/// A running-bond wall between fixed sides, so that its head joints stay closed.
-CaseDef wall_between_sides(int courses, int bricks)
-{
-    CaseDef def = scenes::wall(courses, bricks);
-    const double width = 2.0 * bricks + 1.0;
-    scenes::add_fixed_block(def, "left", scenes::rectangle({-1.0, 0.0}, {0.0, courses}));
-    scenes::add_fixed_block(def, "right", scenes::rectangle({width, 0.0}, {width + 1.0, courses}));
-    for (int c = 0; c < courses; ++c)
-    {
-        const double left = c % 2 == 0 ? width - 1.0 : 0.0;
-        scenes::add_fixed_block(def, "half" + std::to_string(c + 1), scenes::rectangle({left, c}, {left + 1.0, c + 1.0}));
-    }
-    return def;
-}
 
 /// Bring the centroids nearer by the strains that weight and as much stress from the sides give to joints a metre apart: a rock mass under stress, with all joints
 /// closed, that settling need not build up course by course.
@@ -60,7 +44,6 @@ void compress(const Model& model, State& state)
         m.y -= weight * y * (height - 0.5 * y);
     }
 }
-
 }  // namespace
 
 std::vector<int> thread_counts()
@@ -69,24 +52,6 @@ std::vector<int> thread_counts()
     while (2 * counts.back() <= static_cast<int>(std::thread::hardware_concurrency()))
         counts.push_back(2 * counts.back());
     return counts;
-}
-
-CaseDef make_scene(const std::string& scene, Index blocks, Method method)
-{
-    const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(blocks))));
-    CaseDef def;
-    if (scene == "wall")
-        def = wall_between_sides(side, side);
-    else if (scene == "voronoi")
-        def = scenes::voronoi(side, side);
-    else if (scene == "joints")
-        def = scenes::joints(side, side, 1.0, 3.0);
-    else
-        throw std::invalid_argument("no scene \"" + scene + "\"");
-    def.contact.method = method;
-    // The stress at the foot is that of 100 m of rock, whatever the size: what changes from size to size is the size.
-    def.gravity *= std::min(1.0, 100.0 / side);
-    return def;
 }
 
 Simulation settled_run(const std::string& scene, Index blocks, Method method, int threads)

@@ -2,7 +2,7 @@
 /// A scene brought to rest, ready to be timed.
 
 #include "parallel/simulation.h"
-#include "verification/scenes/scenes.h"
+#include "perf/bench_scenes.h"
 
 #include <array>
 #include <memory>
@@ -21,9 +21,6 @@ inline constexpr std::array<NamedMethod, 3> named_methods{
 
 /// 1, 2, 4, ... as far as the processors go, and 2 at least.
 [[nodiscard]] std::vector<int> thread_counts();
-
-/// `scene`: wall, voronoi or joints, of about `blocks` blocks. Throws std::invalid_argument for another name.
-[[nodiscard]] CaseDef make_scene(const std::string& scene, Index blocks, Method method);
 
 /// The scene generated and settled under the force method with local damping, then switched to `method`. Kept for the next call, so that
 /// interleaved repetitions on other thread counts do not generate it again.

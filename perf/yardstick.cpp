@@ -1,8 +1,9 @@
-/// The bare force loop: yardstick/force_loop/wall/<blocks>/<threads>.
+/// Bare force loops: yardstick/<plain_loop, force_loop>/wall/<blocks>/<threads>.
 
 #include "perf/counters.h"
 #include "perf/force_loop.h"
 #include "perf/limits.h"
+#include "perf/plain_loop.h"
 #include "perf/scene_run.h"
 
 #include <benchmark/benchmark.h>
@@ -16,9 +17,10 @@ namespace
 {
 constexpr std::int64_t pieces = 10;
 
+template <typename Loop>
 void run_loop(benchmark::State& bench, Index blocks, const std::string& family, int threads)
 {
-    ForceLoop loop(static_cast<Index>(std::lround(std::sqrt(blocks))));
+    Loop loop(static_cast<Index>(std::lround(std::sqrt(blocks))));
     const auto cycles = std::max<std::int64_t>(10, 4'000'000 / blocks);
     loop.advance(cycles / 5 + 1, threads);
     Limits limits(threads, blocks >= 100'000);
@@ -46,17 +48,24 @@ void run_loop(benchmark::State& bench, Index blocks, const std::string& family, 
     report_hash(bench, family, loop.hash());
 }
 
+template <typename Loop>
+void add(const std::string& loop, Index blocks, int threads)
+{
+    const std::string family = "yardstick/" + loop + "/wall/" + std::to_string(blocks);
+    benchmark::RegisterBenchmark((family + '/' + std::to_string(threads)).c_str(),
+                                 [=](benchmark::State& bench) { run_loop<Loop>(bench, blocks, family, threads); })
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+}
+
 [[maybe_unused]] const bool registered = []
 {
     for (const Index blocks : {1'000, 10'000, 100'000, 1'000'000})
         for (const int threads : thread_counts())
         {
-            const std::string family = "yardstick/force_loop/wall/" + std::to_string(blocks);
-            benchmark::RegisterBenchmark((family + '/' + std::to_string(threads)).c_str(),
-                                         [=](benchmark::State& bench) { run_loop(bench, blocks, family, threads); })
-                ->UseManualTime()
-                ->Iterations(1)
-                ->Unit(benchmark::kMillisecond);
+            add<PlainLoop>("plain_loop", blocks, threads);
+            add<ForceLoop>("force_loop", blocks, threads);
         }
     return true;
 }();

@@ -3,8 +3,10 @@
 #include "core/simd.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace hdem
 {
@@ -40,32 +42,110 @@ Pack weight_of(Index b, const Model& model, const std::vector<std::uint8_t>& pre
     return sum;
 }
 
-using Words = std::uint32_t __attribute__((vector_size(16)));
+using Words = std::int32_t __attribute__((vector_size(16)));
+using Pair = double __attribute__((vector_size(16)));
 
-/// Add a load to a block's `sum` and its other numbers. Without branches, but for joints that are in use alike: which joint of a block is in use most nobody can predict.
-template <bool find_joint>
-[[gnu::always_inline]] inline void add_load(const BlockLoad& load, const JointUse& use, Pack& sum, BlockForce& force)
+[[nodiscard]] inline Words words_at(const void* from)
 {
-    sum += Pack::load(&load.x);
-    if constexpr (!find_joint)
-    {
-        force.contacts |= use.contacts;
-        return;
-    }
-    const double squared = load.x * load.x + load.y * load.y;
-    // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
-    const bool is_more = use.mobilised > force.mobilised || (use.mobilised == force.mobilised && squared > force.joint_load);
-    Words of_use, of_force;  // mobilised, t_x, t_y, contacts
-    std::memcpy(&of_use, &use, sizeof of_use);
-    std::memcpy(&of_force, &force.mobilised, sizeof of_force);
-    const std::uint32_t taken = is_more ? ~0U : 0U;
-    const Words mask{taken, taken, taken, 0};
-    const Words contacts = of_use & Words{0, 0, 0, ~0U};
-    of_force = (of_use & mask) | (of_force & ~mask) | contacts;
-    std::memcpy(&force.mobilised, &of_force, sizeof of_force);
-    force.joint_load = is_more ? squared : force.joint_load;
+    Words words;
+    std::memcpy(&words, from, sizeof words);
+    return words;
 }
+
+/// What acts on a block, while its loads are added. In vectors throughout: which joint of a block is in use most nobody can predict, and g++ makes branches of all else.
+template <bool find_joint>
+class LoadSum
+{
+  public:
+    /// No load yet.
+    explicit LoadSum(Pack start)
+        : sum_(start.v),
+          joint_(std::bit_cast<Words>(FloatLanes{BlockForce().mobilised, BlockForce().t_x, BlockForce().t_y, 0.0F})),
+          joint_load_{BlockForce().joint_load, BlockForce().joint_load}
+    {
+    }
+    /// Some have been added.
+    explicit LoadSum(const BlockForce& force)
+        : sum_(Pack::load(&force.x).v),
+          contacts_(words_at(&force.mobilised)),
+          joint_(contacts_ & of_joint),
+          joint_load_{force.joint_load, force.joint_load}
+    {
+    }
+
+    [[gnu::always_inline]] void add(const BlockLoad& load, const JointUse& use)
+    {
+        const Pack::V of_load = Pack::load(&load.x).v;
+        sum_ += of_load;
+        const Words of_use = words_at(&use);  // mobilised, t_x, t_y, contacts
+        contacts_ |= of_use;
+        if constexpr (find_joint)
+        {
+            const Words joint = of_use & of_joint;
+            const Pair force = __builtin_shufflevector(of_load, of_load, 0, 1), squares = force * force;
+            const Pair squared = squares + __builtin_shufflevector(squares, squares, 1, 0);
+            const FloatLanes now = std::bit_cast<FloatLanes>(joint), before = std::bit_cast<FloatLanes>(joint_);
+            // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
+            const Words more = Words(now > before) | (Words(now == before) & std::bit_cast<Words>(squared > joint_load_));
+            const Words taken = __builtin_shufflevector(more, more, 0, 0, 0, 0);
+            joint_ = (joint & taken) | (joint_ & ~taken);
+            joint_load_ = std::bit_cast<Pair>((std::bit_cast<Words>(squared) & taken) |
+                                              (std::bit_cast<Words>(joint_load_) & ~taken));
+        }
+    }
+
+    [[gnu::always_inline]] void store(BlockForce& force) const
+    {
+        Pack(sum_).store(&force.x);
+        const Words found = joint_ | (contacts_ & ~of_joint);
+        std::memcpy(&force.mobilised, &found, sizeof found);
+        force.joint_load = joint_load_[0];
+    }
+
+  private:
+    static constexpr Words of_joint{-1, -1, -1, 0};
+
+    Pack::V sum_;
+    Words contacts_{};  ///< the last of them
+    Words joint_;       ///< mobilised, t_x, t_y: floats
+    Pair joint_load_;   ///< twice the same
+};
 static_assert(offsetof(JointUse, contacts) == 12 && offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
+
+/// A joint's share in use and where it stands: the greatest of such numbers is the joint in use most, of several alike the first. Below 0: no force point. (Floats
+/// that are not below 0 have the order of their bits.)
+[[nodiscard]] inline std::int64_t rank_of(float mobilised, std::uint32_t entry)
+{
+    return (std::int64_t{std::bit_cast<std::int32_t>(mobilised)} << 32) | ~entry;
+}
+[[nodiscard]] inline std::uint32_t entry_of(std::int64_t rank)
+{
+    return ~static_cast<std::uint32_t>(rank);
+}
+[[nodiscard]] inline bool are_alike(std::int64_t a, std::int64_t b)
+{
+    return a >> 32 == b >> 32;
+}
+
+/// Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
+[[gnu::noinline]] std::int64_t rank_of_greatest_load(IndexRange entries, const BlockContacts& list, const ContactLoads& loads,
+                                                     std::int64_t alike)
+{
+    std::int64_t found = -1;
+    double most = -1.0;
+    for (Index e = entries.begin; e < entries.end; ++e)
+    {
+        const auto entry = static_cast<std::uint32_t>(list.entry[e]);
+        const BlockLoad& load = loads.load[entry];
+        const std::int64_t rank = rank_of(loads.use[entry / 2].mobilised, entry);
+        if (const double squared = load.x * load.x + load.y * load.y; are_alike(rank, alike) && squared > most)
+        {
+            most = squared;
+            found = rank;
+        }
+    }
+    return found;
+}
 
 template <bool find_joint>
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
@@ -73,15 +153,32 @@ void sum_forces(IndexRange range, const Model& model, const BlockContacts& list,
 {
     for (Index b = range.begin; b < range.end; ++b)
     {
+        const IndexRange entries{list.begin[b], list.begin[b + 1]};
         Pack sum = weight_of(b, model, blocks.present, external);
-        BlockForce force;
-        for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
+        BlockForce& force = blocks.force[b];
+        std::uint32_t contacts = 0;
+        std::int64_t most = std::numeric_limits<std::int64_t>::min(), next = most;
+        for (Index e = entries.begin; e < entries.end; ++e)
         {
-            const Index entry = list.entry[e];
-            add_load<find_joint>(loads.load[entry], loads.use[entry / 2], sum, force);
+            const auto entry = static_cast<std::uint32_t>(list.entry[e]);
+            const JointUse& use = loads.use[entry / 2];
+            sum += Pack::load(&loads.load[entry].x);
+            contacts |= use.contacts;
+            if constexpr (find_joint)  // without branches: which joint it is nobody can predict
+            {
+                const std::int64_t rank = rank_of(use.mobilised, entry);
+                next = std::max(next, std::min(most, rank));
+                most = std::max(most, rank);
+            }
         }
+        if (most >= 0 && are_alike(most, next)) [[unlikely]]
+            most = rank_of_greatest_load(entries, list, loads, most);
         sum.store(&force.x);
-        blocks.force[b] = force;
+        const JointUse use = most >= 0 ? loads.use[entry_of(most) / 2] : JointUse();
+        force.mobilised = use.mobilised;
+        force.t_x = use.t_x;
+        force.t_y = use.t_y;
+        force.contacts = contacts;
     }
 }
 
@@ -100,7 +197,7 @@ void RunningSums::prepare(const std::vector<IndexRange>& shares, Index blocks, c
 {
     const auto share_of = [&](Index contact)
     { return std::ranges::upper_bound(shares, contact, {}, &IndexRange::end) - shares.begin(); };
-    is_kept_.assign(list.entry.size(), 0);
+    block_of_.resize(list.entry.size());
     others_.clear();
     starts_.clear();
     sums.resize(static_cast<std::size_t>(blocks));
@@ -110,11 +207,13 @@ void RunningSums::prepare(const std::vector<IndexRange>& shares, Index blocks, c
         if (mine.begin < mine.end && share_of(list.entry[mine.begin] / 2) == share_of(list.entry[mine.end - 1] / 2))
         {
             starts_.push_back({list.entry[mine.begin] / 2, b});
+            for (Index e = mine.begin; e < mine.end; ++e)
+                block_of_[list.entry[e]] = b;
             continue;
         }
         others_.push_back(b);
         for (Index e = mine.begin; e < mine.end; ++e)
-            is_kept_[list.entry[e]] = 1;
+            block_of_[list.entry[e]] = no_index;
     }
     std::ranges::stable_sort(starts_, {}, &Start::contact);
 }
@@ -137,35 +236,31 @@ void RunningSums::begin(IndexRange range, const Model& model, const std::vector<
 }
 
 template <bool find_joint>
-void RunningSums::add(IndexRange range, const Contacts& contacts, const ContactLoads& loads, ContactLoads& kept)
+void RunningSums::add(IndexRange range, const ContactLoads& loads, ContactLoads& kept)
 {
-    const auto add_side = [&](Index i, int side, Index block)
+    const auto last = static_cast<std::uint32_t>(2 * (range.end - loads.first));
+    const Index* const block_of = &block_of_[2 * loads.first];
+    for (auto e = static_cast<std::uint32_t>(2 * (range.begin - loads.first)); e < last; ++e)
     {
-        const Index at = i - loads.first;
-        if (is_kept_[2 * i + side] != 0)
+        const Index block = block_of[e];
+        if (block == no_index) [[unlikely]]
         {
-            kept.load[2 * i + side] = loads.load[2 * at + side];
-            kept.use[i] = loads.use[at];
-            return;
+            kept.load[2 * loads.first + e] = loads.load[e];
+            kept.use[loads.first + e / 2] = loads.use[e / 2];
+            continue;
         }
         BlockForce& force = sums[block];
-        Pack sum = Pack::load(&force.x);
-        add_load<find_joint>(loads.load[2 * at + side], loads.use[at], sum, force);
-        sum.store(&force.x);
-    };
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-        const bool swapped = contacts.swapped[i] != 0;
-        add_side(i, 0, swapped ? contacts.inc[i] : contacts.ref[i]);
-        add_side(i, 1, swapped ? contacts.ref[i] : contacts.inc[i]);
+        LoadSum<find_joint> sum(force);
+        sum.add(loads.load[e], loads.use[e / 2]);
+        sum.store(force);
     }
 }
 
-void RunningSums::add(IndexRange range, const Contacts& contacts, const ContactLoads& loads, bool find_joint, ContactLoads& kept)
+void RunningSums::add(IndexRange range, const ContactLoads& loads, bool find_joint, ContactLoads& kept)
 {
     if (find_joint)
-        add<true>(range, contacts, loads, kept);
+        add<true>(range, loads, kept);
     else
-        add<false>(range, contacts, loads, kept);
+        add<false>(range, loads, kept);
 }
 }  // namespace hdem

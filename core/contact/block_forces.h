@@ -29,7 +29,7 @@ class RunningSums
 
     /// Add the loads of contacts of `range`, of one share.
     /// Reads: loads, which begin with the range's first contact. Writes: sums, kept loads.
-    void add(IndexRange range, const Contacts& contacts, const ContactLoads& loads, bool find_joint, ContactLoads& kept);
+    void add(IndexRange range, const ContactLoads& loads, bool find_joint, ContactLoads& kept);
 
     /// The blocks of `range` that need sum_forces: those with contacts in several shares, and those without contacts.
     [[nodiscard]] std::vector<Index> others(IndexRange range) const;
@@ -43,10 +43,10 @@ class RunningSums
     };
 
     template <bool find_joint>
-    void add(IndexRange range, const Contacts& contacts, const ContactLoads& loads, ContactLoads& kept);
+    void add(IndexRange range, const ContactLoads& loads, ContactLoads& kept);
 
-    std::vector<Start> starts_;          ///< first contacts of blocks, ascending
-    std::vector<std::uint8_t> is_kept_;  ///< load, by entries of BlockContacts
-    std::vector<Index> others_;          ///< ascending
+    std::vector<Start> starts_;    ///< first contacts of blocks, ascending
+    std::vector<Index> block_of_;  ///< by entries of BlockContacts; no_index where the load is kept
+    std::vector<Index> others_;    ///< ascending
 };
 }  // namespace hdem

@@ -58,11 +58,19 @@ template <typename R>
 
 /// Contacts with a point at which one block moves past the other faster than `speed`.
 template <typename P>
-[[nodiscard]] inline MaskOf<P> are_faster(const BasicTouchPoint<P>* p, double speed)
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_faster(const BasicEdgeTouch<P>& touch, double speed)
 {
     const auto square = [](const BasicTouchPoint<P>& point) { return point.v_m * point.v_m + point.v_t * point.v_t; };
-    return max(square(p[0]), square(p[1])) > P(speed * speed);
+    return max(square(touch.point[0]), square(touch.point[1])) > P(speed * speed);
 }
+
+/// What closing asks of a touch, with overlaps as they press [m, m/s]. (By itself: where a whole touch is copied or handed on, g++ keeps it in memory wherever it is used.)
+template <typename P>
+struct ClosingTouch
+{
+    P ex, ey;
+    P pressed[2], v_m[2], ref_t[2], inc_t[2];
+};
 
 /// Square of two of the longer step: what may_close_or_open asks for [s2].
 [[nodiscard]] inline double closing_ways(const Steps& step)
@@ -73,27 +81,27 @@ template <typename P>
 
 /// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
 template <typename P>
-[[nodiscard]] inline MaskOf<P> may_close_or_open(const BasicTouchPoint<P>* p, P ways)
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> may_close_or_open(const ClosingTouch<P>& touch, P ways)
 {
-    const auto slowness = [&](const BasicTouchPoint<P>& point)
-    { return point.overlap * point.overlap - ways * point.v_m * point.v_m; };
-    return min(slowness(p[0]), slowness(p[1])) < P(0.0);
+    const auto slowness = [&](int k) { return touch.pressed[k] * touch.pressed[k] - ways * touch.v_m[k] * touch.v_m[k]; };
+    return min(slowness(0), slowness(1)) < P(0.0);
 }
 
 /// closing_share of both points of four contacts. `stiffness`: K_N L of each point [N/m], `recovery`: way of rest_overlap [m].
-/// (The touch as a copy, not in line: to hand out its address costs the force law 4 % even where this is never called.)
 template <typename P>
 [[nodiscard, gnu::noinline]] inline std::array<P, 2> closing_shares(const Blocks& blocks, const ContactLanes& l,
                                                                     const Index* at_ref, const Index* at_inc,
-                                                                    const BasicEdgeTouch<P> touch, P stiffness, P recovery)
+                                                                    const ClosingTouch<P>& touch, P stiffness, P recovery)
 {
     const BasicInertia<P> ref = load_inertias<P>(blocks.inertia, at_ref);
     const BasicInertia<P> inc = load_inertias<P>(blocks.inertia, at_inc);
-    const BasicTouchPoint<P>* const p = touch.point;
     const P across = (ref.inverse_mass_x + inc.inverse_mass_x) * touch.ey * touch.ey +
                      (ref.inverse_mass_y + inc.inverse_mass_y) * touch.ex * touch.ex;
     const auto response = [&](int j, int k)  // of the approach at j to a unit force at k [1/kg]
-    { return across + ref.inverse_inertia * p[j].ref_t * p[k].ref_t + inc.inverse_inertia * p[j].inc_t * p[k].inc_t; };
+    {
+        return across + ref.inverse_inertia * touch.ref_t[j] * touch.ref_t[k] +
+               inc.inverse_inertia * touch.inc_t[j] * touch.inc_t[k];
+    };
     const P coupling = response(0, 1);
     const BasicForceLanes<P> on_ref = load_forces<P>(blocks.force, at_ref), on_inc = load_forces<P>(blocks.force, at_inc);
     const P a_x = on_inc.x * inc.inverse_mass_x - on_ref.x * ref.inverse_mass_x;
@@ -102,7 +110,7 @@ template <typename P>
     P u[2], last_normal[2];
     for (int k = 0; k < 2; ++k)
     {
-        u[k] = max(p[k].overlap - rest_overlap(p[k].overlap, load_lane<P>(l, l.rest_overlap[k]), recovery), P(0.0));
+        u[k] = max(touch.pressed[k] - rest_overlap(touch.pressed[k], load_lane<P>(l, l.rest_overlap[k]), recovery), P(0.0));
         last_normal[k] = load_lane<P>(l, l.normal_force[k]);
     }
     const P acting = blocks.step.kick() * blocks.step.next;  // of an acceleration, on the overlap at t + dt
@@ -110,13 +118,13 @@ template <typename P>
     for (int k = 0; k < 2; ++k)
     {
         const P own = response(k, k);
-        const P last = touch.ex * a_y - touch.ey * a_x + turn_inc * p[k].inc_t - turn_ref * p[k].ref_t;
+        const P last = touch.ex * a_y - touch.ey * a_x + turn_inc * touch.inc_t[k] - turn_ref * touch.ref_t[k];
         const P others = last + own * last_normal[k] + coupling * last_normal[1 - k];
         const P answer = stiffness * (own * u[k] + coupling * u[1 - k]);
-        const P past = p[k].v_m * blocks.step.last;
+        const P past = touch.v_m[k] * blocks.step.last;
         const P of_point = closing_share<P>({.now = u[k],
                                              .past = past,
-                                             .coast = p[k].v_m * blocks.step.next,
+                                             .coast = touch.v_m[k] * blocks.step.next,
                                              .others = others * acting,
                                              .answer = max(answer * acting, P(0.0))});
         // In the first cycle of a run what presses is not known yet.

@@ -9,39 +9,65 @@ namespace
 {
 template <Joints joints>
 ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                             ContactLoads& loads, const ContactTally& sums)
+                             ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     switch (rule.law)
     {
     case ContactLaw::springs:
-        return evaluate_packs<ContactLaw::springs, joints, Pack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::springs, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
     case ContactLaw::impulses:
-        return evaluate_packs<ContactLaw::impulses, joints, Pack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::impulses, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
     case ContactLaw::by_speed:
-        return evaluate_packs<ContactLaw::by_speed, joints, Pack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::by_speed, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
     }
     return {};
 }
 }  // namespace
 
 ContactTally evaluate_by_four(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws>
                               : contacts.has_preload ? evaluate_by_law<Joints::preloaded>
                                                      : evaluate_by_law<Joints::plain>;
-    return evaluate_all(range, model, rule, blocks, contacts, loads, sums);
+    return evaluate_all(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     static const bool wide = has_wide_packs();
     if (!wide || contacts.has_memory)
-        return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums, needs);
     const Index eights = (range.end - range.begin + lanes - 1) / (2 * lanes);
     const Index middle = range.begin + 2 * lanes * eights;
-    const ContactTally most = evaluate_by_eight({range.begin, middle}, model, rule, blocks, contacts, loads, sums);
-    return middle < range.end ? evaluate_by_four({middle, range.end}, model, rule, blocks, contacts, loads, most) : most;
+    const ContactTally most = evaluate_by_eight({range.begin, middle}, model, rule, blocks, contacts, loads, sums, needs);
+    return middle < range.end ? evaluate_by_four({middle, range.end}, model, rule, blocks, contacts, loads, most, needs) : most;
+}
+
+void store_tilt_forces(IndexRange range, const Blocks& blocks, Contacts& contacts)
+{
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+        ContactLanes& l = contacts.lane[i / lanes];
+        const Index at = i % lanes;
+        const EdgeTouch touch = touch_edges(contacts.edges(i), blocks.motion[contacts.ref[i]], blocks.motion[contacts.inc[i]]);
+        double normal[2], work = 0.0;
+        for (int k = 0; k < 2; ++k)
+        {
+            normal[k] = is_spring(contacts.regime[k][i]) ? l.normal_force[k][at] : 0.0;
+            work += normal[k] * (touch.point[k].overlap + contacts.opening(k, i) - l.rest_overlap[k][at]);
+        }
+        const double pull = length_pull(work, 1.0 / l.last_length[at]) * length_growth(touch.length, l.length_floor[at]);
+        for (int k = 0; k < 2; ++k)
+        {
+            const TouchPoint& p = touch.point[k];
+            const double inwards = k == 0 ? pull : -pull;
+            l.tilt_force[k][at] = contacts.has_preload || contacts.has_memory
+                                      ? preloaded_tilt_force(normal[k], touch.slope, inwards, p.inside, p.overlap,
+                                                             max(contacts.preload(k, i), 0.0))
+                                      : tilt_force(normal[k], touch.slope, inwards, p.inside, p.overlap);
+        }
+    }
 }
 }  // namespace hdem

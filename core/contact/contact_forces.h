@@ -8,6 +8,15 @@
 
 namespace hdem
 {
+/// What a pass does beyond its laws. Without any of it, where it is not needed, the results are the same and a third less memory is touched.
+struct PassNeeds
+{
+    bool views =
+        true;  ///< look whether incident vertices have left the place at which features were found; else none has, nor is marked so
+    bool rests = true;  ///< some contact may have a rest overlap
+    bool tilts = true;  ///< store tilt forces: they are read before the next pass
+};
+
 /// Reads:  motion and inertia of the blocks; features and history of the contacts in `range`.
 /// Writes: history (forces and regimes) and staleness of these contacts, their entries in `loads`.
 /// Contacts do not depend on each other: any split into ranges gives the same bits. A range begins at a multiple of `lanes`; it ends at one,
@@ -17,5 +26,9 @@ namespace hdem
 /// spring forces (Eqs. 5-10). A point in the impulse regime gets no spring force here: core/contact/impulse_law.h.
 /// @return  `sums` and what this range adds
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums = {});
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums = {}, const PassNeeds& needs = {});
+
+/// Tilt forces that the last pass over `range` has found, stored where it has not: the same bits.
+/// @pre  blocks have not moved since
+void store_tilt_forces(IndexRange range, const Blocks& blocks, Contacts& contacts);
 }  // namespace hdem

@@ -11,16 +11,16 @@ namespace
 {
 template <Joints joints>
 ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                             ContactLoads& loads, const ContactTally& sums)
+                             ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     switch (rule.law)
     {
     case ContactLaw::springs:
-        return evaluate_packs<ContactLaw::springs, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::springs, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
     case ContactLaw::impulses:
-        return evaluate_packs<ContactLaw::impulses, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::impulses, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
     case ContactLaw::by_speed:
-        return evaluate_packs<ContactLaw::by_speed, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums);
+        return evaluate_packs<ContactLaw::by_speed, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
     }
     return {};
 }
@@ -33,10 +33,10 @@ bool has_wide_packs()
 }
 
 ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     const auto evaluate_all = contacts.has_preload ? evaluate_by_law<Joints::preloaded> : evaluate_by_law<Joints::plain>;
-    return evaluate_all(range, model, rule, blocks, contacts, loads, sums);
+    return evaluate_all(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 }  // namespace hdem
 
@@ -49,9 +49,9 @@ bool has_wide_packs()
 }
 
 ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums)
+                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
-    return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums);
+    return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 }  // namespace hdem
 #endif

@@ -10,10 +10,12 @@ namespace hdem
 
 /// evaluate_contacts, four contacts at a time.
 [[nodiscard]] ContactTally evaluate_by_four(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                                            Contacts& contacts, ContactLoads& loads, const ContactTally& sums);
+                                            Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
+                                            const PassNeeds& needs);
 
 /// The same bits, eight at a time.
 /// @pre  has_wide_packs(), no contact has a memory, `range` has a multiple of eight contacts (with those that fill the arrays up)
 [[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                                             Contacts& contacts, ContactLoads& loads, const ContactTally& sums);
+                                             Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
+                                             const PassNeeds& needs);
 }  // namespace hdem

@@ -39,6 +39,7 @@ struct BasicContactGroup
     const Index* inc;
     const BasicJointLanes<P>* joint;
     P length;  ///< each point's share of the contact length
+    P growth;  ///< length_growth of it [-]
     P last_length, length_inverse;
     P recovery;     ///< by which a rest overlap shrinks in a cycle [m]
     P shear_share;  ///< of the shear forces that stays as the contact length changes (force_law.h)

@@ -167,8 +167,32 @@ inline void store_flags(Mask m, std::uint8_t* to)
     return __builtin_convertvector(value.v, FloatLanes);
 }
 
-/// Incident vertices that have left the place at which the features were found.
-[[nodiscard]] inline Mask have_moved(const ContactLanes& l, const BasicEdgeView<Pack>& v)
+/// Floats beside the doubles of a pack.
+template <typename P>
+struct Floats
+{
+    using Type = FloatLanes;
+};
+template <typename P>
+using FloatsOf = typename Floats<P>::Type;
+
+template <typename P>
+[[nodiscard]] inline FloatsOf<P> all_floats(float value)
+{
+    return FloatsOf<P>{} + value;
+}
+
+template <typename F>
+[[nodiscard]] inline float least(F values)
+{
+    float found = values[0];
+    for (std::size_t i = 1; i < sizeof values / sizeof found; ++i)
+        found = std::min(found, values[i]);
+    return found;
+}
+
+/// Incident vertices that have left the place at which the features were found. `slack`: by how much any of the others may move before it has.
+[[nodiscard]] inline Mask have_moved(const ContactLanes& l, const BasicEdgeView<Pack>& v, FloatLanes& slack)
 {
     const auto off = [](Pack now, const std::array<float, lanes>& seen)
     {
@@ -181,6 +205,8 @@ inline void store_flags(Mask m, std::uint8_t* to)
     const FloatLanes a = o0 > o1 ? o0 : o1, b = o2 > o3 ? o2 : o3;
     FloatLanes limit;
     std::memcpy(&limit, l.moved_limit.data(), sizeof limit);
+    const FloatLanes left = limit - (a > b ? a : b);
+    slack = left < slack ? left : slack;
     return {__builtin_convertvector(!((a <= limit) & (b <= limit)), Mask::V)};
 }
 

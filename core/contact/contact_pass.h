@@ -2,10 +2,12 @@
 /// One pass of the laws over contacts, as many at a time as a pack P holds.
 
 #include "core/contact/closing.h"
+#include "core/contact/contact_forces.h"
 #include "core/contact/joint_points.h"
 #include "core/contact/spring_points.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
 
 namespace hdem
@@ -14,8 +16,9 @@ namespace hdem
 template <typename P>
 struct PassRule
 {
-    PassRule(const Model& model, const RegimeRule& rule, const Blocks& of)
+    PassRule(const Model& model, const RegimeRule& rule, const Blocks& of, const PassNeeds& needed)
         : blocks(of),
+          needs(needed),
           threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
                     rule.rock_keeps_springs},
           closing(rule.closing),
@@ -28,6 +31,7 @@ struct PassRule
     }
 
     const Blocks& blocks;
+    PassNeeds needs;
     Threshold threshold;
     Closing closing;
     double closing_speed;
@@ -43,12 +47,16 @@ struct PassSums
     using Count = decltype(count_of(MaskOf<P>{}));
     Pack friction, changes, dilation, broken;
     Count closed{}, impulses{}, stale{}, deep{};
+    bool unrested = false;
+    FloatsOf<P> slack;
 
     explicit PassSums(const ContactTally& before)
         : friction(before.friction),
           changes(before.changes),
           dilation(before.dilation),
-          broken(before.broken)
+          broken(before.broken),
+          unrested(before.unrested),
+          slack(all_floats<P>(before.slack))
     {
     }
     [[nodiscard]] ContactTally added_to(const ContactTally& before) const
@@ -60,7 +68,9 @@ struct PassSums
                 before.stale + static_cast<Index>(stale.total()),
                 before.deep + static_cast<Index>(deep.total()),
                 dilation,
-                broken};
+                broken,
+                unrested,
+                least(slack)};
     }
 };
 
@@ -71,6 +81,7 @@ template <ContactLaw law, Joints joints, typename P>
                                                     P floor, PassSums<P>& sums)
 {
     const ContactLanes& l = contacts.lane[i / lanes];
+#pragma GCC unroll 2
     for (int k = 0; k < 2; ++k)
     {
         if constexpr (joints != Joints::plain)
@@ -98,35 +109,45 @@ template <ContactLaw law, Joints joints, typename P>
     return impulsive;
 }
 
-/// Forces of the points of a pack.
 template <Joints joints, typename P>
-[[gnu::always_inline]] inline void evaluate_points(BasicContactGroup<P>& g, MaskOf<P> touching, MaskOf<P> impulsive,
+[[nodiscard, gnu::always_inline]] inline ClosingTouch<P> closing_touch(const BasicContactGroup<P>& g)
+{
+    const BasicTouchPoint<P>&a = g.touch.point[0], &b = g.touch.point[1];
+    return {g.touch.ex,     g.touch.ey,         {pressed_by<joints>(g, 0), pressed_by<joints>(g, 1)},
+            {a.v_m, b.v_m}, {a.ref_t, b.ref_t}, {a.inc_t, b.inc_t}};
+}
+
+/// Forces of the points of a pack.
+/// @return  whether they were pressed by springs before and are now, and nothing else: then they have no rest overlap
+template <Joints joints, typename P>
+[[gnu::always_inline]] inline bool evaluate_points(BasicContactGroup<P>& g, MaskOf<P> touching, MaskOf<P> impulsive,
                                                    const PassRule<P>& rule, Contacts& contacts, Index i,
                                                    [[maybe_unused]] const RowLanes& rows, P floor, BasicSums<P>& sums)
 {
     ContactLanes& l = contacts.lane[i / lanes];
-    const MaskOf<P> past = g.was_impulse[0] | g.was_impulse[1] |
-                           (load_lane<P>(l, l.rest_overlap[0]) + load_lane<P>(l, l.rest_overlap[1]) > P(0.0));
-    MaskOf<P> act = past | impulsive;
+    MaskOf<P> act = g.was_impulse[0] | g.was_impulse[1] | impulsive;
+    if (rule.needs.rests)
+        act = act | (load_lane<P>(l, l.rest_overlap[0]) + load_lane<P>(l, l.rest_overlap[1]) > P(0.0));
     MaskOf<P> shared{};
     if (rule.closing != Closing::whole_cycles)
     {
-        shared = rule.closing == Closing::fast_points ? may_close_or_open(pressed_touch<joints>(g).point, rule.ways) : touching;
+        shared = rule.closing == Closing::fast_points ? may_close_or_open(closing_touch<joints>(g), rule.ways) : touching;
         if (rule.closing_speed > 0.0)
-            shared = shared & are_faster(g.touch.point, rule.closing_speed);
+            shared = shared & are_faster(g.touch, rule.closing_speed);
         act = act | shared;
     }
     const bool remembers = joints == Joints::laws && rows.any;
     if (!any(act) && !remembers)
     {
+#pragma GCC unroll 2
         for (int k = 0; k < 2; ++k)
             evaluate_point<Contact4::rests, joints>(g, k, impulsive, P(1.0), rule.dt, l, &contacts.regime[k][i], sums);
-        return;
+        return true;
     }
     g.recovery = rule.recovery * floor;
     std::array<P, 2> share{1.0, 1.0};
     if (rule.closing != Closing::whole_cycles && (!remembers || any(shared)))
-        share = closing_shares<P>(rule.blocks, l, g.ref, g.inc, pressed_touch<joints>(g), g.joint->law.normal_stiffness * g.length,
+        share = closing_shares<P>(rule.blocks, l, g.ref, g.inc, closing_touch<joints>(g), g.joint->law.normal_stiffness * g.length,
                                   g.recovery);
     for (P& s : share)  // what is slow must not depend on which contacts it is handled with
         s = select(shared, s, 1.0);
@@ -136,10 +157,12 @@ template <Joints joints, typename P>
             evaluate_joint_points(g, impulsive, share, rule.dt,
                                   {l, contacts.memory_lane[i / lanes], {&contacts.regime[0][i], &contacts.regime[1][i]}, rows},
                                   sums);
-            return;
+            return false;
         }
+#pragma GCC unroll 2
     for (int k = 0; k < 2; ++k)
         evaluate_point<Contact4::any, joints>(g, k, impulsive, share[k], rule.dt, l, &contacts.regime[k][i], sums);
+    return false;
 }
 
 /// What the contacts of a pack put on their blocks.
@@ -158,27 +181,34 @@ template <typename P>
 /// Ask for the memory of contacts that come later: processors see by themselves that ContactLanes follow each other, but too late. Where contacts are in no cache of a
 /// core's own a pass takes up to twice as long without (parallel/README.md).
 template <typename P>
-[[gnu::always_inline]] inline void fetch_ahead(const Blocks& blocks, Contacts& contacts, Index i)
+[[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, Index i, const PassNeeds& needs)
 {
     constexpr Index ahead = 16;
+    constexpr std::size_t always = offsetof(ContactLanes, moved_limit), group = sizeof(ContactLanes);
     const Index at = std::min(i + ahead, static_cast<Index>(contacts.stale.size()) - P::width);
     // (Not by a function for both: g++ takes one that only fetches for one without effect, and drops it.)
     const char* const lane = reinterpret_cast<const char*>(&contacts.lane[at / lanes]);
-    for (std::size_t b = 0; b < P::width / lanes * sizeof(ContactLanes); b += 64)
-        __builtin_prefetch(lane + b, 1);
-    for (int k = 0; k < P::width; ++k)
-        __builtin_prefetch(&blocks.motion[contacts.ref[at + k]]);
-    for (int k = 0; k < P::width; ++k)
-        __builtin_prefetch(&blocks.motion[contacts.inc[at + k]]);
+    for (std::size_t g = 0; g < P::width / lanes * group; g += group)
+    {
+        for (std::size_t b = 0; b < always; b += 64)
+            __builtin_prefetch(lane + g + b, 1);
+        if (needs.views)
+            __builtin_prefetch(lane + g + offsetof(ContactLanes, seen) + 64);
+        if (needs.rests)
+            __builtin_prefetch(lane + g + offsetof(ContactLanes, rest_overlap), 1);
+        if (needs.tilts)
+            __builtin_prefetch(lane + g + offsetof(ContactLanes, tilt_force), 1);
+    }
 }
 
 /// evaluate_contacts for packs of one width. `range` begins and ends at multiples of it, or of `lanes` with the last contact.
 template <ContactLaw law, Joints joints, typename P>
 [[nodiscard]] ContactTally evaluate_packs(IndexRange range, const Model& model, const RegimeRule& regimes, const Blocks& blocks,
-                                          Contacts& contacts, ContactLoads& loads, const ContactTally& before)
+                                          Contacts& contacts, ContactLoads& loads, const ContactTally& before,
+                                          const PassNeeds& needs)
 {
     static_assert(joints != Joints::laws || std::is_same_v<P, Pack>);
-    const PassRule<P> rule(model, regimes, blocks);
+    const PassRule<P> rule(model, regimes, blocks, needs);
     LawLanes<P> laws(model.joints.laws);
     RowLanes rows(model.joints.rows);
     PassSums<P> pass(before);
@@ -187,7 +217,7 @@ template <ContactLaw law, Joints joints, typename P>
         ContactLanes& l = contacts.lane[i / lanes];
         const Index* const at_ref = &contacts.ref[i];
         const Index* const at_inc = &contacts.inc[i];
-        fetch_ahead<P>(blocks, contacts, i);
+        fetch_ahead<P>(contacts, i, needs);
         const BasicEdgePair<P> edges = load_edges<P>(l);
         const BasicMotion<P> ref = load_motions<P>(blocks.motion, at_ref);
         const BasicMotion<P> inc = load_motions<P>(blocks.motion, at_inc);
@@ -200,10 +230,20 @@ template <ContactLaw law, Joints joints, typename P>
         if constexpr (joints == Joints::laws)
             rows.load(&contacts.law[i]);
         const P floor = load_lane<P>(l, l.length_floor);
-        g.length = point_length(touch.length, floor);
-        const MaskOf<P> moved = have_moved(l, view);
-        store_flags(moved, &contacts.stale[i]);
-        pass.stale.add(moved);
+        // Nearly all are longer than two floors: there the division is known to give 1 or more.
+        g.growth = 1.0;
+        g.length = P(0.5) * touch.length;
+        if (any(!(P(2.0) * floor <= touch.length)))
+        {
+            g.growth = length_growth(touch.length, floor);
+            g.length = point_length(touch.length, floor);
+        }
+        if (needs.views)
+        {
+            const MaskOf<P> moved = have_moved(l, view, pass.slack);
+            store_flags(moved, &contacts.stale[i]);
+            pass.stale.add(moved);
+        }
         const MaskOf<P> impulsive = choose_laws<law, joints>(g, model, rule, contacts, i, rows, floor, pass);
         const MaskOf<P> touching = g.closed[0] | g.closed[1];
         pass.deep.add(touching & (max(touch.point[0].overlap, touch.point[1].overlap) > rule.floors_deep * floor));
@@ -212,8 +252,9 @@ template <ContactLaw law, Joints joints, typename P>
         g.length_inverse = P(1.0) / g.length;
         g.shear_share = shear_share(g.length / g.last_length);
         BasicSums<P> sums;
-        evaluate_points<joints>(g, touching, impulsive, rule, contacts, i, rows, floor, sums);
-        add_tilt_forces<joints>(g, floor, rule.dt, l, sums);
+        if (!evaluate_points<joints>(g, touching, impulsive, rule, contacts, i, rows, floor, sums))
+            pass.unrested = true;
+        add_tilt_forces<joints>(g, rule.dt, needs.tilts, l, sums);
         store_lane(l, l.last_length, g.length);
         add_pack(sums.friction, pass.friction);
         add_pack(sums.changes, pass.changes);

@@ -23,6 +23,7 @@ struct BasicSums
              {&BasicSums::f_t, &BasicSums::f_m, &BasicSums::moment_ref, &BasicSums::moment_inc, &BasicSums::used,
               &BasicSums::strength, &BasicSums::friction, &BasicSums::changes, &BasicSums::work})
             this->*sum = select(lanes_of, from.*sum, this->*sum);
+#pragma GCC unroll 2
         for (int k = 0; k < 2; ++k)
             normal[k] = select(lanes_of, from.normal[k], normal[k]);
     }
@@ -61,21 +62,6 @@ template <Joints joints, typename P>
         return g.touch.point[k].overlap + g.preload[k];
     else
         return g.touch.point[k].overlap;
-}
-
-/// The touch with overlaps as pressed_by has them.
-template <Joints joints, typename P>
-[[gnu::always_inline]] inline decltype(auto) pressed_touch(const BasicContactGroup<P>& g)
-{
-    if constexpr (joints != Joints::plain)
-    {
-        BasicEdgeTouch<P> touch = g.touch;
-        for (int k = 0; k < 2; ++k)
-            touch.point[k].overlap += g.preload[k];
-        return touch;
-    }
-    else
-        return (g.touch);
 }
 
 template <Contact4 contact, Joints joints, typename P>
@@ -140,11 +126,12 @@ template <Contact4 contact, Joints joints, typename P>
 
 /// Tilt forces of both points, and their work in the half step before them.
 template <Joints joints, typename P>
-[[gnu::always_inline]] inline void add_tilt_forces(const BasicContactGroup<P>& g, P floor, P dt, ContactLanes& l,
+[[gnu::always_inline]] inline void add_tilt_forces(const BasicContactGroup<P>& g, P dt, bool stores, ContactLanes& l,
                                                    BasicSums<P>& sums)
 {
     P work = 0.0;
-    const P pull = length_pull(sums.work, g.length_inverse) * length_growth(g.touch.length, floor);
+    const P pull = length_pull(sums.work, g.length_inverse) * g.growth;
+#pragma GCC unroll 2
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<P>& p = g.touch.point[k];
@@ -156,7 +143,8 @@ template <Joints joints, typename P>
         const P beyond = P(0.5) * p.overlap;
         const P v_t = p.v_t - g.w * beyond;
         work += tilt * v_t;
-        store_lane(l, l.tilt_force[k], tilt);
+        if (stores)
+            store_lane(l, l.tilt_force[k], tilt);
         sums.f_t += tilt;
         sums.moment_inc -= (p.inc_m + beyond) * tilt;
         sums.moment_ref += (p.ref_m + beyond) * tilt;

@@ -194,7 +194,13 @@ inline void store_flags(WideMask m, std::uint8_t* to)
     store_bytes(_mm_maskz_mov_epi8(m.v, _mm_set1_epi8(1)), to);
 }
 
-[[nodiscard]] inline WideMask have_moved(const ContactLanes& l, const BasicEdgeView<WidePack>& v)
+template <>
+struct Floats<WidePack>
+{
+    using Type = __m256;
+};
+
+[[nodiscard]] inline WideMask have_moved(const ContactLanes& l, const BasicEdgeView<WidePack>& v, __m256& slack)
 {
     const auto seen = [&l](const std::array<float, lanes>& of)
     {
@@ -207,37 +213,45 @@ inline void store_flags(WideMask m, std::uint8_t* to)
     const __m256 limit = seen(l.moved_limit);
     const __m256 a = _mm256_max_ps(off(v.t0, l.seen[0]), off(v.m0, l.seen[1]));
     const __m256 b = _mm256_max_ps(off(v.t1, l.seen[2]), off(v.m1, l.seen[3]));
+    slack = _mm256_min_ps(_mm256_sub_ps(limit, _mm256_max_ps(a, b)), slack);
     const __mmask8 near = static_cast<__mmask8>(_mm256_cmp_ps_mask(a, limit, _CMP_LE_OQ) &
                                                 _mm256_cmp_ps_mask(b, limit, _CMP_LE_OQ));
     return {static_cast<__mmask8>(~near)};
 }
 
-/// Loads of eight contacts on one of their blocks: columns to rows, each to its place of two.
-[[gnu::always_inline]] inline void store_rows(WidePack x, WidePack y, WidePack moment, WidePack reserve,
-                                              const std::uint8_t* swapped, int side, BlockLoad* to)
+/// The other sign in lanes of `m`.
+[[nodiscard]] inline __m512d turned(WideMask m, __m512d value)
 {
-    const __m512d even_force = _mm512_unpacklo_pd(x.v, y.v), odd_force = _mm512_unpackhi_pd(x.v, y.v);
-    const __m512d even_rest = _mm512_unpacklo_pd(moment.v, reserve.v), odd_rest = _mm512_unpackhi_pd(moment.v, reserve.v);
-    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), last = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
-    const auto put = [&](__m512d rows, int i, int j)
+    return _mm512_mask_xor_pd(value, m.v, value, _mm512_set1_pd(-0.0));
+}
+
+/// Columns to rows: loads of eight contacts on both of their blocks, a line of 64 bytes each.
+[[gnu::always_inline]] inline void store_loads(WidePack x, WidePack y, WidePack moment_ref, WidePack moment_inc, WidePack reserve,
+                                               const std::uint8_t* swapped, BlockLoad* to)
+{
+    const WideMask inc_first{static_cast<__mmask8>(_mm_cmpneq_epi8_mask(load_bytes(swapped), _mm_setzero_si128()))};
+    const __m512d x0 = turned(!inc_first, x.v), y0 = turned(!inc_first, y.v);
+    const __m512d x1 = turned(inc_first, x.v), y1 = turned(inc_first, y.v);
+    const __m512d moment0 = select(inc_first, moment_inc, moment_ref).v, moment1 = select(inc_first, moment_ref, moment_inc).v;
+    // Pairs of columns, of contacts 0, 2, 4, 6 and of 1, 3, 5, 7.
+    const auto put = [to](__m512d force0, __m512d rest0, __m512d force1, __m512d rest1, int first)
     {
-        _mm256_store_pd(&to[2 * i + (side ^ swapped[i])].x, _mm512_castpd512_pd256(rows));
-        _mm256_store_pd(&to[2 * j + (side ^ swapped[j])].x, _mm512_extractf64x4_pd(rows, 1));
+        const __m512d low0 = _mm512_shuffle_f64x2(force0, rest0, 0x44), high0 = _mm512_shuffle_f64x2(force0, rest0, 0xee);
+        const __m512d low1 = _mm512_shuffle_f64x2(force1, rest1, 0x44), high1 = _mm512_shuffle_f64x2(force1, rest1, 0xee);
+        const auto row = [&](__m512d rows, int i) { _mm512_store_pd(&to[2 * i].x, rows); };
+        row(_mm512_shuffle_f64x2(low0, low1, 0x88), first);
+        row(_mm512_shuffle_f64x2(low0, low1, 0xdd), first + 2);
+        row(_mm512_shuffle_f64x2(high0, high1, 0x88), first + 4);
+        row(_mm512_shuffle_f64x2(high0, high1, 0xdd), first + 6);
     };
-    put(_mm512_permutex2var_pd(even_force, first, even_rest), 0, 2);
-    put(_mm512_permutex2var_pd(even_force, last, even_rest), 4, 6);
-    put(_mm512_permutex2var_pd(odd_force, first, odd_rest), 1, 3);
-    put(_mm512_permutex2var_pd(odd_force, last, odd_rest), 5, 7);
+    put(_mm512_unpacklo_pd(x0, y0), _mm512_unpacklo_pd(moment0, reserve.v), _mm512_unpacklo_pd(x1, y1),
+        _mm512_unpacklo_pd(moment1, reserve.v), 0);
+    put(_mm512_unpackhi_pd(x0, y0), _mm512_unpackhi_pd(moment0, reserve.v), _mm512_unpackhi_pd(x1, y1),
+        _mm512_unpackhi_pd(moment1, reserve.v), 1);
 }
 
-inline void store_loads(WidePack x, WidePack y, WidePack moment_ref, WidePack moment_inc, WidePack reserve,
-                        const std::uint8_t* swapped, BlockLoad* to)
-{
-    store_rows(-x, -y, moment_ref, reserve, swapped, 0, to);
-    store_rows(x, y, moment_inc, reserve, swapped, 1, to);
-}
-
-inline void store_use(WidePack mobilised, WidePack t_x, WidePack t_y, WideMask touching, WideMask springs, JointUse* to)
+[[gnu::always_inline]] inline void store_use(WidePack mobilised, WidePack t_x, WidePack t_y, WideMask touching, WideMask springs,
+                                             JointUse* to)
 {
     const __m256i bits = _mm256_mask_mov_epi32(_mm256_maskz_set1_epi32(touching.v, contact_impulse), springs.v,
                                                _mm256_set1_epi32(contact_force));

@@ -9,15 +9,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace hdem
 {
-/// Run `work(first, count)` for groups of four of `range`; the last may have fewer.
+/// Run `work(first, count)` for groups of four of `range`; the last may have fewer. The count of the others is a constant: nothing need be asked for them.
 template <typename Work>
 void for_groups(IndexRange range, const Work& work)
 {
-    for (Index i = range.begin; i < range.end; i += lanes)
-        work(i, std::min<Index>(lanes, range.end - i));
+    Index i = range.begin;
+    for (; i + lanes <= range.end; i += lanes)
+        work(i, std::integral_constant<Index, lanes>());
+    if (i < range.end)
+        work(i, range.end - i);
 }
 
 /// Rows of four doubles that begin at from[0], from[stride], ...: columns of them. Rows beyond `count` are zero.

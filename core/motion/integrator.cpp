@@ -3,6 +3,8 @@
 #include "core/motion/block_lanes.h"
 #include "core/motion/rest.h"
 
+#include <bit>
+
 namespace hdem
 {
 namespace
@@ -10,6 +12,12 @@ namespace
 /// Stopped blocks do not move, whatever acts on them.
 inline void hold_stopped(const std::uint8_t* rest, Index count, BasicInertia<Pack>& inertia)
 {
+    static_assert(std::has_single_bit(stopped));
+    unsigned bits = 0;
+    for (Index k = 0; k < count; ++k)
+        bits |= rest[k];
+    if (bits < stopped)
+        return;
     for (Index k = 0; k < count; ++k)
         if (rest[k] >= stopped)
             inertia.inverse_mass_x.v[k] = inertia.inverse_mass_y.v[k] = inertia.inverse_inertia.v[k] = 0.0;
@@ -82,7 +90,7 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
     const bool has_global = rule.global != 0.0;
     VelocityWorks works = sums;
     for_groups(range,
-               [&](Index i, Index count)
+               [&](Index i, auto count)
                {
                    const BasicActing<Pack> acting = load_acting(&blocks.force[i], count);
                    BasicInertia<Pack> inertia = load_inertia(&blocks.inertia[i], count);
@@ -132,7 +140,7 @@ double update_positions(IndexRange range, const Model& model, Blocks& blocks, st
     const Pack dt = blocks.step.next;
     Pack fastest = 0.0, rim = 0.0;
     for_groups(range,
-               [&](Index i, Index count)
+               [&](Index i, auto count)
                {
                    Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                    Columns pose(&blocks.motion[i].x, row_stride<BlockMotion>, count);

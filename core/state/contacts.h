@@ -6,6 +6,7 @@
 /// first axis t runs along the edge (anticlockwise around its block), the second, m, into its block; so an overlap is a
 /// positive m of a point of the incident edge. Forces are given on `inc`: normal along -m, shear along t.
 
+#include "core/huge_pages.h"
 #include "core/joint/joint_law.h"
 #include "core/simd.h"
 #include "core/types.h"
@@ -86,9 +87,12 @@ struct alignas(64) ContactLanes
     using Lane = std::array<double, lanes>;
     Lane tx, ty, start_t, start_m, length, p0x, p0y, p1x, p1y;  ///< EdgePair
     Lane length_floor, last_length;
-    std::array<Lane, 2> normal_force, shear_force, overlap, rest_overlap, tilt_force;  ///< PointHistory
-    std::array<std::array<float, lanes>, 4> seen;
+    std::array<Lane, 2> shear_force, overlap, normal_force;  ///< PointHistory
+    // From here on only some cycles need more: see PassNeeds, core/contact/contact_forces.h.
     std::array<float, lanes> moved_limit;
+    std::array<std::array<float, lanes>, 4> seen;
+    alignas(64) std::array<Lane, 2> rest_overlap;  ///< PointHistory
+    std::array<Lane, 2> tilt_force;
 };
 
 /// Preloads of four contacts.
@@ -116,7 +120,7 @@ class Contacts
     std::vector<std::uint8_t> stale;    ///< features to be searched anew
     std::vector<std::uint8_t> swapped;  ///< ref is the block of part_b, inc that of part_a
     std::array<std::vector<std::uint8_t>, 2> regime;
-    std::vector<ContactLanes> lane;
+    LargeVector<ContactLanes> lane;
     std::vector<PreloadLanes> preload_lane;  ///< empty without in-situ stress
     std::vector<MemoryLanes> memory_lane;    ///< empty where all joints are plain
     bool has_preload = false;                ///< set these two while there are no contacts; memory comes with preload

@@ -1,11 +1,13 @@
 #pragma once
 /// Scratch of a cycle, reused: nothing here outlives one, and nothing here is allocated after the first cycles.
 
+#include "core/huge_pages.h"
 #include "core/simd.h"
 #include "core/state/triple.h"
 #include "core/types.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hdem
@@ -31,7 +33,7 @@ struct alignas(16) JointUse
 /// Of contacts that follow each other.
 struct ContactLoads
 {
-    std::vector<BlockLoad> load;  ///< two a contact: on the block of part_a, on that of part_b
+    LargeVector<BlockLoad> load;  ///< two a contact: on the block of part_a, on that of part_b
     std::vector<JointUse> use;    ///< one a contact
     Index first = 0;              ///< the contact with which they begin
 
@@ -54,6 +56,10 @@ struct ContactTally
     Index deep = 0;       ///< contacts with an overlap above contact.overlap_limit
     Pack dilation = 0.0;  ///< EnergyLedger::dilation [J]
     Pack broken = 0.0;    ///< EnergyLedger::bond_breaking [J]
+    /// Some contact was not only pressed by springs since the last cycle: it may have a rest overlap now.
+    bool unrested = false;
+    /// By how much any incident vertex may still move before features are stale, of contacts whose views were looked at [m].
+    float slack = std::numeric_limits<float>::infinity();
 };
 
 /// Which contacts a block has: `entry` holds 2 contact + side (0: the block of part_a, 1: of part_b) from begin[block] to begin[block + 1], ascending.

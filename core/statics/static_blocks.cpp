@@ -94,7 +94,7 @@ double unbalanced(const Model& model, Index block, const double* net)
 }
 
 Imbalance net_forces(IndexRange unknowns, const Model& model, const State& state, const Unknowns& numbers,
-                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<Triple>& given,
+                     const BlockContacts& list, std::span<const BlockLoad> loads, const std::vector<Triple>& given,
                      const std::vector<double>& step, std::vector<double>& net)
 {
     Imbalance sums;

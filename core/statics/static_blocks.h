@@ -54,7 +54,7 @@ struct Imbalance
 /// @param given  force and moment on each block of the model, or empty
 /// @param step   three per block of the model, or empty
 Imbalance net_forces(IndexRange unknowns, const Model& model, const State& state, const Unknowns& numbers,
-                     const BlockContacts& list, const std::vector<BlockLoad>& loads, const std::vector<Triple>& given,
+                     const BlockContacts& list, std::span<const BlockLoad> loads, const std::vector<Triple>& given,
                      const std::vector<double>& step, std::vector<double>& net);
 
 /// Put blocks where they have moved to from `start`.

@@ -71,11 +71,14 @@ class Against(unittest.TestCase):
         self.assertEqual(found, (0.9, 1.02, 1.3), "nine pairs leave out one at either end")
         self.assertEqual(pairs.verdict(found, 0.03), "cannot tell")
 
-    def test_the_yardstick_is_of_the_same_program(self):
-        for operations, code, verdict in ((400.0, 0, "met"), (500.0, 3, "missed")):
-            program = self.program("both", row("cycle/wall/10000/hybrid/1", operations), row("yardstick/force_loop/wall/10000/1", 360.0))
+    def test_bars_are_for_the_plain_yardstick(self):
+        for plain, packed, code, verdict in ((360.0, 250.0, 0, "met"), (330.0, 400.0, 3, "missed")):
+            program = self.program("both", row("cycle/wall/10000/hybrid/1", 400.0), row("yardstick/plain_loop/wall/10000/1", plain),
+                                   row("yardstick/force_loop/wall/10000/1", packed))
             done, said, _ = self.against("--yardstick", "--blocks", "10000", "--program", program, "--pairs", "7")
-            self.assertEqual((done, f"bar 0.85: {verdict}" in said), (code, True), said)
+            self.assertEqual(done, code, said)
+            self.assertRegex(said, rf"plain_loop/wall/10000/1 +{plain / 400.0:.3f} .*bar 0.85: {verdict}\n")
+            self.assertRegex(said, rf"force_loop/wall/10000/1 +{packed / 400.0:.3f} .*no bar\n")
 
     def test_what_cannot_be_used_is_said(self):
         self.assertEqual(self.compared(1.0, 1.0, "--pairs", "3")[0], 2)

@@ -58,7 +58,7 @@ class RunningSumsTest : public testing::Test
             loads.first = range.begin;
             static_cast<void>(evaluate_contacts(range, model, rule, other.blocks, other.contacts, loads));
             running.begin(range, model, other.blocks.present, external);
-            running.add(range, other.contacts, loads, find_joint, kept);
+            running.add(range, loads, find_joint, kept);
         }
         std::swap(other.blocks.force, running.sums);
         const std::vector<Index> others = running.others({0, other.blocks.size()});

@@ -19,19 +19,19 @@ struct Pass
 };
 
 template <typename Evaluate>
-Pass pass_of(const CaseRun& run, const RegimeRule& rule, const Evaluate& evaluate)
+Pass pass_of(const CaseRun& run, const RegimeRule& rule, const PassNeeds& needs, const Evaluate& evaluate)
 {
     Pass pass{run.state().contacts, {}, {}};
     const auto all = static_cast<Index>(pass.contacts.stale.size()) / 8 * 8;
     pass.loads.resize(pass.contacts.stale.size());
-    pass.tally = evaluate({0, all}, run.model(), rule, run.state().blocks, pass.contacts, pass.loads, ContactTally{});
+    pass.tally = evaluate({0, all}, run.model(), rule, run.state().blocks, pass.contacts, pass.loads, ContactTally{}, needs);
     return pass;
 }
 
-template <typename T>
-bool are_same(const std::vector<T>& a, const std::vector<T>& b)
+template <typename Array>
+bool are_same(const Array& a, const Array& b)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
 Index expect_same_bits(const CaseRun& run, const std::string& what)
@@ -43,8 +43,9 @@ Index expect_same_bits(const CaseRun& run, const std::string& what)
             {
                 const RegimeRule rule{
                     .law = law, .rock_keeps_springs = keeps, .closing = closing, .closing_speed = keeps ? 1e-3 : 0.0};
-                const Pass four = pass_of(run, rule, evaluate_by_four);
-                const Pass eight = pass_of(run, rule, evaluate_by_eight);
+                const PassNeeds needs{.views = keeps, .rests = true, .tilts = !keeps};
+                const Pass four = pass_of(run, rule, needs, evaluate_by_four);
+                const Pass eight = pass_of(run, rule, needs, evaluate_by_eight);
                 EXPECT_TRUE(are_same(four.contacts.lane, eight.contacts.lane)) << what;
                 EXPECT_TRUE(are_same(four.contacts.regime[0], eight.contacts.regime[0])) << what;
                 EXPECT_TRUE(are_same(four.contacts.regime[1], eight.contacts.regime[1])) << what;
@@ -57,6 +58,8 @@ Index expect_same_bits(const CaseRun& run, const std::string& what)
                 EXPECT_EQ(four.tally.impulses, eight.tally.impulses) << what;
                 EXPECT_EQ(four.tally.stale, eight.tally.stale) << what;
                 EXPECT_EQ(four.tally.deep, eight.tally.deep) << what;
+                EXPECT_EQ(four.tally.unrested, eight.tally.unrested) << what;
+                EXPECT_EQ(four.tally.slack, eight.tally.slack) << what;
                 impulses += law == ContactLaw::by_speed ? four.tally.impulses : 0;
             }
     return impulses;

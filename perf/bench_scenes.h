@@ -1,0 +1,17 @@
+#pragma once
+/// Scenes of the benchmarks, by name.
+
+#include "verification/scenes/scenes.h"
+
+#include <array>
+#include <string>
+
+namespace hdem::perf
+{
+/// The first three are those that are tuned by; the others are not looked at while something is changed, and must be about as fast.
+inline constexpr std::array<const char*, 3> named_scenes{"wall", "voronoi", "joints"};
+inline constexpr std::array<const char*, 3> other_scenes{"hexagons", "long_bricks", "dips"};
+
+/// `scene`: one of these, of about `blocks` blocks. Throws std::invalid_argument for another name.
+[[nodiscard]] CaseDef make_scene(const std::string& scene, Index blocks, Method method);
+}  // namespace hdem::perf
