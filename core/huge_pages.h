@@ -3,6 +3,7 @@
 /// every cycle goes through.
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -19,6 +20,7 @@ struct HugePageAllocator
     using value_type = T;
     static constexpr std::size_t page = std::size_t{1} << 21;
     static constexpr std::size_t least = 4 * page;  ///< smaller arrays fit a cache, or nearly
+    static constexpr std::size_t most = std::size_t{PTRDIFF_MAX} / 2 / sizeof(T);
     static constexpr std::align_val_t alignment{alignof(T) > 64 ? alignof(T) : 64};
 
     HugePageAllocator() = default;
@@ -29,6 +31,8 @@ struct HugePageAllocator
 
     [[nodiscard]] T* allocate(std::size_t count)
     {
+        if (count > most)
+            throw std::bad_array_new_length();
         const std::size_t bytes = count * sizeof(T);
         if (bytes < least)
             return static_cast<T*>(::operator new(bytes, alignment));
