@@ -54,31 +54,10 @@ name = {quoted}
 cycles = 10
 [output]
 row_every = 10
-[[bolt]]
-name = {quoted}
-from = [1, 0.5]
-to = [1, -0.5]
-stiffness = 1e6
-[[liner]]
-name = {quoted}
-path = [[2, 1], [2, 0]]
-thickness = 0.1
-modulus = 1e9
-normal_stiffness = 1e8
 [[history]]
 name = {quoted}
 block = {quoted}
 quantities = ["displacement"]
-every = 5
-[[history]]
-name = "axial"
-bolt = {quoted}
-quantities = ["axial_force"]
-every = 5
-[[history]]
-name = "thrust"
-liner = {quoted}
-quantities = ["thrust"]
 every = 5
 """
 
@@ -129,14 +108,6 @@ class HostileTexts(unittest.TestCase):
                               html.escape(f'stage "{text}" begins')):
                     self.assertIn(words, page)
                 page_checks.curves_of(self, page)
-
-    def test_are_texts_of_bolts_and_linings(self):
-        out = self.run_of(TEXTS[3])
-        self.hdem("plot", "out", "-o", "b.svg", "--bolts", "--liners", "thrust")
-        self.assertIn(TEXTS[3], lines_of(self.folder / "b.svg"))
-        self.hdem("view", "out", "-o", "view.html")
-        self.assertNotIn(TEXTS[3], (self.folder / "view.html").read_text(encoding="utf-8"))
-        self.assertEqual([bolt["name"] for bolt in json.loads((out / "summary.json").read_text(encoding="utf-8"))["bolts"]], [TEXTS[3]])
 
     def test_two_histories_have_places_of_their_own(self):
         case = case_of("岩") + '[[history]]\nname = "石"\nblock = "岩"\nquantities = ["speed"]\nevery = 5\n'
