@@ -1,6 +1,5 @@
 #include "parallel/step_update.h"
 
-#include "core/stage/load_changes.h"
 #include "parallel/team.h"
 
 namespace hdem
@@ -8,9 +7,7 @@ namespace hdem
 void update_step(const Model& model, const StepRule& rule, State& state, const Team& team, std::int64_t now, bool renewed,
                  Partition& partition, const BlockContacts& list)
 {
-    // Steps begin to vary with the stage, or once loads do not change any more.
-    const bool look_at_all = renewed || now % look_at_all_every == 0 || now == state.stage_begin_cycle ||
-                             now == steady_from(model, state);
+    const bool look_at_all = renewed || now % look_at_all_every == 0 || now == state.stage_begin_cycle;
     if (!look_at_all && !state.rest_changed && now % look_every != 0)
         return;
     const IndexRange mine = team.share(static_cast<Index>(partition.blocks.size()));
