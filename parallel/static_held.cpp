@@ -24,6 +24,13 @@ bool StaticSearch::too_many_held() const
     return static_cast<double>(held) > rule_.most_loose * static_cast<double>(free);
 }
 
+bool StaticSearch::let_stand_again()
+{
+    const auto held = std::ranges::count(is_held_, static_cast<std::uint8_t>(come_away));
+    std::ranges::replace(is_held_, std::uint8_t{come_away}, std::uint8_t{not_held});
+    return held > 0;
+}
+
 /// False when too many have come away.
 bool StaticSearch::hold_loose()
 {

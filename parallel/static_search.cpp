@@ -55,7 +55,9 @@ std::vector<Index> StaticSearch::loose() const
     for (Index b = 0; b < model_.blocks(); ++b)
         if (is_held_[b] == come_away)
             all.push_back(b);
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
+    const auto twice = std::ranges::unique(all);
+    all.erase(twice.begin(), twice.end());
     return all;
 }
 

@@ -34,6 +34,9 @@ class StaticSearch
     /// The places and forces found become the next start.
     void commit();
 
+    /// Blocks that have come away are unknowns of the next search again. False if there are none.
+    bool let_stand_again();
+
     [[nodiscard]] int iterations() const { return iterations_; }
     [[nodiscard]] int solves() const { return solves_; }
     [[nodiscard]] double ratio() const { return whole_.imbalance.ratio(); }

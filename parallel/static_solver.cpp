@@ -43,6 +43,13 @@ Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, const std::ve
     return net_forces({0, static_cast<Index>(standing.block.size())}, model, state, standing, list, loads.load, given, {}, net);
 }
 
+void add_effort(const StaticOutcome& other, StaticOutcome& outcome)
+{
+    outcome.iterations += other.iterations;
+    outcome.solves += other.solves;
+    outcome.searches += other.searches;
+}
+
 double weight_work(const Model& model, const State& before, const State& after)
 {
     double work = 0.0;
@@ -53,12 +60,14 @@ double weight_work(const Model& model, const State& before, const State& after)
     return work;
 }
 
-/// Search after search for contacts, from a trial state that is at rest. The trial is balanced if the outcome is.
+/// Search after search for contacts, from a trial state that is at rest. The trial is balanced if the outcome is. Blocks that have come away may stand again once: on
+/// its way from far out of balance a search throws some out of places where they can stand.
 StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule,
                              const std::vector<Triple>& given)
 {
     StaticSearch search(model, trial, threads, rule, given);
     StaticOutcome outcome;
+    bool may_stand_again = true;
     while (outcome.searches < most_searches)
     {
         search.find_contacts();
@@ -74,7 +83,9 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
             return outcome;
         }
         search.commit();
-        if (end != StaticSearch::End::in_balance)
+        if (may_stand_again && search.let_stand_again())
+            may_stand_again = false;
+        else if (end != StaticSearch::End::in_balance)
             break;
     }
     stop_all(trial.blocks);
@@ -109,9 +120,7 @@ StaticOutcome search_balance(const Model& model, State& trial, int threads, cons
         const std::vector<BlockMotion> from = trial.blocks.motion;
         StaticOutcome outcome = search_balance(model, trial, threads, rule, given);
         book_given_work(given, model, trial, from, trial.blocks.motion, trial.ledger);
-        outcome.iterations += all.iterations;
-        outcome.solves += all.solves;
-        outcome.searches += all.searches;
+        add_effort(all, outcome);
         all = std::move(outcome);
         if (!all.is_taken())
             break;
@@ -127,10 +136,35 @@ StaticOutcome approach_and_search(const Model& model, State& trial, int threads,
     if (!approach_balance(model, trial, threads, rule, approach))
         return approach;
     StaticOutcome outcome = search_balance(model, trial, threads, rule);
-    outcome.iterations += approach.iterations;
-    outcome.solves += approach.solves;
-    outcome.searches += approach.searches;
+    add_effort(approach, outcome);
     return outcome;
+}
+
+/// Do the others stand once the blocks that come away have left? Those that lose their hold then leave as well, until none does. Blocks that come away are held where they were,
+/// and bear on: what stands by that alone does not stand.
+/// @return  all that have left, and whether the others are in balance
+StaticOutcome let_leave(const Model& model, State trial, int threads, const StaticRule& rule, const StaticOutcome& held)
+{
+    StaticOutcome all = held;
+    for (std::vector<Index> leaving = held.loose; !leaving.empty();)
+    {
+        for (const Index b : leaving)
+        {
+            trial.blocks.present[b] = 0;
+            trial.blocks.inertia[b] = {};
+        }
+        StaticOutcome others = search_balance(model, trial, threads, rule, constant_forces(model, trial));
+        add_effort(others, all);
+        leaving = others.is_taken() ? others.loose : std::vector<Index>();
+        all.loose.insert(all.loose.end(), others.loose.begin(), others.loose.end());
+        if (!others.is_taken() || static_cast<double>(all.loose.size()) > rule.most_loose * static_cast<double>(model.blocks()))
+        {
+            all.kind = others.is_taken() ? StaticOutcome::Kind::no_equilibrium : others.kind;
+            break;
+        }
+    }
+    std::ranges::sort(all.loose);
+    return all;
 }
 
 bool is_large(const State& state)
@@ -193,14 +227,18 @@ StaticOutcome solve_statics(const Model& model, State& state, int threads, const
     {
         trial = at_rest(state);
         StaticOutcome second = ways[1](model, trial, threads, rule);
-        second.iterations += outcome.iterations;
-        second.solves += outcome.solves;
-        second.searches += outcome.searches;
+        add_effort(outcome, second);
         if (second.is_taken() || outcome.kind == StaticOutcome::Kind::not_converged)
             outcome = std::move(second);
     }
     if (!outcome.is_taken())
         return outcome;
+    const StaticOutcome after = let_leave(model, trial, threads, rule, outcome);
+    if (!after.is_taken())
+        return after;
+    outcome.iterations = after.iterations;
+    outcome.solves = after.solves;
+    outcome.searches = after.searches;
     trial.released.clear();
     trial.ledger.gravity_work = state.ledger.gravity_work + weight_work(model, state, trial);
     trial.ledger.local_damping += residual(trial.ledger, stored_energy(model, trial)) -

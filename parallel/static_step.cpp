@@ -10,8 +10,10 @@ namespace hdem
 {
 namespace
 {
-constexpr double enough_gain = 0.5;   // of the unbalanced ratio, by a whole step that needs no closer look
-constexpr double first_shift = 1e-8;  // of the diagonal
+constexpr double enough_gain = 0.5;       // of the unbalanced ratio, by a whole step that needs no closer look
+constexpr double first_shift = 1e-8;      // of the diagonal
+constexpr double whole_tolerance = 1e-2;  // of a linear solution
+constexpr double spots_tolerance = 1e-6;  // small systems: the answer hangs less on units and on the way to it
 constexpr int line_search_steps = 4;
 constexpr double longest_way = 0.3;  // of far, of a point in one step
 constexpr int most_restraints = 3;   // of points that go farther, until the step is taken as it is
@@ -91,9 +93,9 @@ bool StaticSearch::find_step(Part& part)
                       t.barrier();
                   };
                   const auto precondition = [&](const Team& t, const double* x, double* y) { part.factor.solve(t, x, y); };
-                  const GmresResult mine = gmres_.solve(team, static_cast<Index>(part.net.size()), product, precondition,
-                                                        part.net.data(), part.solution.data(),
-                                                        {.tolerance = 1e-2, .most_iterations = 60});
+                  const GmresResult mine = gmres_.solve(
+                      team, static_cast<Index>(part.net.size()), product, precondition, part.net.data(), part.solution.data(),
+                      {.tolerance = part.is_whole ? whole_tolerance : spots_tolerance, .most_iterations = 60});
                   if (team.is_first())
                       result = mine;
               });
