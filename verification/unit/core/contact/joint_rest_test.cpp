@@ -31,10 +31,10 @@ Look look_at(const Model& model, const Blocks& blocks, const Contacts& contacts)
     return look;
 }
 
-template <typename T>
-bool are_same(const std::vector<T>& a, const std::vector<T>& b)
+template <typename Rows>
+bool are_same(const Rows& a, const Rows& b)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 bool is_same(const Look& a, const Look& b)
