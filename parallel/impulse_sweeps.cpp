@@ -44,19 +44,14 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
 {
     Blocks& blocks = state.blocks;
     MassRange masses;
-    bool someone_hits = false;
     for (const ContactPart& part : partition.contacts)
         if (!part.impulses.empty())
-        {
             masses.add(part.masses);
-            someone_hits = someone_hits || part.are_hit;
-        }
-    someone_hits = someone_hits && which != ExactIslands::great_mass_ratios;
-    if (which != ExactIslands::small && !someone_hits && masses.suits_sweeps(model.contact.impulse_sweeps))
+    if (which == ExactIslands::great_mass_ratios && masses.suits_sweeps(model.contact.impulse_sweeps))
         return;
     const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = parts.begin; i < parts.end; ++i)
-        partition.contacts[i].unsolved = are_unsolved(model, partition.contacts[i].impulses, someone_hits, blocks, work.pseudo);
+        partition.contacts[i].unsolved = are_unsolved(model, partition.contacts[i].impulses, blocks, work.pseudo);
     team.barrier();
     if (std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
         return;
@@ -81,7 +76,6 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
     {
         aim_impulses(blocks, partition.contacts[i].impulses);
         partition.contacts[i].masses = mass_range(partition.contacts[i].impulses, blocks);
-        partition.contacts[i].are_hit = are_hit(partition.contacts[i].impulses);
     }
     team.barrier();
     if (model.insitu.given)

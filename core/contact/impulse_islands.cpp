@@ -15,25 +15,15 @@ namespace hdem
 {
 namespace
 {
-/// What sweeps may leave, and what a solution leaves.
-struct Limits
-{
-    double noticeable, solved;  ///< of the velocity that a cycle's forces and impacts give
-    double noticeable_overlap;  ///< of the overlap to be taken back, and of the one that is allowed
-};
-constexpr Limits in_general{1e-3, 1e-5, 1e-2};
-/// A flight makes much of little: two legs that land together turned their block by 0.5 rad a second.
-constexpr Limits where_hit{1e-5, 1e-7, 1e-3};
-constexpr const Limits& limits_for(bool are_hit)
-{
-    return are_hit ? where_hit : in_general;
-}
+/// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves.
+constexpr double noticeable = 1e-3;
+constexpr double solved = 1e-5;
+/// Of the overlap to be taken back, and of the one that is allowed.
+constexpr double noticeable_overlap = 1e-2;
 /// Of the greatest velocity: what rounding leaves to a block of a millionth of the mass of those that press it.
 constexpr double rounding = 1e-9;
 /// Points of an island that is solved as a whole.
 constexpr std::size_t small_island = 100;
-/// Points of an island that gets more sweeps where it is hit.
-constexpr std::size_t middle_island = 300;
 /// Points of a cluster that is solved at all: the time grows faster than their number.
 constexpr std::size_t small_cluster = 200;
 /// A cluster is solved where sweeps have left this many times what they have left around it.
@@ -45,7 +35,7 @@ double velocity_scale(const ImpulsePoint& p, const Blocks& blocks)
 {
     const auto speed = [](const BlockMotion& m) { return std::abs(m.vx) + std::abs(m.vy); };
     return p.load_velocity + std::max(0.0, p.approach) +
-           rounding / in_general.noticeable * (speed(blocks.motion[p.ref]) + speed(blocks.motion[p.inc]));
+           rounding / noticeable * (speed(blocks.motion[p.ref]) + speed(blocks.motion[p.inc]));
 }
 
 double correction_scale(const Model& model, const Steps& step, const ImpulsePoint& p)
@@ -90,15 +80,9 @@ MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& bloc
     return range;
 }
 
-bool are_hit(const std::vector<ImpulsePoint>& points)
-{
-    return std::ranges::any_of(points, hits);
-}
-
-bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, bool are_hit, const Blocks& blocks,
+bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
                   const std::vector<Triple>& pseudo)
 {
-    const Limits& limits = limits_for(are_hit);
     double scale = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
     for (const ImpulsePoint& p : points)
     {
@@ -107,7 +91,7 @@ bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, b
         pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
         pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
     }
-    return error > limits.noticeable * scale || pseudo_error > limits.noticeable_overlap * pseudo_scale;
+    return error > noticeable * scale || pseudo_error > noticeable_overlap * pseudo_scale;
 }
 
 Index IslandFinder::root(Index block)
@@ -196,7 +180,6 @@ class IslandCopy
 struct Cluster
 {
     std::vector<ImpulsePoint*> points;
-    bool is_hit = false;
     double outside = 0.0, outside_correction = 0.0;  ///< greatest errors of the points around them [m/s]
 };
 
@@ -247,7 +230,7 @@ double sweep_more(const Model& model, Blocks& blocks, std::vector<Triple>& pseud
     std::vector<ImpulsePoint> points;
     for (const ImpulsePoint* p : cluster.points)
         points.push_back(*p);
-    for (int round = 0; round < more_sweeps && are_unsolved(model, points, cluster.is_hit, blocks, pseudo); ++round)
+    for (int round = 0; round < more_sweeps && are_unsolved(model, points, blocks, pseudo); ++round)
         for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         {
             loss += sweep_impulses(points, blocks);
@@ -267,12 +250,11 @@ double solve_velocities(Blocks& blocks, const Cluster& cluster)
         scale = std::max(scale, velocity_scale(*p, blocks));
         error = std::max(error, impulse_error(*p, blocks));
     }
-    const Limits& limits = limits_for(cluster.is_hit);
-    if (error <= std::max(limits.noticeable * scale, worth * cluster.outside))
+    if (error <= std::max(noticeable * scale, worth * cluster.outside))
         return 0.0;
     const auto velocity = [&](Index b) { return Triple{blocks.motion[b].vx, blocks.motion[b].vy, blocks.motion[b].w}; };
     const IslandCopy copy(cluster.points, blocks, velocity, [](const ImpulsePoint& p) { return p; });
-    const IslandProblem found = solve_all_at_once(copy.problem, std::max(limits.solved * scale, 0.01 * cluster.outside));
+    const IslandProblem found = solve_all_at_once(copy.problem, std::max(solved * scale, 0.01 * cluster.outside));
     double loss = 0.0;
     for (std::size_t i = 0; i < cluster.points.size(); ++i)
     {
@@ -293,13 +275,12 @@ void solve_correction(const Model& model, const Blocks& blocks, std::vector<Trip
         scale = std::max(scale, correction_scale(model, blocks.step, *p));
         error = std::max(error, correction_error(model, *p, blocks, pseudo));
     }
-    const double noticeable = limits_for(cluster.is_hit).noticeable_overlap * scale;
-    if (error <= std::max(noticeable, worth * cluster.outside_correction))
+    if (error <= std::max(noticeable_overlap * scale, worth * cluster.outside_correction))
         return;
     const IslandCopy copy(
         cluster.points, blocks, [&](Index b) { return pseudo[b]; },
         [&](const ImpulsePoint& p) { return as_correction(model, blocks.step, p); });
-    const double goal = 0.01 * std::max(noticeable, cluster.outside_correction);
+    const double goal = 0.01 * std::max(noticeable_overlap * scale, cluster.outside_correction);
     const IslandProblem found = solve_all_at_once(copy.problem, goal);
     for (std::size_t i = 0; i < copy.block_of.size(); ++i)
         if (can_move(blocks.inertia[copy.block_of[i]]))
@@ -315,18 +296,10 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
     for (const Index block : island.blocks)
         masses.add(blocks.inertia[block]);
     const bool suits_sweeps = masses.suits_sweeps(model.contact.impulse_sweeps);
-    const bool is_hit = which != ExactIslands::great_mass_ratios &&
-                        std::ranges::any_of(island.points, [](const ImpulsePoint* p) { return hits(*p); });
-    if (suits_sweeps && which != ExactIslands::small && !is_hit)
+    if (suits_sweeps && which == ExactIslands::great_mass_ratios)
         return;
-    const std::size_t size = island.points.size();
-    if (size <= middle_island && is_hit)
-        island.loss += sweep_more(model, blocks, pseudo, {.points = island.points, .is_hit = true});
-    if (suits_sweeps && which == ExactIslands::hit && size > small_island)
-        return;
-    const std::vector<Cluster> clusters = size <= small_island ? std::vector<Cluster>{{.points = island.points, .is_hit = is_hit}}
-                                                               : cut(model, island, blocks, pseudo);
-    for (const Cluster& cluster : clusters)
+    const bool whole = island.points.size() <= small_island;
+    for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
     {
         if (cluster.points.size() > small_cluster)
         {

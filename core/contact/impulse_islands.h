@@ -16,8 +16,7 @@ namespace hdem
 enum class ExactIslands
 {
     great_mass_ratios,  ///< those that sweeps would need many cycles for
-    hit,   ///< these, and others of few points in which blocks hit: what sweeps leave of a velocity of impact is no small matter
-    small  ///< these, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
+    small               ///< these, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
 };
 
 /// How much the masses of movable blocks differ.
@@ -44,11 +43,8 @@ struct MassRange
 };
 [[nodiscard]] MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& blocks);
 
-/// Does one of the points hit?
-[[nodiscard]] bool are_hit(const std::vector<ImpulsePoint>& points);
-
-/// Has one of the points velocities, or pseudo velocities, that another sweep would change noticeably? More is noticeable where blocks hit.
-[[nodiscard]] bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, bool are_hit, const Blocks& blocks,
+/// Has one of the points velocities, or pseudo velocities, that another sweep would change noticeably?
+[[nodiscard]] bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
                                 const std::vector<Triple>& pseudo);
 
 struct Island
@@ -75,7 +71,7 @@ class IslandFinder
 
 /// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much. Of an island of
 /// more than 100 points only the clusters, where the sweeps have left more than around them: there is nothing to be gained where the cluster's
-/// neighbours are not known better; if blocks hit in it, and it has no more than 300, it gets more sweeps before. Where masses differ much, clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a
+/// neighbours are not known better. Where masses differ much, clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a
 /// heavy block may still sink into what it lies on.
 void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
 }  // namespace hdem

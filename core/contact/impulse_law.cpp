@@ -183,11 +183,6 @@ double least_bounce(const ImpulsePoint& p)
     return p.weight_velocity * std::clamp(lost > 0.0 ? 1.2 / lost : most, least, most);
 }
 
-bool hits(const ImpulsePoint& point)
-{
-    return point.approach > least_bounce(point);
-}
-
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
 {
     for (ImpulsePoint& p : points)
@@ -197,7 +192,8 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
         p.load_velocity = std::max(p.weight_velocity, pressed);
         if (p.approach <= 0.0)
             continue;
-        p.target = std::min(0.0, pressed - (hits(p) ? p.restitution * p.approach : 0.0));
+        const bool bounces = p.approach > least_bounce(p);
+        p.target = std::min(0.0, pressed - (bounces ? p.restitution * p.approach : 0.0));
         if (p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;
     }

@@ -28,9 +28,6 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 /// With both, errors of the velocity in a bounce are a third (verification/README.md).
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points);
 
-/// Does it come fast enough to bounce, by more than weight gives in a few cycles?
-[[nodiscard]] bool hits(const ImpulsePoint& point);
-
 /// Begin with the impulses that the contacts' last forces amount to, F dt: those of a stack at rest then hold from cycle to cycle, and the
 /// springs' share between two points is handed over as it is. After an impact they are far too great, more than the sweeps may take back: then only
 /// the share of all of them that leaves least to do, which adds no energy.

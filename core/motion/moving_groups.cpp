@@ -160,6 +160,8 @@ void MovingGroups::mark(IndexRange range, Blocks& blocks) const
          ++at)
     {
         BlockForce& force = blocks.force[at->block];
+        if (force.contacts == 0)
+            continue;  // what touches nothing is not damped in any case
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;

@@ -90,7 +90,7 @@ StageRules resolve_rules(const StageSetting& s)
                         .rock_keeps_springs = looks_for_rest,
                         .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
                         .closing_speed = settling},
-            .islands = looks_for_rest ? ExactIslands::small : (whole_cycles ? ExactIslands::great_mass_ratios : ExactIslands::hit),
+            .islands = looks_for_rest ? ExactIslands::small : ExactIslands::great_mass_ratios,
             .damping = {.local = s.preset == DampingPreset::dynamic ? 0.0 : s.damping.local,
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,

@@ -35,29 +35,6 @@ TEST_F(Impact, OnTheGroundReboundsWithRestitutionTimesItsSpeed)
     }
 }
 
-/// Ten sweeps let two legs that land together turn their block by 0.5 rad a second.
-TEST(ImpulseLegs, ThatLandTogetherDoNotTurnTheirBlock)
-{
-    for (const double e : {0.0, 0.5, 0.9})
-        for (const Method method : {Method::impulse, Method::hybrid})
-        {
-            CaseDef scene = scenes::empty_scene();
-            scenes::add_fixed_block(scene, "ground", rectangle({-10.0, -1.0}, {10.0, 0.0}));
-            scenes::add_block(scene, "table", {{0, 0}, {0.2, 0}, {0.2, 0.5}, {0.8, 0.5}, {0.8, 0}, {1, 0}, {1, 1}, {0, 1}})
-                .velocity = {0.0, -10.0};
-            scene.gravity = {0.0, 0.0};
-            scene.contact.method = method;
-            scene.contact.restitution = e;
-            scene.damping.preset = DampingPreset::dynamic;
-            scene.time.step = 1e-5;
-            CaseRun run(scene);
-            run.advance(3);
-            EXPECT_NEAR(run.velocity("table").y(), 10.0 * e, 2e-4) << "e = " << e;
-            EXPECT_NEAR(run.velocity("table").x(), 0.0, 2e-4) << "e = " << e;
-            EXPECT_NEAR(run.motion("table").w, 0.0, 2e-4) << "e = " << e;
-        }
-}
-
 TEST_F(Impact, OfTwoEqualBlocksExchangesTheirVelocitiesWithoutLoss)
 {
     CaseRun run(two_blocks(1.0));
