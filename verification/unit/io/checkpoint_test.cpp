@@ -373,7 +373,7 @@ TEST(Checkpoint, KeepsWhichBlocksWereNotAtRestAndWhatStaticSolutionsFound)
     const ScratchFolder folder("checkpoint_told");
     CaseDef scene = scenes::joints(16.0, 16.0, 0.8, 2.0);
     scene.contact.method = Method::force;
-    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {8.0, 8.0}, .diameter = 5.0}};
+    scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {8.0, 8.0}, .diameter = 6.0}};
     scene.stages = {
         {.name = "rest", .until_converged = true, .max_cycles = 400, .solver = RestSolver::statics},
         {.name = "dig", .until_converged = true, .max_cycles = 600, .solver = RestSolver::statics, .excavate = {"tunnel"}},

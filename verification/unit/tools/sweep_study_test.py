@@ -324,7 +324,7 @@ class Killed(Scratch):
         for folder in ("whole", "broken"):
             self.sweep("plan", TUNNEL, "-o", folder, *self.KEYS)
         subprocess.run(self.words("whole"), cwd=self.folder, check=True, capture_output=True)
-        for share, how in ((0.2, signal.SIGTERM), (0.4, signal.SIGKILL), (0.6, signal.SIGINT), (0.8, signal.SIGKILL)):
+        for share, how in ((0.1, signal.SIGTERM), (0.25, signal.SIGKILL), (0.4, signal.SIGINT), (0.55, signal.SIGKILL)):
             worker = subprocess.Popen(self.words("broken"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
             wait_until(lambda: self.done() >= share * RUNS)
             worker.send_signal(how)
