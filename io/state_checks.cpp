@@ -166,6 +166,15 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             return Damage{"/blocks/released_force", "not a force"};
         last = f.block;
     }
+    last = -1;
+    for (const MovingBlock& m : state.moving)
+    {
+        if (m.block <= last || m.block >= blocks.size())
+            return Damage{"/blocks/moving", "not ascending numbers of blocks"};
+        if (!are_finite(m, fields::moving_along))
+            return Damage{"/blocks/moving_along", "not a direction"};
+        last = m.block;
+    }
     if (state.water.size() != (model.water.given ? blocks.present.size() : 0))
         return Damage{"/blocks/water", "not one force a block"};
     for (const Triple& f : state.water)

@@ -309,6 +309,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
 
     const bool is_last = now + 1 == run_end_ || state.contacts_outdated;
     evaluate(model, state, team, way.in_run, is_last, clock);
+    find_fast(model, state, team, now);
     clock.lap(CycleStage::force);
     team.barrier(
         [&]
@@ -327,7 +328,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     if (rules_.contact.law != ContactLaw::springs)
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
-    find_groups(state, team);
+    find_groups(state, team, now);
     if (impulses == 0)
         move(model, state, team, now);
     else
@@ -453,13 +454,6 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, d
         part.impulses.clear();
         if (part.tally.impulses > 0)
             collect_impulse_points(part.range, model, state.blocks, state.contacts, part.impulses);
-    }
-    const IndexRange blocks = team.share(static_cast<Index>(partition_.blocks.size()));
-    for (Index i = blocks.begin; i < blocks.end; ++i)
-    {
-        partition_.blocks[i].fast.clear();
-        if (std::isfinite(rules_.groups.speed))
-            find_fast(partition_.blocks[i].range, model, rules_.groups, state.blocks, partition_.blocks[i].fast);
     }
 }
 

@@ -12,6 +12,7 @@
 #include "parallel/team.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hdem
 {
@@ -29,15 +30,32 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
             sum_up({b, b + 1});
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
-    if (!part.fast.empty())
-        groups_.mark(part.range, state.blocks);
+    if (!state.moving.empty() && std::isfinite(rules_.groups.speed))
+        mark_moving(part.range, model, rules_.groups, state.moving, state.blocks);
     if (!part.bolted.empty())
         hold_by_bolts(work_.bolted, part.range, state.blocks);
 }
 
-void CycleRunner::find_groups(const State& state, const Team& team)
+bool CycleRunner::looks_for_groups(const State& state, std::int64_t now) const
 {
-    if (std::ranges::all_of(partition_.blocks, [](const BlockPart& part) { return part.fast.empty(); }))
+    return std::isfinite(rules_.groups.speed) && hdem::looks_for_groups(now - state.stage_begin_cycle);
+}
+
+void CycleRunner::find_fast(const Model& model, const State& state, const Team& team, std::int64_t now)
+{
+    const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = mine.begin; i < mine.end && looks_for_groups(state, now); ++i)
+    {
+        BlockPart& part = partition_.blocks[i];
+        part.fast.clear();
+        hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
+    }
+}
+
+void CycleRunner::find_groups(State& state, const Team& team, std::int64_t now)
+{
+    if (!looks_for_groups(state, now) ||
+        (state.moving.empty() && std::ranges::all_of(partition_.blocks, [](const BlockPart& part) { return part.fast.empty(); })))
         return;
     team.alone(
         [&]
@@ -48,7 +66,7 @@ void CycleRunner::find_groups(const State& state, const Team& team)
                 fast.insert(fast.end(), part.fast.begin(), part.fast.end());
                 bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
             }
-            groups_.find(rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts);
+            groups_.find(rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts, state.moving);
         });
 }
 

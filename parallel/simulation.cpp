@@ -224,6 +224,7 @@ void Simulation::begin_stage(Index stage)
     state_.statics_taken = false;
     state_.blocks.step.next = model_.time_step;
     std::ranges::fill(state_.blocks.stable_step, 0.0);  // of another stage; looked at where steps first vary
+    state_.moving.clear();
     wake_all(state_.blocks);
     if (def.relax_cycles > 0)
         release_tractions(model_, before, stage, state_);

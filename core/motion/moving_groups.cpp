@@ -29,11 +29,13 @@ enum class Tie
     slides
 };
 
-Tie tie_of(Index contact, int end, const Contacts& contacts, const EdgeTouch& touch, double speed)
+/// @param touch  asked for where it is needed only: it is dear
+template <typename Touch>
+Tie tie_of(Index contact, int end, const Contacts& contacts, const Touch& touch, double speed)
 {
     const std::uint8_t regime = contacts.regime[end][contact];
     if (regime == static_cast<std::uint8_t>(Regime::impulse))
-        return std::abs(touch.point[end].v_t) > speed ? Tie::slides : Tie::sticks;
+        return std::abs(touch().point[end].v_t) > speed ? Tie::slides : Tie::sticks;
     if (contacts.normal_force(end, contact) == 0.0 && contacts.shear_force(end, contact) == 0.0)
         return Tie::none;
     return regime == static_cast<std::uint8_t>(Regime::slip) ? Tie::slides : Tie::sticks;
@@ -69,7 +71,7 @@ void MovingGroups::look_at(Index member, Index contact, const GroupRule& rule, c
         return;  // seen from there
     if (contacts.regime[0][contact] == 0 && contacts.regime[1][contact] == 0)
         return;
-    const EdgeTouch touch = touch_edges(contacts.edges(contact), blocks.motion[ref], blocks.motion[inc]);
+    const auto touch = [&] { return touch_edges(contacts.edges(contact), blocks.motion[ref], blocks.motion[inc]); };
     for (int end = 0; end < 2; ++end)
     {
         if (contacts.regime[end][contact] == 0)
@@ -92,7 +94,8 @@ void MovingGroups::look_at(Index member, Index contact, const GroupRule& rule, c
         if (tie != Tie::slides)
             continue;
         const double normal = contacts.normal_force(end, contact), shear = contacts.shear_force(end, contact);
-        const Joint joint{.load = normal * normal + shear * shear, .t_x = touch.ex, .t_y = touch.ey};
+        const EdgeTouch at_joint = touch();
+        const Joint joint{.load = normal * normal + shear * shear, .t_x = at_joint.ex, .t_y = at_joint.ey};
         for (const Index at : {member, other})
             if (at != no_index && joint.load > members_[at].joint.load)
                 members_[at].joint = joint;
@@ -118,21 +121,21 @@ void MovingGroups::gather()
     }
 }
 
-void MovingGroups::choose()
+void MovingGroups::choose(std::vector<MovingBlock>& moving)
 {
-    marked_.clear();
+    moving.clear();
     for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
     {
         const Member& group = members_[root(k, &Member::together)];
         const bool flies = !members_[root(k, &Member::touching)].touches;
         if (!flies && (group.is_alone || group.is_held || !group.joint.is_there()))
             continue;
-        marked_.push_back({members_[k].block, flies, static_cast<float>(group.joint.t_x), static_cast<float>(group.joint.t_y)});
+        moving.push_back({members_[k].block, flies, static_cast<float>(group.joint.t_x), static_cast<float>(group.joint.t_y)});
     }
 }
 
 void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
-                        const Blocks& blocks, const Contacts& contacts, const BlockContacts& list)
+                        const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
 {
     for (const Member& member : members_)
         place_[member.block] = no_index;
@@ -151,16 +154,17 @@ void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, c
         for (Index e = list.begin[members_[k].block]; e < list.begin[members_[k].block + 1]; ++e)
             look_at(k, list.entry[e] / 2, rule, blocks, contacts);
     gather();
-    choose();
+    choose(moving);
 }
 
-void MovingGroups::mark(IndexRange range, Blocks& blocks) const
+void mark_moving(IndexRange range, const Model& model, const GroupRule& rule, const std::vector<MovingBlock>& moving,
+                 Blocks& blocks)
 {
-    for (auto at = std::ranges::lower_bound(marked_, range.begin, {}, &Marked::block); at != marked_.end() && at->block < range.end;
-         ++at)
+    for (auto at = std::ranges::lower_bound(moving, range.begin, {}, &MovingBlock::block);
+         at != moving.end() && at->block < range.end; ++at)
     {
         BlockForce& force = blocks.force[at->block];
-        if (force.contacts == 0)
+        if (force.contacts == 0 || !is_fast(at->block, model, rule.speed, blocks))
             continue;  // what touches nothing is not damped in any case
         force.reserve = 0.0;
         force.t_x = at->t_x;

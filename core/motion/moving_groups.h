@@ -4,6 +4,7 @@
 #include "core/model/model.h"
 #include "core/state/blocks.h"
 #include "core/state/contacts.h"
+#include "core/state/state.h"
 #include "core/state/workspace.h"
 
 #include <limits>
@@ -16,6 +17,14 @@ struct GroupRule
 {
     double speed = std::numeric_limits<double>::infinity();  ///< faster ones, or of whose rim [m/s]
 };
+
+/// Are groups looked for in the cycle that follows so many of the stage? Looking takes as long as a fifth of a cycle of rock whose blocks are all fast. So it is
+/// done in each of a stage's first cycles, in which most of what falls gets free, and then now and then.
+[[nodiscard]] constexpr bool looks_for_groups(std::int64_t cycles_of_stage)
+{
+    constexpr std::int64_t always = 64, every = 8;
+    return cycles_of_stage < always || cycles_of_stage % every == 0;
+}
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
@@ -33,11 +42,9 @@ class MovingGroups
   public:
     /// @param fast  ascending
     /// @param bolted  blocks with other forces between them than those of contacts: a group with one of them is left as it is
+    /// @param moving  members of groups of both kinds
     void find(const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted, const Blocks& blocks,
-              const Contacts& contacts, const BlockContacts& list);
-
-    /// Let damping know, once forces are summed. Writes: force of these blocks.
-    void mark(IndexRange range, Blocks& blocks) const;
+              const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 
   private:
     struct Joint
@@ -55,21 +62,17 @@ class MovingGroups
         Joint joint;               ///< to the outside that slides
         bool is_alone = true;      ///< nothing moves together with it
     };
-    struct Marked
-    {
-        Index block;
-        bool flies;
-        float t_x, t_y;
-    };
-
     Index root(Index member, Index Member::*parent);
     void join(Index a, Index b, Index Member::*parent);
     void look_at(Index member, Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts);
     void gather();
-    void choose();
+    void choose(std::vector<MovingBlock>& moving);
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;
-    std::vector<Marked> marked_;  ///< ascending
 };
+
+/// Let damping know, once forces are summed. Blocks that have become slow since groups were looked for are left out. Writes: force of these blocks.
+void mark_moving(IndexRange range, const Model& model, const GroupRule& rule, const std::vector<MovingBlock>& moving,
+                 Blocks& blocks);
 }  // namespace hdem

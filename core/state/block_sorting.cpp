@@ -108,6 +108,9 @@ void sort_blocks(Model& model, State& state)
     for (ReleasedForce& force : state.released)
         force.block = moved.block[force.block];
     std::ranges::sort(state.released, {}, &ReleasedForce::block);
+    for (MovingBlock& moving : state.moving)
+        moving.block = moved.block[moving.block];
+    std::ranges::sort(state.moving, {}, &MovingBlock::block);
     move_contacts(moved, state.contacts);
     state.contacts_outdated = true;
 }

@@ -98,6 +98,9 @@ static_assert(listed<BlockInertia>(inertia) + 1 == field_count<BlockInertia>(), 
 // What else acts on blocks. ReleasedForce:
 inline constexpr auto released_block = [](auto& f) { return std::tie(f.block); };
 inline constexpr auto released_force = [](auto& f) { return std::tie(f.x, f.y, f.moment); };
+// MovingBlock:
+inline constexpr auto moving_block = [](auto& m) { return std::tie(m.block, m.flies); };
+inline constexpr auto moving_along = [](auto& m) { return std::tie(m.t_x, m.t_y); };
 // Triple:
 inline constexpr auto triple = [](auto& f) { return std::tie(f.x, f.y, f.w); };
 // BoltRecord:
@@ -110,6 +113,7 @@ inline constexpr auto liner_counts = [](auto& l) { return std::tie(l.since, l.hi
 inline constexpr auto liner_record = [](auto& l)
 { return std::tie(l.thrust, l.moment, l.displacement, l.parted, l.stored, l.spent); };
 static_assert(listed<ReleasedForce>(released_block, released_force) == field_count<ReleasedForce>());
+static_assert(listed<MovingBlock>(moving_block, moving_along) == field_count<MovingBlock>());
 static_assert(listed<Triple>(triple) == field_count<Triple>());
 static_assert(listed<BoltRecord>(bolt_status, bolt_record) == field_count<BoltRecord>());
 static_assert(listed<LinerRecord>(liner_installed, liner_counts, liner_record) == field_count<LinerRecord>());

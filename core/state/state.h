@@ -23,6 +23,14 @@ struct ReleasedForce
     double moment = 0.0;  ///< about the block's centroid [N m]
 };
 
+/// A block that falls or slides together with others, and how (core/motion/moving_groups.h).
+struct MovingBlock
+{
+    Index block = no_index;
+    bool flies = false;            ///< its group touches nothing; else it slides on joints of this direction
+    float t_x = 1.0F, t_y = 0.0F;  ///< [-]
+};
+
 struct State
 {
     Blocks blocks;
@@ -30,6 +38,7 @@ struct State
     std::vector<BlockMotion> rebuilt_at;    ///< poses at the last broad-phase rebuild
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
+    std::vector<MovingBlock> moving;        ///< as last looked for, ascending by block
     std::vector<Triple> water;  ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
     SupportState support;
     EnergyLedger ledger;

@@ -52,7 +52,7 @@ void for_each_counter(AnyState& state, const Use& use)
     use("feature_searches", state.feature_searches);
 }
 static_assert(field_count<Steps>() == 2 && field_count<WorstResidual>() == 3 && field_count<SupportState>() == 3 &&
-                  field_count<State>() == 32,
+                  field_count<State>() == 33,
               "a new member needs its line above, or its list");
 
 /// What is remembered of the ends of the running stage.
@@ -94,6 +94,14 @@ void for_each_of_blocks(AnyState& state, const Use& use)
     use(As<double>{}, "/blocks/reference_angle", blocks.reference_angle, fields::number);
     if (!state.water.empty())
         use(As<double>{}, "/blocks/water", state.water, fields::triple);
+}
+
+/// Blocks that move together.
+template <typename AnyState, typename Use>
+void for_each_of_groups(AnyState& state, const Use& use)
+{
+    use(As<std::int32_t>{}, "/blocks/moving", state.moving, fields::moving_block);
+    use(As<float>{}, "/blocks/moving_along", state.moving, fields::moving_along);
 }
 
 /// Blocks that excavations have touched, and what is still to be taken off them.

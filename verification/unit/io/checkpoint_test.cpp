@@ -145,17 +145,17 @@ TEST(Checkpoint, EndsStagesInTheSameCycle)
     const auto end = [](const char* text) { return read_stage_end(text).end; };
     scene.convergence.mean_speed = 1e-2;
     scene.loads = {{.blocks = {"*"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 350.0)}}};
-    scene.stages = {{.name = "quiet", .ends = {end("quiet for 150 cycles"), end("displacement > 5")}, .max_cycles = 2000},
-                    {.name = "dig", .ends = {end("displacement > 1e-3 for 30 cycles")}, .max_cycles = 2000, .excavate = {"tunnel"}},
+    scene.stages = {{.name = "quiet", .ends = {end("quiet for 150 cycles"), end("displacement > 5")}, .max_cycles = 4000},
+                    {.name = "dig", .ends = {end("displacement > 1e-3 for 30 cycles")}, .max_cycles = 4000, .excavate = {"tunnel"}},
                     {.name = "band",
                      .ends = {end("history:pair.shear_displacement within 1e-3 for 120 cycles"), end("time > 100")},
-                     .max_cycles = 2000}};
+                     .max_cycles = 4000}};
     const Ended unbroken = run_unbroken(scene);
     ASSERT_EQ(unbroken.stage_cycles.size(), 9u);
     EXPECT_GT(unbroken.stage_cycles[1], 500) << "350 cycles of the ramp and 150 of quiet";
-    EXPECT_LT(unbroken.stage_cycles[1], 2000);
-    EXPECT_LT(unbroken.stage_cycles[4], 2000);
-    EXPECT_LT(unbroken.stage_cycles[7], 2000);
+    EXPECT_LT(unbroken.stage_cycles[1], 4000);
+    EXPECT_LT(unbroken.stage_cycles[4], 4000);
+    EXPECT_LT(unbroken.stage_cycles[7], 4000);
     std::mt19937 random(1);
     std::vector<std::int64_t> cycles = {unbroken.stage_cycles[1] - 10, unbroken.stage_cycles[1], unbroken.cycle - 20};
     while (cycles.size() < 15)
