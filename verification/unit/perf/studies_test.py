@@ -68,8 +68,18 @@ class Studies(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertEqual([(row["method"], row["n"], row["ratio"]) for row in self.table("peers.csv")], [("force", "5", "90.0"), ("hybrid", "5", "90.0")])
         self.assertEqual(self.run_script("peers", "--processes", 4)[0], 2, "a median of four")
+        v3 = [stand_in.row(f"box2d_v3_{substeps}/wall/1000", ns_per_contact_point=ns) for substeps, ns in ((4, 30.0), (16, 15.0))]
+        stand_in.write(self.folder / "hdem_perf", rows + [stand_in.row("box2d/wall/1000", ns_per_contact_point=900.0)] + v3)
+        code, said = self.run_script("peers", "--scenes", "wall", "--blocks", 1000, "--box2d-v3", self.folder, "-o", self.folder / "peers.csv")
+        self.assertEqual(code, 0, said)
+        self.assertEqual([row["ratio"] for row in self.table("peers.csv") if row["method"] == "hybrid"], ["90.0", "3.0", "1.5"])
         stand_in.write(self.folder / "hdem_perf", rows)
         self.assertIn("has no Box2D", self.run_script("peers", "--scenes", "wall", "--blocks", 1000)[1])
+
+    def test_peers_refuses_a_folder_without_box2d_v3(self):
+        done = subprocess.run([PERF / "peers", "--box2d-v3", self.folder], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no include/box2d/id.h below it", done.stderr)
 
     def beside(self, hash_of_auto):
         """perf/beside_others with a stand-in for hdem that takes 3 s, and 2 s with threads that adapt."""
