@@ -38,7 +38,7 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
 
 bool CycleRunner::looks_for_groups(const State& state, std::int64_t now) const
 {
-    return std::isfinite(rules_.groups.speed) && hdem::looks_for_groups(now - state.stage_begin_cycle);
+    return std::isfinite(rules_.groups.speed) && hdem::looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
 }
 
 void CycleRunner::find_fast(const Model& model, const State& state, const Team& team, std::int64_t now)

@@ -29,16 +29,43 @@ enum class Tie
     slides
 };
 
-/// @param touch  asked for where it is needed only: it is dear
-template <typename Touch>
-Tie tie_of(Index contact, int end, const Contacts& contacts, const Touch& touch, double speed)
+EdgeTouch touch_of(Index contact, const Blocks& blocks, const Contacts& contacts)
+{
+    return touch_edges(contacts.edges(contact), blocks.motion[contacts.ref[contact]], blocks.motion[contacts.inc[contact]]);
+}
+
+Tie tie_of(Index contact, int end, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
 {
     const std::uint8_t regime = contacts.regime[end][contact];
+    if (regime == static_cast<std::uint8_t>(Regime::open))
+        return Tie::none;
     if (regime == static_cast<std::uint8_t>(Regime::impulse))
-        return std::abs(touch().point[end].v_t) > speed ? Tie::slides : Tie::sticks;
+        return std::abs(touch_of(contact, blocks, contacts).point[end].v_t) > rule.speed ? Tie::slides : Tie::sticks;
     if (contacts.normal_force(end, contact) == 0.0 && contacts.shear_force(end, contact) == 0.0)
         return Tie::none;
     return regime == static_cast<std::uint8_t>(Regime::slip) ? Tie::slides : Tie::sticks;
+}
+
+bool do_touch(Index contact, const Contacts& contacts)
+{
+    return (contacts.regime[0][contact] | contacts.regime[1][contact]) != 0;
+}
+
+/// Do two members of these blocks move together? Where a point is closed and does not slide.
+bool are_together(Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
+{
+    for (int end = 0; end < 2; ++end)
+    {
+        const auto regime = static_cast<Regime>(contacts.regime[end][contact]);
+        if (regime == Regime::stick || (regime != Regime::open && tie_of(contact, end, rule, blocks, contacts) != Tie::slides))
+            return true;
+    }
+    return false;
+}
+
+Index other_block(Index block, Index contact, const Contacts& contacts)
+{
+    return contacts.ref[contact] == block ? contacts.inc[contact] : contacts.ref[contact];
 }
 }  // namespace
 
@@ -49,112 +76,127 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
             fast.push_back(b);
 }
 
-Index MovingGroups::root(Index member, Index Member::*parent)
+void MovingGroups::take_members(const std::vector<Index>& fast, Index blocks)
 {
-    while (members_[member].*parent != member)
-        member = members_[member].*parent = members_[members_[member].*parent].*parent;
-    return member;
-}
-
-void MovingGroups::join(Index a, Index b, Index Member::*parent)
-{
-    const Index first = root(a, parent), second = root(b, parent);
-    members_[std::max(first, second)].*parent = std::min(first, second);
-}
-
-void MovingGroups::look_at(Index member, Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
-{
-    const Index ref = contacts.ref[contact], inc = contacts.inc[contact];
-    Member& me = members_[member];
-    const Index other = place_[ref == me.block ? inc : ref];
-    if (other != no_index && other < member)
-        return;  // seen from there
-    if (contacts.regime[0][contact] == 0 && contacts.regime[1][contact] == 0)
-        return;
-    const auto touch = [&] { return touch_edges(contacts.edges(contact), blocks.motion[ref], blocks.motion[inc]); };
-    for (int end = 0; end < 2; ++end)
+    for (const Member& member : members_)
+        place_[member.block] = no_index;
+    place_.resize(static_cast<std::size_t>(blocks), no_index);
+    members_.clear();
+    for (const Index block : fast)
     {
-        if (contacts.regime[end][contact] == 0)
-            continue;
-        const Tie tie = tie_of(contact, end, contacts, touch, rule.speed);
-        if (other == no_index)
+        place_[block] = static_cast<Index>(members_.size());
+        members_.push_back({.block = block});
+    }
+}
+
+/// What members touch that is not fast.
+void MovingGroups::look_outside(const View& view)
+{
+    for (Member& member : members_)
+        for (Index e = view.list.begin[member.block]; e < view.list.begin[member.block + 1] && !member.held; ++e)
         {
-            me.touches = true;
-            me.is_held = me.is_held || tie == Tie::sticks;
-        }
-        else
-        {
-            join(member, other, &Member::touching);
-            if (tie != Tie::slides)
-            {
-                join(member, other, &Member::together);
+            const Index contact = view.list.entry[e] / 2;
+            if (place_[other_block(member.block, contact, view.contacts)] != no_index || !do_touch(contact, view.contacts))
                 continue;
-            }
+            member.touched = true;
+            for (int end = 0; end < 2; ++end)
+                member.held = member.held || tie_of(contact, end, view.rule, view.blocks, view.contacts) == Tie::sticks;
         }
-        if (tie != Tie::slides)
-            continue;
-        const double normal = contacts.normal_force(end, contact), shear = contacts.shear_force(end, contact);
-        const EdgeTouch at_joint = touch();
-        const Joint joint{.load = normal * normal + shear * shear, .t_x = at_joint.ex, .t_y = at_joint.ey};
-        for (const Index at : {member, other})
-            if (at != no_index && joint.load > members_[at].joint.load)
-                members_[at].joint = joint;
+}
+
+/// From those that are reached on to all that contacts lead to which let pass.
+template <bool MovingGroups::Member::*reached, typename Passes>
+void MovingGroups::flood(const View& view, const Passes& passes)
+{
+    queue_.clear();
+    for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
+        if (members_[k].*reached)
+            queue_.push_back(k);
+    while (!queue_.empty())
+    {
+        const Index block = members_[queue_.back()].block;
+        queue_.pop_back();
+        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
+        {
+            const Index contact = view.list.entry[e] / 2;
+            const Index other = place_[other_block(block, contact, view.contacts)];
+            if (other == no_index || members_[other].*reached || !passes(contact))
+                continue;
+            members_[other].*reached = true;
+            queue_.push_back(other);
+        }
     }
 }
 
-/// What is known of the members becomes known of the groups, at their roots.
-void MovingGroups::gather()
+/// All that moves together with a member that is not held, and the joint on which they slide.
+void MovingGroups::gather(Index member, const View& view)
 {
-    for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
+    const auto number = static_cast<Index>(groups_.size());
+    Group group;
+    members_[member].group = number;
+    queue_.assign(1, member);
+    while (!queue_.empty())
     {
-        Member& member = members_[k];
-        Member& cluster = members_[root(k, &Member::touching)];
-        cluster.touches = cluster.touches || member.touches;
-        const Index first = root(k, &Member::together);
-        if (first == k)
-            continue;
-        Member& group = members_[first];
-        group.is_alone = member.is_alone = false;
-        group.is_held = group.is_held || member.is_held;
-        if (member.joint.load > group.joint.load)
-            group.joint = member.joint;
+        const Index block = members_[queue_.back()].block;
+        queue_.pop_back();
+        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
+        {
+            const Index contact = view.list.entry[e] / 2;
+            for (int end = 0; end < 2; ++end)
+            {
+                if (tie_of(contact, end, view.rule, view.blocks, view.contacts) != Tie::slides)
+                    continue;
+                const double normal = view.contacts.normal_force(end, contact), shear = view.contacts.shear_force(end, contact);
+                const double load = normal * normal + shear * shear;
+                if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
+                    group = {.load = load, .contact = contact, .is_alone = group.is_alone};
+            }
+            const Index other = place_[other_block(block, contact, view.contacts)];
+            if (other == no_index || members_[other].group != no_index ||
+                !are_together(contact, view.rule, view.blocks, view.contacts))
+                continue;
+            members_[other].group = number;
+            group.is_alone = false;
+            queue_.push_back(other);
+        }
     }
+    groups_.push_back(group);
 }
 
-void MovingGroups::choose(std::vector<MovingBlock>& moving)
+void MovingGroups::find_groups(const View& view)
 {
-    moving.clear();
+    groups_.clear();
     for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
-    {
-        const Member& group = members_[root(k, &Member::together)];
-        const bool flies = !members_[root(k, &Member::touching)].touches;
-        if (!flies && (group.is_alone || group.is_held || !group.joint.is_there()))
-            continue;
-        moving.push_back({members_[k].block, flies, static_cast<float>(group.joint.t_x), static_cast<float>(group.joint.t_y)});
-    }
+        if (!members_[k].held && members_[k].group == no_index)
+            gather(k, view);
 }
 
 void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
                         const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
 {
-    for (const Member& member : members_)
-        place_[member.block] = no_index;
-    place_.resize(static_cast<std::size_t>(blocks.size()), no_index);
-    members_.clear();
-    for (const Index block : fast)
-    {
-        const auto at = static_cast<Index>(members_.size());
-        place_[block] = at;
-        members_.push_back({.block = block, .touching = at, .together = at});
-    }
+    const View view{rule, blocks, contacts, list};
+    take_members(fast, blocks.size());
+    look_outside(view);
     for (const Index block : bolted)
         if (place_[block] != no_index)
-            members_[place_[block]].touches = members_[place_[block]].is_held = true;
-    for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
-        for (Index e = list.begin[members_[k].block]; e < list.begin[members_[k].block + 1]; ++e)
-            look_at(k, list.entry[e] / 2, rule, blocks, contacts);
-    gather();
-    choose(moving);
+            members_[place_[block]].touched = members_[place_[block]].held = true;
+    flood<&Member::held>(view, [&](Index contact) { return are_together(contact, rule, blocks, contacts); });
+    for (Member& member : members_)
+        member.touched = member.touched || member.held;
+    flood<&Member::touched>(view, [&](Index contact) { return do_touch(contact, contacts); });
+    find_groups(view);
+    moving.clear();
+    for (const Member& member : members_)
+    {
+        if (member.held)
+            continue;
+        const Group& group = groups_[member.group];
+        const bool slides = !group.is_alone && group.contact != no_index;
+        if (member.touched && !slides)
+            continue;
+        const EdgeTouch touch = slides ? touch_of(group.contact, blocks, contacts) : EdgeTouch();
+        moving.push_back({member.block, !member.touched, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
+    }
 }
 
 void mark_moving(IndexRange range, const Model& model, const GroupRule& rule, const std::vector<MovingBlock>& moving,

@@ -18,12 +18,12 @@ struct GroupRule
     double speed = std::numeric_limits<double>::infinity();  ///< faster ones, or of whose rim [m/s]
 };
 
-/// Are groups looked for in the cycle that follows so many of the stage? Looking takes as long as a fifth of a cycle of rock whose blocks are all fast. So it is
-/// done in each of a stage's first cycles, in which most of what falls gets free, and then now and then.
-[[nodiscard]] constexpr bool looks_for_groups(std::int64_t cycles_of_stage)
+/// Are groups looked for in the cycle that follows so many of the stage? Where all blocks are fast that takes as long as a good part of a cycle. So it is done in each of a
+/// stage's first cycles, in which most of what falls gets free, and then now and then: more often while there are some.
+[[nodiscard]] constexpr bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some)
 {
-    constexpr std::int64_t always = 64, every = 8;
-    return cycles_of_stage < always || cycles_of_stage % every == 0;
+    constexpr std::int64_t always = 64, often = 8, seldom = 32;
+    return cycles_of_stage < always || cycles_of_stage % (there_are_some ? often : seldom) == 0;
 }
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
@@ -47,29 +47,38 @@ class MovingGroups
               const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 
   private:
-    struct Joint
-    {
-        double load = -1.0;           ///< squared, of the most loaded one [N2]
-        double t_x = 1.0, t_y = 0.0;  ///< its direction
-        [[nodiscard]] bool is_there() const { return load > 0.0; }
-    };
     struct Member
     {
         Index block;
-        Index touching, together;  ///< parents, in members
-        bool touches = false;      ///< something that does not belong to the fast ones
-        bool is_held = false;      ///< by a joint that does not slide
-        Joint joint;               ///< to the outside that slides
-        bool is_alone = true;      ///< nothing moves together with it
+        bool touched = false;    ///< it, or a member that it touches, touches what is not fast
+        bool held = false;       ///< by a joint that does not slide, or together with such a member
+        Index group = no_index;  ///< of those that are not held
     };
-    Index root(Index member, Index Member::*parent);
-    void join(Index a, Index b, Index Member::*parent);
-    void look_at(Index member, Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts);
-    void gather();
-    void choose(std::vector<MovingBlock>& moving);
+    struct Group
+    {
+        double load = 0.0;  ///< of its most loaded joint that slides, squared [N2]
+        Index contact = no_index;
+        bool is_alone = true;  ///< it has one member
+    };
+    struct View
+    {
+        const GroupRule& rule;
+        const Blocks& blocks;
+        const Contacts& contacts;
+        const BlockContacts& list;
+    };
+
+    void take_members(const std::vector<Index>& fast, Index blocks);
+    void look_outside(const View& view);
+    template <bool Member::*reached, typename Passes>
+    void flood(const View& view, const Passes& passes);
+    void find_groups(const View& view);
+    void gather(Index member, const View& view);
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;
+    std::vector<Group> groups_;
+    std::vector<Index> queue_;  ///< members
 };
 
 /// Let damping know, once forces are summed. Blocks that have become slow since groups were looked for are left out. Writes: force of these blocks.
