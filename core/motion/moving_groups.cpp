@@ -69,6 +69,12 @@ Index other_block(Index block, Index contact, const Contacts& contacts)
 }
 }  // namespace
 
+bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some)
+{
+    constexpr std::int64_t always = 64, often = 16, seldom = 32;
+    return cycles_of_stage < always || cycles_of_stage % (there_are_some ? often : seldom) == 0;
+}
+
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast)
 {
     for (Index b = range.begin; b < range.end; ++b)
@@ -89,19 +95,41 @@ void MovingGroups::take_members(const std::vector<Index>& fast, Index blocks)
     }
 }
 
-/// What members touch that is not fast.
+/// What members touch that is not fast: from the side of which there are fewer.
 void MovingGroups::look_outside(const View& view)
 {
-    for (Member& member : members_)
-        for (Index e = view.list.begin[member.block]; e < view.list.begin[member.block + 1] && !member.held; ++e)
-        {
-            const Index contact = view.list.entry[e] / 2;
-            if (place_[other_block(member.block, contact, view.contacts)] != no_index || !do_touch(contact, view.contacts))
-                continue;
-            member.touched = true;
-            for (int end = 0; end < 2; ++end)
-                member.held = member.held || tie_of(contact, end, view.rule, view.blocks, view.contacts) == Tie::sticks;
-        }
+    const auto all = static_cast<Index>(place_.size()), inside = static_cast<Index>(members_.size());
+    const auto look = [&](Index block, auto&& take)
+    {
+        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
+            take(view.list.entry[e] / 2, place_[other_block(block, view.list.entry[e] / 2, view.contacts)]);
+    };
+    if (2 * inside < all)
+        for (Member& member : members_)
+            look(member.block,
+                 [&](Index contact, Index other)
+                 {
+                     if (other == no_index)
+                         take_outside(member, contact, view);
+                 });
+    else
+        for (Index block = 0; block < all; ++block)
+            if (place_[block] == no_index)
+                look(block,
+                     [&](Index contact, Index other)
+                     {
+                         if (other != no_index)
+                             take_outside(members_[other], contact, view);
+                     });
+}
+
+void MovingGroups::take_outside(Member& member, Index contact, const View& view)
+{
+    if (member.held || !do_touch(contact, view.contacts))
+        return;
+    member.touched = true;
+    for (int end = 0; end < 2; ++end)
+        member.held = member.held || tie_of(contact, end, view.rule, view.blocks, view.contacts) == Tie::sticks;
 }
 
 /// From those that are reached on to all that contacts lead to which let pass.

@@ -20,11 +20,7 @@ struct GroupRule
 
 /// Are groups looked for in the cycle that follows so many of the stage? Where all blocks are fast that takes as long as a good part of a cycle. So it is done in each of a
 /// stage's first cycles, in which most of what falls gets free, and then now and then: more often while there are some.
-[[nodiscard]] constexpr bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some)
-{
-    constexpr std::int64_t always = 64, often = 8, seldom = 32;
-    return cycles_of_stage < always || cycles_of_stage % (there_are_some ? often : seldom) == 0;
-}
+[[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
@@ -70,6 +66,7 @@ class MovingGroups
 
     void take_members(const std::vector<Index>& fast, Index blocks);
     void look_outside(const View& view);
+    void take_outside(Member& member, Index contact, const View& view);
     template <bool Member::*reached, typename Passes>
     void flood(const View& view, const Passes& passes);
     void find_groups(const View& view);
