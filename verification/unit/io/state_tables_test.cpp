@@ -1,6 +1,7 @@
-/// Each number of a state is in the checkpoint.
+/// Each number of a state is in the checkpoint, and each that decides the future in the hash.
 
 #include "core/rock/build_model.h"
+#include "core/state/state_hash.h"
 #include "core/state/state_tables.h"
 #include "io/checkpoint.h"
 #include "parallel/simulation.h"
@@ -88,7 +89,7 @@ struct Pick
 };
 
 /// Goes through all numbers of one row of each table: of the row after the first, where there is one.
-/// @param told  also those that decide nothing
+/// @param told  also those that decide nothing, behind the others
 void pick_from(State& state, bool told, Pick& pick)
 {
     const auto value = [&](const char* name, auto& number) { pick.look(name, number); };
@@ -116,6 +117,7 @@ void pick_from(State& state, bool told, Pick& pick)
     }
     if (!told)
         return;
+    tables::for_each_derived(state, row);
     tables::for_each_counter(state, value);
     tables::for_each_told(state, row);
     for (const LedgerTerm& term : ledger_terms)
@@ -194,6 +196,7 @@ TEST_F(StateTables, HoldEachFieldOnce)
         { fields::for_each(list, rows.front(), [&](auto&) { ++sum; }); };
     };
     tables::for_each_of_blocks(state, counter(blocks));
+    tables::for_each_derived(state, counter(blocks));
     tables::for_each_of_support(state.support, counter(support));
     tables::for_each_of_ends(state, counter(ends));
     tables::for_each_told(state, counter(told));
@@ -233,6 +236,30 @@ TEST_F(StateTables, AreAllInTheCheckpoint)
         EXPECT_EQ(read.value, pick.value) << pick.name << ", number " << i;
     }
     EXPECT_LT(refused, numbers / 4);
+}
+
+TEST_F(StateTables, WhatDecidesTheFutureIsInTheHash)
+{
+    const std::uint64_t hash = state_hash(*model_, *state_);
+    const int numbers = count(false);
+    EXPECT_GT(numbers, 120);
+    for (int i = 0; i < numbers; ++i)
+    {
+        Pick pick{.wanted = i};
+        const State state = with_change(pick, false);
+        EXPECT_NE(state_hash(*model_, state), hash) << pick.name << ", number " << i;
+    }
+}
+
+TEST_F(StateTables, WhatIsOnlyToldIsNotInTheHash)
+{
+    const std::uint64_t hash = state_hash(*model_, *state_);
+    for (int i = count(false); i < count(true); ++i)
+    {
+        Pick pick{.wanted = i};
+        const State state = with_change(pick, true);
+        EXPECT_EQ(state_hash(*model_, state), hash) << pick.name << ", number " << i;
+    }
 }
 }  // namespace
 }  // namespace hdem
