@@ -68,7 +68,7 @@ void check_collapse(Report& report)
             {turn + "displacement of the ring [mm]", "p R² / E t", 0.48, 1e3 * ring.column("ring.liner_displacement").back()},
             relative(5e-3));
     }
-    require_same_bits(report, "support/fixed_beam.toml");
+    require_same_bits(report, "support/fixed_beam.toml", {}, std::array{"force"});  // 30 000 cycles
     require_same_bits(report, "support/ring.toml");
 }
 }  // namespace
