@@ -113,8 +113,10 @@ void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
 
     const auto n = static_cast<std::uint64_t>(blocks);
     archive.template rows<std::int32_t>("/blocks/user_number", n, unpacked.user_number, fields::number);
-    tables::for_each_of_blocks(state, [&]<typename T>(tables::As<T>, const char* path, auto& rows, const auto& list)
-                               { archive.template rows<T>(path, n, rows, list); });
+    const auto of_blocks = [&]<typename T>(tables::As<T>, const char* path, auto& rows, const auto& list)
+    { archive.template rows<T>(path, n, rows, list); };
+    tables::for_each_of_blocks(state, of_blocks);
+    tables::for_each_derived(state, of_blocks);
     tables::for_each_of_groups(state, table);
     tables::for_each_of_excavations(state, table);
 

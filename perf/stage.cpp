@@ -55,6 +55,10 @@ bool matches_cycle(benchmark::State& bench, const Simulation& run)
     move(run.model(), scratch);
     Simulation cycle(run.model(), run.state(), 1);
     cycle.advance(1);
+    // What a cycle does besides its stages: it counts, and the step that it has used becomes the last one.
+    ++scratch.state.cycle;
+    scratch.state.time += scratch.state.blocks.step.next;
+    scratch.state.blocks.step.last = scratch.state.blocks.step.next;
     const bool same = state_hash(run.model(), scratch.state) == state_hash(run.model(), cycle.state());
     if (!same)
         bench.SkipWithError("the stages one by one give another state than a cycle");

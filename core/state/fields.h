@@ -6,7 +6,10 @@
 /// the hash, the checkpoint, the check for finite numbers.
 ///
 /// A new field needs its line in the record and its place in a list; the assertions fail until it is there. core/state/state_tables.h
-/// says which arrays of the state hold these records.
+/// says which arrays of the state hold these records, and which of them decide how a run goes on: those are in state_hash.
+///
+/// Two fields of the records decide nothing, as each cycle finds them anew before it uses them: `joint_use`, and BlockForce::joint_load, which is in no list.
+/// Tilt forces and views of contacts are written only in cycles that need them (PassNeeds), but always in the last one of a call: a state that can be looked at has them.
 
 #include "core/state/field_count.h"
 #include "core/state/state.h"

@@ -1,10 +1,11 @@
 #include "core/state/state_hash.h"
 
-#include "core/state/fields.h"
 #include "core/state/hash_stream.h"
+#include "core/state/state_tables.h"
 
 #include <algorithm>
-#include <array>
+#include <numeric>
+#include <type_traits>
 
 namespace hdem
 {
@@ -22,99 +23,104 @@ std::vector<Index> user_part_numbers(const Model& model)
     return number;
 }
 
-struct HashedContact
+template <typename T>
+void add_number(const T& number, HashStream& hash)
 {
-    std::int64_t low, high, sense;  ///< parts by user number; sense: the reference edge is on `low`
-    std::array<double, 6> history;  ///< forces, rest overlaps
-    std::array<std::int64_t, 2> regime;
-};
-
-struct HashedPreload
-{
-    std::int64_t low, high;
-    std::array<double, 2> preload;
-};
-
-struct HashedMemory
-{
-    std::int64_t low, high;
-    std::array<double, 10> memory;
-};
-
-std::array<double, 10> memory_of(const Contact& contact)
-{
-    std::array<double, 10> numbers{};
-    auto at = numbers.begin();
-    for (const PointHistory& point : contact.point)
-        fields::for_each(fields::memory, point.memory, [&](double number) { *at++ = number + 0.0; });
-    return numbers;
+    if constexpr (std::is_floating_point_v<T>)
+        hash.add(static_cast<double>(number));
+    else
+    {
+        const auto whole = static_cast<std::int64_t>(number);  // not every one of them is a double
+        hash.add_bytes(&whole, sizeof whole);
+    }
 }
 
-template <typename Rows>
-void add_sorted(Rows& rows, HashStream& hash)
-{
-    std::sort(rows.begin(), rows.end(),
-              [](const auto& p, const auto& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
-    hash.add_bytes(rows.data(), rows.size() * sizeof(rows.front()));
-}
-
-/// The numbers of a list of core/state/fields.h.
 template <typename List, typename Record>
-void add_list(const List& list, const Record& record, HashStream& hash)
+void add_row(const List& list, const Record& record, HashStream& hash)
 {
-    fields::for_each(list, record, [&](const auto& number) { hash.add(static_cast<double>(number)); });
+    fields::for_each(list, record, [&](const auto& number) { add_number(number, hash); });
 }
 
-void add_support(const SupportState& support, HashStream& hash)
+/// What State tells of blocks by their slots.
+struct NamedBlocks
 {
-    for (const BoltRecord& b : support.bolts)
-        hash.add({static_cast<double>(b.status), b.force, b.shear_force, b.greatest_force});
-    for (const LinerRecord& l : support.liners)
-        hash.add({static_cast<double>(l.installed), static_cast<double>(l.since), l.spent});
-    for (const double value : support.history)
-        hash.add(value);
+    std::vector<Index> next_to_excavation;
+    std::vector<ReleasedForce> released;
+    std::vector<MovingBlock> moving;
+};
+
+NamedBlocks in_user_order(const Model& model, const State& state)
+{
+    NamedBlocks named{state.next_to_excavation, state.released, state.moving};
+    for (Index& block : named.next_to_excavation)
+        block = model.user_number[block];
+    std::ranges::sort(named.next_to_excavation);
+    for (ReleasedForce& force : named.released)
+        force.block = model.user_number[force.block];
+    std::ranges::sort(named.released, {}, &ReleasedForce::block);
+    for (MovingBlock& moving : named.moving)
+        moving.block = model.user_number[moving.block];
+    std::ranges::sort(named.moving, {}, &MovingBlock::block);
+    return named;
 }
 
-/// Points that are closed, then preloads and memories of all.
+/// A contact by the user's numbers: of its parts, the lower one first, of its blocks, and of edges within their parts.
+Contact in_user_numbers(const Model& model, const std::vector<Index>& part_number, Contact contact)
+{
+    const Index ref_part = contact.swapped ? contact.part_b : contact.part_a;
+    const Index inc_part = contact.swapped ? contact.part_a : contact.part_b;
+    const Index ref = part_number[ref_part], inc = part_number[inc_part];
+    contact.part_a = std::min(ref, inc);
+    contact.part_b = std::max(ref, inc);
+    contact.swapped = ref > inc;
+    contact.ref = model.user_number[contact.ref];
+    contact.inc = model.user_number[contact.inc];
+    contact.ref_edge -= model.shapes.vertex_begin[ref_part];
+    contact.inc_edge -= model.shapes.vertex_begin[inc_part];
+    return contact;
+}
+
 void add_contacts(const Model& model, const Contacts& contacts, HashStream& hash)
 {
-    const std::vector<Index> number = user_part_numbers(model);
-    std::vector<HashedContact> closed;
-    std::vector<HashedPreload> preloads;
-    std::vector<HashedMemory> memories;
-    for (Index i = 0; i < contacts.size(); ++i)
+    const std::vector<Index> part_number = user_part_numbers(model);
+    const auto pair_of = [&](Index i)
     {
-        const Contact c = contacts.get(i);
-        const PointHistory &p = c.point[0], &q = c.point[1];
-        const Index a = number[c.part_a], b = number[c.part_b];
-        const bool ref_is_a = model.shapes.part_block[c.part_a] == c.ref;
-        const std::int64_t low = std::min(a, b), high = std::max(a, b);
-        if (p.regime != Regime::open || q.regime != Regime::open)
-            closed.push_back({low,
-                              high,
-                              (ref_is_a ? a : b) == low,
-                              {p.normal_force + 0.0, q.normal_force + 0.0, p.shear_force + 0.0, q.shear_force + 0.0,
-                               p.rest_overlap + 0.0, q.rest_overlap + 0.0},
-                              {static_cast<std::int64_t>(p.regime), static_cast<std::int64_t>(q.regime)}});
-        if (contacts.has_preload)
-            preloads.push_back({low, high, {p.preload + 0.0, q.preload + 0.0}});
-        if (contacts.has_memory)
-            memories.push_back({low, high, memory_of(c)});
+        const Index a = part_number[contacts.part_a[i]], b = part_number[contacts.part_b[i]];
+        return std::pair(std::min(a, b), std::max(a, b));
+    };
+    std::vector<Index> order(static_cast<std::size_t>(contacts.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::ranges::sort(order, {}, pair_of);
+    for (const Index i : order)
+    {
+        const Contact contact = in_user_numbers(model, part_number, contacts.get(i));
+        tables::for_each_of_contact(contacts.has_preload, contacts.has_memory,
+                                    [&](auto, const char*, const auto& list) { add_row(list, contact, hash); });
+        add_number(contacts.stale[i], hash);
     }
-    add_sorted(closed, hash);
-    add_sorted(preloads, hash);
-    add_sorted(memories, hash);
 }
 }  // namespace
 
 std::uint64_t state_hash(const Model& model, const State& state)
 {
     HashStream hash;
-    for (const Index i : model.slot_of_user)
-        add_list(fields::motion, state.blocks.motion[i], hash);
-    for (const Index i : state.water.empty() ? std::vector<Index>{} : model.slot_of_user)
-        add_list(fields::triple, state.water[i], hash);
-    add_support(state.support, hash);
+    const auto all_rows = [&](auto, const char*, const auto& rows, const auto& list)
+    {
+        for (const auto& row : rows)
+            add_row(list, row, hash);
+    };
+    tables::for_each_of_run(state, [&](const char*, const auto& number) { add_number(number, hash); });
+    tables::for_each_of_ends(state, all_rows);
+    tables::for_each_of_blocks(state,
+                               [&](auto, const char*, const auto& rows, const auto& list)
+                               {
+                                   for (const Index i : model.slot_of_user)
+                                       add_row(list, rows[i], hash);
+                               });
+    const NamedBlocks named = in_user_order(model, state);
+    tables::for_each_of_excavations(named, all_rows);
+    tables::for_each_of_groups(named, all_rows);
+    tables::for_each_of_support(state.support, all_rows);
     add_contacts(model, state.contacts, hash);
     return hash.digest();
 }

@@ -2,6 +2,8 @@
 /// All numbers of the state: each table with its name in the checkpoint, its array and the list of a row's fields. What saves, loads,
 /// hashes and tests a state goes through these functions.
 ///
+/// The checkpoint has them all. state_hash has those that decide how the run goes on: not for_each_counter, for_each_told, for_each_derived and the ledger.
+///
 /// A table goes to use(As<type in the checkpoint>{}, name, array, list), a single number to use(name, number).
 
 #include "core/state/fields.h"
@@ -83,7 +85,6 @@ void for_each_of_blocks(AnyState& state, const Use& use)
     use(As<double>{}, "/blocks/motion", blocks.motion, fields::motion);
     use(As<double>{}, "/blocks/rebuilt_at", state.rebuilt_at, fields::motion);
     use(As<double>{}, "/blocks/force", blocks.force, fields::joined(fields::force, fields::reserve));
-    use(As<float>{}, "/blocks/joint_use", blocks.force, fields::joint_use);
     use(As<std::uint8_t>{}, "/blocks/contact_kinds", blocks.force, fields::contact_kinds);
     use(As<double>{}, "/blocks/inverse_inertia", blocks.inertia, fields::inertia);
     use(As<double>{}, "/blocks/stable_step", blocks.stable_step, fields::number);
@@ -102,6 +103,13 @@ void for_each_of_groups(AnyState& state, const Use& use)
 {
     use(As<std::int32_t>{}, "/blocks/moving", state.moving, fields::moving_block);
     use(As<float>{}, "/blocks/moving_along", state.moving, fields::moving_along);
+}
+
+/// One row a block, of what each cycle finds anew before it uses it. Who looks at a state sees it, so it is saved; it decides nothing.
+template <typename AnyState, typename Use>
+void for_each_derived(AnyState& state, const Use& use)
+{
+    use(As<float>{}, "/blocks/joint_use", state.blocks.force, fields::joint_use);
 }
 
 /// Blocks that excavations have touched, and what is still to be taken off them.

@@ -104,7 +104,7 @@ void bind_progress(RunType& type)
     type.def_property_readonly(
         "state_hash",
         [](const DrivenRun& run) { return fmt::format("{:016x}", state_hash(run.simulation().model(), run.simulation().state())); },
-        "Fingerprint of poses, velocities and contacts: the state_hash of summary.json.");
+        "Fingerprint of all that decides how the run goes on: the state_hash of summary.json.");
     type.def_property_readonly(
         "kinetic_energy", [](const DrivenRun& run) { return run.simulation().equilibrium().kinetic_energy; },
         "Of free blocks [J].");

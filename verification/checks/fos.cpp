@@ -1,11 +1,9 @@
 /// Factors of safety: slopes and a roof wedge with closed forms, by strength reduction and by limit analysis.
 
-#include "core/limit/strength_bound.h"
 #include "parallel/critical_search.h"
-#include "parallel/reference_state.h"
-#include "parallel/safety_factor.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/fos_answer.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -23,53 +21,6 @@ constexpr double turn = 23.0 * std::numbers::pi / 180.0;  ///< by which models a
 double tan_deg(double degrees)
 {
     return std::tan(degrees * std::numbers::pi / 180.0);
-}
-
-struct FosAnswer
-{
-    SafetyFactor factor;
-    StrengthBound bound;
-    [[nodiscard]] double value() const { return factor.as_given.is_closed() ? factor.as_given.middle() : std::nan(""); }
-    [[nodiscard]] double stiffer() const
-    {
-        return factor.stiffer && factor.stiffer->is_closed() ? factor.stiffer->middle() : std::nan("");
-    }
-    [[nodiscard]] double peak() const { return factor.peak && factor.peak->is_closed() ? factor.peak->middle() : std::nan(""); }
-};
-
-/// As `hdem fos` does it.
-FosAnswer find_factor(const std::string& case_file, const Overrides& overrides, int threads = 1)
-{
-    LoadedCase loaded = load_case(case_folder() / ("fos/" + case_file), overrides);
-    const FactorOfSafetyDef def = loaded.file.def.factor_of_safety;
-    Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
-    BeforeLastStage before;
-    Observer* const observers[] = {&before};
-    const std::vector<StageResult> stages = run_stages(simulation, observers);
-    const Moment last{simulation.model(), simulation.state()};
-    const bool found_rest = !stages.back().sought_rest || stages.back().at_rest;
-    const Reference reference = find_reference(last, blocks_that_gave_way(last, found_rest, def.least_size), before.moment(),
-                                               threads);
-    const Model& model = reference.moment.model;
-    FosAnswer answer;
-    answer.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, def), least_factor, greatest_factor,
-                                  weakens_bolts(def));
-    FactorSetting setting{.def = def, .bound = {}, .threads = threads};
-    if (answer.bound.end == StrengthBound::End::found)
-        setting.bound = answer.bound.factor;
-    answer.factor = find_safety_factor(reference.moment, setting);
-    return answer;
-}
-
-bool same_trials(const SafetyFactor& a, const SafetyFactor& b)
-{
-    const auto same = [](const FactorTrial& x, const FactorTrial& y)
-    {
-        return x.search == y.search && x.trial.factor == y.trial.factor && x.trial.end == y.trial.end &&
-               x.trial.displacement == y.trial.displacement && x.trial.cycles == y.trial.cycles &&
-               x.trial.failing == y.trial.failing;
-    };
-    return a.trials.size() == b.trials.size() && std::equal(a.trials.begin(), a.trials.end(), b.trials.begin(), same);
 }
 
 struct SlopeProblem
@@ -98,12 +49,7 @@ void check_problem(Report& report, const SlopeProblem& p, const std::string& nam
         const FosAnswer turned = find_factor(p.file, turned_case("fos/" + p.file, base, turn) + p.turned);
         report.require({fmt::format("{}, {}, turned by 23°: F", name, method), p.source, p.factor, turned.value()}, relative(0.01));
     }
-    const FosAnswer one = find_factor(p.file, p.overrides);
-    double same = 0.0;
-    for (const int threads : {2, 3})
-        same += same_trials(one.factor, find_factor(p.file, p.overrides, threads).factor) ? 1.0 : 0.0;
-    report.require({name + ": runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same},
-                   absolute(0.0));
+    require_same_trials(report, name + ": ", find_factor(p.file, p.overrides), p.file, p.overrides);
 }
 
 void check_plane(Report& report)
@@ -168,10 +114,7 @@ void check_toppling(Report& report)
     report.require({"F4: bound by limit analysis", "φ 33.41°", 1.2721, drawn.bound.factor}, relative(0.002));
     report.require({"F4: F by other trials, of half the width", "the same", drawn.value(), other.value()}, relative(0.005));
     report.require({"F4: F with joints three times as stiff", "the same", drawn.value(), drawn.stiffer()}, relative(0.01));
-    double same = 0.0;
-    for (const int threads : {2, 3})
-        same += same_trials(drawn.factor, find_factor("toppling.toml", {}, threads).factor) ? 1.0 : 0.0;
-    report.require({"F4: runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
+    require_same_trials(report, "F4: ", drawn, "toppling.toml", {});
 }
 
 void check_biplanar(Report& report)
@@ -192,68 +135,11 @@ void check_wedge(Report& report)
                   "F6 roof wedge");
 }
 
-Overrides law(const std::string& keys)
-{
-    return {{"joint.default", "{normal_stiffness = 1e10, shear_stiffness = 1e9, " + keys + "}"}};
-}
-
-/// With the numbers of check_laws [Pa].
-double saeb_amadei_peak(double sigma)
-{
-    const double x = sigma / 5e7, whole = std::pow(1.0 - x, 1.5);
-    const double roughness = std::atan(std::pow(1.0 - x, 4.0) * tan_deg(10.0));
-    return sigma * std::tan(30.0 * std::numbers::pi / 180.0 + roughness) * whole + (1.0 - whole) * (5e6 + sigma * tan_deg(40.0));
-}
-
-void check_laws(Report& report)
-{
-    const double sigma = 2700.0 * 9.81 * std::cos(std::numbers::pi / 6.0), slope = tan_deg(30.0);
-    const double i = 8.0 * std::log10(50e6 / sigma);
-    const struct
-    {
-        const char* name;
-        Overrides overrides;
-        double factor, bar;
-    } laws[] = {{"coulomb", {}, tan_deg(40.0) / slope, 0.01},
-                {"patton",
-                 law("law = \"patton\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, residual_friction_angle_deg = 33.0, "
-                     "cohesion = 1e6"),
-                 tan_deg(40.0) / slope, 0.01},
-                {"plesha", law("law = \"plesha\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, wear = 1e-7"),
-                 tan_deg(40.0) / slope, 0.01},
-                {"saeb_amadei",
-                 law("law = \"saeb_amadei\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, transition_stress = 5e7, "
-                     "rock_cohesion = 5e6, rock_friction_angle_deg = 40.0, greatest_closure = 3e-4"),
-                 saeb_amadei_peak(sigma) / sigma / slope, 0.01}};
-    for (const auto& l : laws)
-    {
-        const FosAnswer a = find_factor("slab.toml", l.overrides);
-        report.require({fmt::format("{}: F", l.name), "peak strength / tan 30°", l.factor, a.value()}, relative(l.bar));
-    }
-    // A trial begins before any roughness is mobilised, so the slab comes with some speed to where it is.
-    const FosAnswer barton = find_factor("slab.toml", law("law = \"barton_bandis\", jrc = 8.0, jcs = 5e7, "
-                                                          "residual_friction_angle_deg = 28.0, length = 0.1"));
-    report.require({"barton_bandis: F", "peak strength / tan 30°", tan_deg(28.0 + i) / slope, barton.value()}, at_most());
-    report.require({"barton_bandis: F", "at twice the peak's displacement", tan_deg(28.0 + 0.85 * i) / slope, barton.value()},
-                   at_least());
-    const FosAnswer yielding = find_factor("slab.toml", law("law = \"continuously_yielding\", friction_angle_deg = 32.0, "
-                                                            "mobilised_angle_deg = 42.0, wear_length = 1e-2"));
-    report.require({"continuously_yielding: F", "tan φ / tan 30°", tan_deg(32.0) / slope, yielding.value()}, at_least());
-    report.require({"continuously_yielding: F", "tan φ_m0 / tan 30°", tan_deg(42.0) / slope, yielding.value()}, at_most());
-    const FosAnswer brittle = find_factor("slab.toml", law("friction_angle_deg = 35.0, cohesion = 5e3, residual_cohesion = 0.0"));
-    const double weak = tan_deg(35.0) / slope, strong = weak + 5e3 / (2700.0 * 9.81 * 0.5);
-    report.require({"coulomb that loses its cohesion: F", "with residual strength alone", weak - 0.01, brittle.value()},
-                   at_least());
-    report.require({"coulomb that loses its cohesion: F, peak strength throughout", "(c + σ tan φ)/τ", strong, brittle.peak()},
-                   relative(0.01));
-    report.require({"coulomb that loses its cohesion: F", "below that of its peak", strong, brittle.value()}, at_most());
-}
-
 /// 417 blocks behind the plane of F3. They settle unevenly, and a contact that is open at one end has half of its cohesion.
 void check_rock(Report& report)
 {
     const auto begin = std::chrono::steady_clock::now();
-    const FosAnswer a = find_factor("rock.toml", {}, 2);
+    const FosAnswer a = find_factor("rock.toml", {}, {.threads = 2});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.require({"F3 with 417 blocks behind the plane: bound by limit analysis", "Hoek, dry", 1.5843, a.bound.factor},
                    relative(0.002));
@@ -293,10 +179,7 @@ void check_slope(Report& report)
     report.require({"wet: F", "limit analysis", wet.bound.factor, wet.value()}, at_most());
     report.require({"dry: F", "limit analysis", dry.bound.factor, dry.value()}, at_most());
     report.require({"wet: bound by limit analysis", "below that of the dry slope", dry.bound.factor, wet.bound.factor}, at_most());
-    double same = 0.0;
-    for (const int threads : {2, 3})
-        same += same_trials(wet.factor, find_factor(file, coarse, threads).factor) ? 1.0 : 0.0;
-    report.require({"runs on 2 and 3 threads with the trials of one, bit for bit", "none differs", 2.0, same}, absolute(0.0));
+    require_same_trials(report, "wet: ", wet, file, coarse);
 }
 
 /// F of a slab on a slope with a bolt of constant tension, 40 degrees from the normal of the joint: F W sin psi = (W cos psi + T cos theta) tan phi + F T sin theta.

@@ -2,6 +2,7 @@
 
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/same_bits.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,7 @@ void check_beam(Report& report)
         report.require({turn + "moment under the force [N m]", "P / 4 β", force / (4.0 * beta), run.column("beam.moment").back()},
                        relative(1e-2));
     }
+    require_same_bits(report, "support/beam.toml");
 }
 
 /// Pressure in each sample at which there are so many hinges for the first time.
@@ -66,6 +68,8 @@ void check_collapse(Report& report)
             {turn + "displacement of the ring [mm]", "p R² / E t", 0.48, 1e3 * ring.column("ring.liner_displacement").back()},
             relative(5e-3));
     }
+    require_same_bits(report, "support/fixed_beam.toml", {}, std::array{"force"});  // 30 000 cycles
+    require_same_bits(report, "support/ring.toml");
 }
 }  // namespace
 

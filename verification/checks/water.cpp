@@ -5,6 +5,7 @@
 #include "core/water/pore_pressure.h"
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
+#include "verification/checks/same_bits.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
@@ -50,6 +51,7 @@ void check_block(Report& report)
     report.require({"side, lower end [kN]", "L (p_1 + 2 p_2) / 6", 42.51, wall[1]}, relative(1e-9));
     report.require({"top [kN]", "p L", 58.86, top[0] + top[1]}, relative(1e-9));
     report.require({"bottom [kN]", "p L", 98.10, bottom[0] + bottom[1]}, relative(1e-9));
+    require_same_bits(report, "water/block.toml", {set("stage[0].cycles", 600.0)});
 }
 
 /// Effective normal force on the base, shear force, and distance of the resultant from the toe.
@@ -95,6 +97,7 @@ void check_dam(Report& report)
             report.require({turn + "resultant from the toe [m]", "moments", 3.97363, base.from_toe}, relative(5e-3));
         }
     }
+    require_same_bits(report, "water/dam.toml");
 }
 
 void check_slope(Report& report)
@@ -116,18 +119,21 @@ void check_slope(Report& report)
             report.require({name + "speed with tan φ 0.1 % above tan 20° [m/s]", "holds", 1e-9, speed(1.001)}, at_most());
             report.require({name + "speed with tan φ 0.1 % below [m/s]", "slides", 1e-4, speed(0.999)}, at_least());
         }
+    require_same_bits(report, "water/slope.toml", {{"water", "{level = 50.0}"}});
 }
 
 void check_effective_stress(Report& report)
 {
     // 2.5 MPa everywhere, by light water that stands high.
-    const CaseRun run("insitu/rock.toml", {{"insitu", "{stress = [-5e6, -10e6, 0.0]}"},
-                                           set("gravity.vector", Vec2(0.0, -9.81)),
-                                           {"water", fmt::format("{{level = {}, density = 0.01}}", 2.5e6 / (0.01 * 9.81))},
-                                           set("joint.default.friction_angle_deg", 30.0)});
+    const Overrides stressed{{"insitu", "{stress = [-5e6, -10e6, 0.0]}"},
+                             set("gravity.vector", Vec2(0.0, -9.81)),
+                             {"water", fmt::format("{{level = {}, density = 0.01}}", 2.5e6 / (0.01 * 9.81))},
+                             set("joint.default.friction_angle_deg", 30.0)};
+    const CaseRun run("insitu/rock.toml", stressed);
     const InsituSummary summary = summarise_insitu(run.model(), run.state());
     const auto set = std::ranges::find(summary.sets, std::string("b"), &StressedSet::name);
     report.require({"dip 60°: τ over (σ_n - p) tan φ", "6.25, 2.165064, p = 2.5 MPa", 1.0, set->most_used}, relative(1e-3));
+    require_same_bits(report, "insitu/rock.toml", stressed);
 }
 
 void check_ground(Report& report)

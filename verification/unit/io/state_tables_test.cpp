@@ -1,6 +1,7 @@
-/// Each number of a state is in the checkpoint.
+/// Each number of a state is in the checkpoint, and each that decides the future in the hash.
 
 #include "core/rock/build_model.h"
+#include "core/state/state_hash.h"
 #include "core/state/state_tables.h"
 #include "io/checkpoint.h"
 #include "parallel/simulation.h"
@@ -88,7 +89,7 @@ struct Pick
 };
 
 /// Goes through all numbers of one row of each table: of the row after the first, where there is one.
-/// @param told  also those that decide nothing
+/// @param told  also those that decide nothing, behind the others
 void pick_from(State& state, bool told, Pick& pick)
 {
     const auto value = [&](const char* name, auto& number) { pick.look(name, number); };
@@ -101,6 +102,7 @@ void pick_from(State& state, bool told, Pick& pick)
     tables::for_each_of_ends(state, row);
     tables::for_each_of_blocks(state, row);
     tables::for_each_of_excavations(state, row);
+    tables::for_each_of_groups(state, row);
     tables::for_each_of_support(state.support, row);
     const Index middle = state.contacts.size() / 2;
     Contact contact = state.contacts.get(middle);
@@ -116,6 +118,7 @@ void pick_from(State& state, bool told, Pick& pick)
     }
     if (!told)
         return;
+    tables::for_each_derived(state, row);
     tables::for_each_counter(state, value);
     tables::for_each_told(state, row);
     for (const LedgerTerm& term : ledger_terms)
@@ -138,6 +141,7 @@ class StateTables : public testing::Test
         state_ = new State(simulation.state());
         state_->came_loose = {
             {.stage = 1, .block = 3}};  // as static solutions leave them, which there are none of with such joints
+        state_->moving = {{.block = 2}, {.block = 5, .flies = true, .t_x = 0.6F, .t_y = 0.8F}};  // nothing falls here
         state_->statics = {{.stage = 1, .end = StaticEnd::balanced, .iterations = 7, .residual = 1e-9}};
     }
     static void TearDownTestSuite()
@@ -194,6 +198,7 @@ TEST_F(StateTables, HoldEachFieldOnce)
         { fields::for_each(list, rows.front(), [&](auto&) { ++sum; }); };
     };
     tables::for_each_of_blocks(state, counter(blocks));
+    tables::for_each_derived(state, counter(blocks));
     tables::for_each_of_support(state.support, counter(support));
     tables::for_each_of_ends(state, counter(ends));
     tables::for_each_told(state, counter(told));
@@ -233,6 +238,30 @@ TEST_F(StateTables, AreAllInTheCheckpoint)
         EXPECT_EQ(read.value, pick.value) << pick.name << ", number " << i;
     }
     EXPECT_LT(refused, numbers / 4);
+}
+
+TEST_F(StateTables, WhatDecidesTheFutureIsInTheHash)
+{
+    const std::uint64_t hash = state_hash(*model_, *state_);
+    const int numbers = count(false);
+    EXPECT_GT(numbers, 120);
+    for (int i = 0; i < numbers; ++i)
+    {
+        Pick pick{.wanted = i};
+        const State state = with_change(pick, false);
+        EXPECT_NE(state_hash(*model_, state), hash) << pick.name << ", number " << i;
+    }
+}
+
+TEST_F(StateTables, WhatIsOnlyToldIsNotInTheHash)
+{
+    const std::uint64_t hash = state_hash(*model_, *state_);
+    for (int i = count(false); i < count(true); ++i)
+    {
+        Pick pick{.wanted = i};
+        const State state = with_change(pick, true);
+        EXPECT_EQ(state_hash(*model_, state), hash) << pick.name << ", number " << i;
+    }
 }
 }  // namespace
 }  // namespace hdem

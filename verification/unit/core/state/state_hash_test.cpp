@@ -69,7 +69,19 @@ TEST(StateHash, DoesNotSeeTheOrderOfContactsInMemory)
     EXPECT_EQ(state_hash(run.model(), permuted), run.hash());
 }
 
-TEST(StateHash, DoesNotSeeOpenContactsOrTheSignOfZero)
+TEST(StateHash, DoesNotSeeTheSignOfZero)
+{
+    CaseRun run = settled();
+    run.advance(500);
+    State changed = run.state();
+    const Index ground = run.slot("ground");
+    ASSERT_EQ(changed.blocks.motion[ground].vx, 0.0);
+    changed.blocks.motion[ground].vx = -0.0;
+    EXPECT_EQ(state_hash(run.model(), changed), run.hash());
+}
+
+/// Faces that have been found stay until blocks have moved far enough: they decide what an open contact does when it closes.
+TEST(StateHash, SeesContactsThatAreOpen)
 {
     CaseRun run = settled();
     run.advance(500);
@@ -80,11 +92,7 @@ TEST(StateHash, DoesNotSeeOpenContactsOrTheSignOfZero)
     open.point = {};
     open.part_b += 1;
     changed.contacts.put(n, open);
-    EXPECT_EQ(state_hash(run.model(), changed), run.hash());
-    const Index ground = run.slot("ground");
-    ASSERT_EQ(changed.blocks.motion[ground].vx, 0.0);
-    changed.blocks.motion[ground].vx = -0.0;
-    EXPECT_EQ(state_hash(run.model(), changed), run.hash());
+    EXPECT_NE(state_hash(run.model(), changed), run.hash());
 }
 
 TEST(StateHash, IsTheSameForTheSameRun)

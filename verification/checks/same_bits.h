@@ -1,0 +1,18 @@
+#pragma once
+/// A problem again on several threads, and broken off and gone on with: the state must be the same to the last bit.
+
+#include "verification/checks/case_run.h"
+#include "verification/checks/checks.h"
+
+#include <span>
+#include <string>
+
+namespace hdem::verification
+{
+/// Adds a row for each method: how many of three runs end otherwise than the run on one thread. They are those on 2 and on 3 threads, and one on 2 threads that
+/// goes on from a checkpoint written half way. State hash, number of cycles and all terms of the energy ledger are compared.
+///
+/// A model with fewer than 512 contacts runs its cycles on one thread, however many are asked for.
+void require_same_bits(Report& report, const std::string& case_file, const Overrides& overrides = {},
+                       std::span<const char* const> methods = all_methods);
+}  // namespace hdem::verification
