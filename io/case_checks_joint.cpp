@@ -1,6 +1,7 @@
 #include "core/joint/barton_bandis.h"
 #include "core/model/case_def.h"
 #include "core/rock/joint_laws.h"
+#include "core/stage/rules.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -166,9 +167,7 @@ class JointCheck : public CaseCheck
 
     void check_method()
     {
-        const bool by_impulses = def_.contact.method == Method::impulse ||
-                                 std::ranges::any_of(def_.stages, [](const StageDef& s) { return s.method == Method::impulse; });
-        if (!by_impulses)
+        if (!has_impulses_alone(def_))
             return;
         if (joint_.law == JointLaw::library)
             add("law", "of a shared library cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
@@ -191,7 +190,7 @@ void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems
         JointCheck(def, source, problems, joint).check();
     const auto remembers = std::ranges::find_if(def.joints, needs_memory);
     for (std::size_t i = 0; i < def.stages.size() && remembers != def.joints.end(); ++i)
-        if (def.stages[i].solver == RestSolver::statics)
+        if (asks_for_statics(def.stages[i]))
             problems.warn(
                 fmt::format("stage[{}].solver", i), fmt::format("stage \"{}\"", printable(def.stages[i].name)),
                 "solver = \"static\"",

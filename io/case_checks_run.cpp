@@ -200,13 +200,13 @@ class RunCheck : public CaseCheck
 
     void check_until(const StageDef& stage, const std::string& path, const std::string& object)
     {
-        if (given(path + ".until") && !stage.until_converged && stage.ends.empty() && !problems_.has(path + ".until"))
+        if (given(path + ".until") && !ends_at_rest(stage) && stage.ends.empty() && !problems_.has(path + ".until"))
             problems_.add(path + ".until", object, "until = []", "names no end", "Name at least one, e.g. \"converged\".");
         for (const StageEndDef& end : stage.ends)
             check_end(end, path + ".until", object);
-        if (stage.until_converged || stage.ends.empty())
+        if (ends_at_rest(stage) || stage.ends.empty())
             return;
-        if (given(path + ".solver") && stage.solver == RestSolver::statics)
+        if (given(path + ".solver") && asks_for_statics(stage))
             problems_.warn(path + ".solver", object, "solver", "has no effect: the stage does not look for rest",
                            "Add \"converged\" to until, or remove this key.");
     }

@@ -1,3 +1,4 @@
+#include "core/stage/rules.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -157,7 +158,7 @@ class SupportCheck : public CaseCheck
     void check_statics()
     {
         for (std::size_t i = 0; i < def_.stages.size() && !(def_.bolts.empty() && def_.liners.empty()); ++i)
-            if (def_.stages[i].solver == RestSolver::statics)
+            if (asks_for_statics(def_.stages[i]))
                 problems_.warn(fmt::format("stage[{}].solver", i), fmt::format("stage \"{}\"", printable(def_.stages[i].name)),
                                "solver = \"static\"", "has no effect: static solutions do not know bolts and liners",
                                "Remove this key.");

@@ -168,10 +168,8 @@ class StageRunner
     /// Do all ends of the stage need something to move that forces move? Then rest is an end too: nothing can happen any more.
     [[nodiscard]] bool waits_for_motion() const
     {
-        const Model& model = simulation_.model();
         const auto needs_motion = [](const StageEndDef& end) { return !end.is_settling() && !end.is_by_clock(); };
-        return std::ranges::all_of(def_->ends, needs_motion) && !model.is_driven && !do_loads_drive(model, simulation_.state()) &&
-               !do_walls_move(model, simulation_.state());
+        return std::ranges::all_of(def_->ends, needs_motion) && !is_driven(simulation_.model(), simulation_.state());
     }
 
     /// Does a load or a side change later in this stage, or do excavated blocks still act? The rock is at rest only after that.

@@ -154,6 +154,7 @@ StaticSearch::End StaticSearch::run()
         return end;
     // Not from one pass: steps of half at least may have thrown blocks out of a place where they can stand.
     std::ranges::fill(is_held_, std::uint8_t{not_held});
+    begun_again_ = true;
     begin();
     moving_.clear();
     return iterate({.least_share = 0.0});
@@ -217,6 +218,15 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
         shorten_step(whole_, pass.far_share, is_careful ? short_far : pass.far_share);
         take_step(whole_, is_careful ? 0.0 : pass.least_share);
     }
+}
+
+std::vector<Triple> StaticSearch::net_forces_at_start()
+{
+    find_imbalance(whole_, false, false);
+    std::vector<Triple> net(static_cast<std::size_t>(model_.blocks()));
+    for (std::size_t u = 0; u < whole_.unknowns.block.size(); ++u)
+        net[whole_.unknowns.block[u]] = {whole_.net[3 * u], whole_.net[3 * u + 1], whole_.net[3 * u + 2]};
+    return net;
 }
 
 void StaticSearch::commit()

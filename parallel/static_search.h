@@ -41,6 +41,10 @@ class StaticSearch
     [[nodiscard]] int solves() const { return solves_; }
     [[nodiscard]] double ratio() const { return whole_.imbalance.ratio(); }
     [[nodiscard]] double friction() const { return friction_; }
+    /// Has it had to begin again, with shorter steps? Then its answer may hang on the way to it.
+    [[nodiscard]] bool has_begun_again() const { return begun_again_; }
+    /// Force and moment on each block of the model where the last search for contacts has found it, weight and given forces included.
+    [[nodiscard]] std::vector<Triple> net_forces_at_start();
     [[nodiscard]] const std::vector<std::uint8_t>& is_held() const { return is_held_; }
     /// Held blocks, and after giving up those that moved as well; ascending.
     [[nodiscard]] std::vector<Index> loose() const;
@@ -141,5 +145,6 @@ class StaticSearch
     int searches_ = 0;
     int iterations_ = 0;
     int solves_ = 0;
+    bool begun_again_ = false;
 };
 }  // namespace hdem

@@ -1,54 +1,20 @@
 #include "parallel/static_solver.h"
 
 #include "core/boundary/side_forces.h"
-#include "core/contact/block_forces.h"
-#include "core/contact/contact_forces.h"
 #include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
-#include "core/stage/rules.h"
 #include "parallel/static_approach.h"
-#include "parallel/static_search.h"
+#include "parallel/static_ways.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace hdem
 {
 namespace
 {
-constexpr int most_searches = 12;    // for contacts
 constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
-constexpr int release_parts = 8;  // in which forces of excavated blocks are taken off, where the stage takes them off over cycles
-constexpr Index large = 10'000;   // from zero stress Newton by itself takes longer than with cycles in turn
-
-/// Forces by the law of the cycles; the state must be as they would leave it.
-Imbalance evaluate_as_in_a_cycle(const Model& model, State& state, const std::vector<Triple>& given,
-                                 std::vector<std::uint8_t> is_held)
-{
-    ContactLoads loads;
-    loads.resize(state.contacts.stale.size());
-    const RegimeRule rule = resolve_rules(model, state).contact;
-    const ContactTally tally = evaluate_contacts({0, state.contacts.size()}, model, rule, state.blocks, state.contacts, loads);
-    state.ledger.friction += sum(tally.friction);
-    state.ledger.contact_changes += sum(tally.changes);
-    state.ledger.dilation += sum(tally.dilation);
-    state.ledger.bond_breaking += sum(tally.broken);
-    BlockContacts list;
-    list_block_contacts(state.contacts, state.blocks.size(), list);
-    sum_forces({0, state.blocks.size()}, model, list, loads, given, false, state.blocks);
-    std::ranges::replace(is_held, std::uint8_t{frozen}, std::uint8_t{not_held});
-    const Unknowns standing = number_unknowns(state, is_held);
-    std::vector<double> net(3 * standing.block.size());
-    return net_forces({0, static_cast<Index>(standing.block.size())}, model, state, standing, list, loads.load, given, {}, net);
-}
-
-void add_effort(const StaticOutcome& other, StaticOutcome& outcome)
-{
-    outcome.iterations += other.iterations;
-    outcome.solves += other.solves;
-    outcome.searches += other.searches;
-}
+constexpr Index large = 10'000;      // from zero stress Newton by itself takes longer than with cycles in turn
 
 double weight_work(const Model& model, const State& before, const State& after)
 {
@@ -58,86 +24,6 @@ double weight_work(const Model& model, const State& before, const State& after)
             work += model.mass[b] * (model.gravity.x() * (after.blocks.motion[b].x - before.blocks.motion[b].x) +
                                      model.gravity.y() * (after.blocks.motion[b].y - before.blocks.motion[b].y));
     return work;
-}
-
-/// Search after search for contacts, from a trial state that is at rest. The trial is balanced if the outcome is. Blocks that have come away may stand again once: on
-/// its way from far out of balance a search throws some out of places where they can stand.
-StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule,
-                             const std::vector<Triple>& given)
-{
-    StaticSearch search(model, trial, threads, rule, given);
-    StaticOutcome outcome;
-    bool may_stand_again = true;
-    while (outcome.searches < most_searches)
-    {
-        search.find_contacts();
-        ++outcome.searches;
-        const StaticSearch::End end = search.run();
-        outcome.iterations = search.iterations();
-        outcome.solves = search.solves();
-        outcome.residual = search.ratio();
-        outcome.loose = search.loose();
-        if (end == StaticSearch::End::gave_up)
-        {
-            outcome.kind = outcome.loose.empty() ? StaticOutcome::Kind::not_converged : StaticOutcome::Kind::no_equilibrium;
-            return outcome;
-        }
-        search.commit();
-        if (may_stand_again && search.let_stand_again())
-            may_stand_again = false;
-        else if (end != StaticSearch::End::in_balance)
-            break;
-    }
-    stop_all(trial.blocks);
-    outcome.residual = evaluate_as_in_a_cycle(model, trial, given, search.is_held()).ratio();
-    trial.ledger.friction += search.friction();
-    if (outcome.residual <= rule.nearly)
-        outcome.kind = outcome.residual <= 2.0 * rule.accepted ? StaticOutcome::Kind::balanced
-                                                               : StaticOutcome::Kind::nearly_balanced;
-    return outcome;
-}
-
-/// Tractions on sides, and a share of what excavated blocks have given to those that stay.
-std::vector<Triple> given_forces(const Model& model, const State& state, double share)
-{
-    if (share == 0.0)
-        return constant_forces(model, state);
-    std::vector<Triple> given(static_cast<std::size_t>(state.blocks.size()));
-    for (const ReleasedForce& force : state.released)
-        given[force.block] = {share * force.x, share * force.y, share * force.moment};
-    add_constant_forces(model, state, given);
-    return given;
-}
-
-/// In balance at each share of the forces of excavated blocks, the last of which is none.
-StaticOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule)
-{
-    const int parts = trial.released.empty() ? 1 : release_parts;
-    StaticOutcome all;
-    for (int part = 1; part <= parts; ++part)
-    {
-        const std::vector<Triple> given = given_forces(model, trial, 1.0 - static_cast<double>(part) / parts);
-        const std::vector<BlockMotion> from = trial.blocks.motion;
-        StaticOutcome outcome = search_balance(model, trial, threads, rule, given);
-        book_given_work(given, model, trial, from, trial.blocks.motion, trial.ledger);
-        add_effort(all, outcome);
-        all = std::move(outcome);
-        if (!all.is_taken())
-            break;
-    }
-    return all;
-}
-
-/// The same after the rounds of an approach.
-StaticOutcome approach_and_search(const Model& model, State& trial, int threads, const StaticRule& rule)
-{
-    trial.released.clear();
-    StaticOutcome approach;
-    if (!approach_balance(model, trial, threads, rule, approach))
-        return approach;
-    StaticOutcome outcome = search_balance(model, trial, threads, rule);
-    add_effort(approach, outcome);
-    return outcome;
 }
 
 /// Do the others stand once the blocks that come away have left? Those that lose their hold then leave as well, until none does. Blocks that come away are held where they were,
@@ -178,6 +64,48 @@ State at_rest(const State& state)
     stop_all(trial.blocks);
     return trial;
 }
+
+using Way = StaticOutcome (*)(const Model&, State&, int, const StaticRule&);
+
+StaticOutcome try_way(Way way, const Model& model, const State& state, int threads, const StaticRule& rule, State& trial)
+{
+    trial = at_rest(state);
+    return way(model, trial, threads, rule);
+}
+
+/// From zero stress, by one of two ways.
+StaticOutcome solve_unloaded(const Model& model, const State& state, int threads, const StaticRule& rule, State& trial)
+{
+    const Way at_once = [](const Model& m, State& t, int n, const StaticRule& r) -> StaticOutcome
+    { return search_at_once(m, t, n, r); };
+    const bool approaches_first = is_large(state);
+    StaticOutcome outcome = try_way(approaches_first ? approach_and_search : at_once, model, state, threads, rule, trial);
+    if (outcome.is_taken())
+        return outcome;
+    StaticOutcome second = try_way(approaches_first ? at_once : approach_and_search, model, state, threads, rule, trial);
+    add_effort(outcome, second);
+    return second.is_taken() || outcome.kind == StaticOutcome::Kind::not_converged ? second : outcome;
+}
+
+/// From rock that bears its weight, as after an excavation. Where one search has to begin again it may end in a balance that the rock does not come to:
+/// then what is out of balance is let go in parts, and where there is none on that way there is none.
+StaticOutcome solve_loaded(const Model& model, const State& state, int threads, const StaticRule& rule, State& trial)
+{
+    trial = at_rest(state);
+    if (!state.released.empty())
+        return take_off_released(model, trial, threads, rule);
+    SearchOutcome outcome = search_at_once(model, trial, threads, rule);
+    if (outcome.is_taken() && !outcome.has_begun_again)
+        return outcome;
+    StaticOutcome in_parts = try_way(search_in_parts, model, state, threads, rule, trial);
+    add_effort(outcome, in_parts);
+    if (in_parts.kind == StaticOutcome::Kind::not_converged && outcome.kind == StaticOutcome::Kind::no_equilibrium)
+    {
+        in_parts.kind = outcome.kind;
+        in_parts.loose = outcome.loose;
+    }
+    return in_parts;
+}
 }  // namespace
 
 StaticRule static_rule(const Model& model)
@@ -217,20 +145,9 @@ bool can_solve_statics(const Model& model, const State& state)
 
 StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule)
 {
-    const bool approaches_first = is_large(state) && is_unloaded(model, state);
-    using Way = StaticOutcome (*)(const Model&, State&, int, const StaticRule&);
-    const std::array<Way, 2> ways = approaches_first ? std::array<Way, 2>{approach_and_search, search_balance}
-                                                     : std::array<Way, 2>{search_balance, approach_and_search};
-    State trial = at_rest(state);
-    StaticOutcome outcome = ways[0](model, trial, threads, rule);
-    if (!outcome.is_taken())
-    {
-        trial = at_rest(state);
-        StaticOutcome second = ways[1](model, trial, threads, rule);
-        add_effort(outcome, second);
-        if (second.is_taken() || outcome.kind == StaticOutcome::Kind::not_converged)
-            outcome = std::move(second);
-    }
+    State trial;
+    StaticOutcome outcome = is_unloaded(model, state) && state.released.empty() ? solve_unloaded(model, state, threads, rule, trial)
+                                                                                : solve_loaded(model, state, threads, rule, trial);
     if (!outcome.is_taken())
         return outcome;
     const StaticOutcome after = let_leave(model, trial, threads, rule, outcome);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hdem
 {
@@ -75,14 +74,7 @@ void keep_support(Model& model, const State& state)
 /// Springs, damping and criteria of a trial.
 void set_rules(Model& model, Index stage)
 {
-    const std::string name = model.stages[stage].name;
-    model.stages[stage] = {.name = name,
-                           .cycles = {},
-                           .duration = {},
-                           .until_converged = true,
-                           .max_cycles = std::numeric_limits<std::int64_t>::max() / 2,
-                           .method = Method::force,
-                           .damping = DampingPreset::automatic};
+    model.stages[stage] = stage_until_rest(model.stages[stage].name);
     const ConvergenceDef standard;
     ConvergenceDef& criteria = model.convergence;
     criteria.criteria = standard.criteria;

@@ -5,7 +5,7 @@
 
 Between folders: parallel and io stand on core, and not on each other; verification, perf and tools stand on all three, perf
 also on verification/scenes. Inside core there are four floors (FLOOR); a file may include from its own floor and from those
-below. OpenMP appears in parallel only, HDF5 nowhere below io.
+below. Only core/stage/rules tests method, damping preset, solver and "until converged". OpenMP appears in parallel only, HDF5 nowhere below io.
 """
 import re
 import sys
@@ -39,6 +39,10 @@ BANNED = {    # layer -> what its files may not include, and the reason
     "perf": [(OPENMP, "OpenMP belongs to parallel")],
     "tools": [(OPENMP, "OpenMP belongs to parallel")],
 }
+
+# What follows from method, damping preset, solver and "until converged" is decided in core/stage/rules; the checks of what a file says test their range.
+MODES = re.compile(r"(==|!=|\bcase)\s*(Method|DampingPreset|RestSolver)::|[.>]until_converged\b(?!\s*=[^=])")
+MAY_TEST_MODES = ("core/stage/rules.h", "core/stage/rules.cpp")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 PRAGMA_OMP = re.compile(r'^\s*#\s*pragma\s+omp\b|_Pragma\s*\(\s*"\s*omp\b')
@@ -109,6 +113,8 @@ def find_problems(root):
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
                 if PRAGMA_OMP.search(line) and layer(path) != "parallel":
                     problems.append(f"{path}:{number}: OpenMP belongs to parallel")
+                if layer(path) in ("core", "parallel", "io", "tools") and path not in MAY_TEST_MODES and MODES.search(line):
+                    problems.append(f"{path}:{number}: modes are tested in core/stage/rules")
                 if not (match := INCLUDE.match(line)):
                     continue
                 target = match[2]

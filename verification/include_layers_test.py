@@ -17,6 +17,8 @@ GOOD_TREE = {
     "core/state/state.h": '#include "core/model/model.h"\n',
     "core/rock/rock_mass.h": '#include "core/model/model.h"\n',
     "core/observer.h": '#include "core/state/state.h"\n',
+    "core/stage/rules.cpp": "bool f() { return stage.until_converged && stage.solver == RestSolver::statics; }\n",
+    "io/case_schema_run.cpp": "stage.until_converged = true;\n",
     "parallel/openmp.cpp": "#include <omp.h>\n#pragma omp parallel\n",
     "parallel/cycle.h": '#include "core/rock/rock_mass.h"\n',
     "io/case_reader.h": '#include "core/model/model.h"\n#include <hdf5.h>\n',
@@ -54,6 +56,10 @@ PLANTED = [
     ("io/case_reader.h", "#include <omp.h>", "OpenMP belongs to parallel"),
     ("tools/hdem/main.cpp", "#pragma omp parallel", "OpenMP belongs to parallel"),
     ("parallel/cycle.h", "#include <hdf5.h>", "files belong to io"),
+    ("parallel/cycle.h", "if (state.method == Method::impulse)", "modes are tested in core/stage/rules"),
+    ("core/rock/rock_mass.h", "return preset != DampingPreset::paper;", "modes are tested in core/stage/rules"),
+    ("io/case_reader.h", "case RestSolver::statics:", "modes are tested in core/stage/rules"),
+    ("tools/hdem/main.cpp", "if (stage.until_converged)", "modes are tested in core/stage/rules"),
 ]
 
 

@@ -1,5 +1,6 @@
 #include "core/boundary/mean_hold.h"
 #include "core/rock/problem_text.h"
+#include "core/stage/rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +97,7 @@ std::vector<Problem> find_hold_problems(const CaseDef& def, const Model& model, 
             return {{.key = key,
                      .text = object + "stage \"" + def.stages[s].name +
                              "\" fixes blocks, which hold the rock already). Remove one of both."}};
-        else if (def.stages[s].solver == RestSolver::statics)
+        else if (asks_for_statics(def.stages[s]))
             return {{.key = "stage[" + std::to_string(s) + "].solver",
                      .text = "stage \"" + def.stages[s].name +
                              "\": solver = \"static\" (a static solution needs something that stands still, and hold = \"mean\" of "

@@ -6,6 +6,7 @@
 #include "core/support/bolt_forces.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hdem
 {
@@ -70,7 +71,7 @@ StageSetting setting_of(const Model& model, const State& state)
             .releases = are_forces_released(model, state),
             .holds_released = !state.released.empty(),
             .is_calm = state.is_calm,
-            .is_driven = model.is_driven || do_loads_drive(model, state) || do_walls_move(model, state),
+            .is_driven = is_driven(model, state),
             .moves_walls = do_walls_move(model, state),
             .holds_mean = model.holds_mean,
             .has_step = model.has_step,
@@ -160,6 +161,33 @@ bool ends_at_rest(const StageDef& stage)
     return stage.until_converged;
 }
 
+bool asks_for_statics(const StageDef& stage)
+{
+    return stage.solver == RestSolver::statics;
+}
+
+StageDef stage_until_rest(std::string name)
+{
+    return {.name = std::move(name),
+            .cycles = {},
+            .duration = {},
+            .until_converged = true,
+            .max_cycles = std::numeric_limits<std::int64_t>::max() / 2,
+            .method = Method::force,
+            .damping = DampingPreset::automatic};
+}
+
+bool is_by_impulses(Method method)
+{
+    return method == Method::impulse;
+}
+
+bool has_impulses_alone(const CaseDef& def)
+{
+    return is_by_impulses(def.contact.method) ||
+           std::ranges::any_of(def.stages, [](const StageDef& stage) { return stage.method && is_by_impulses(*stage.method); });
+}
+
 bool takes_paper_step(const CaseDef& def)
 {
     return def.damping.preset == DampingPreset::paper;
@@ -169,6 +197,11 @@ bool is_driven(const CaseDef& def)
 {
     const auto prescribes = [](const LoadDef& load) { return load.velocity_x || load.velocity_y || load.angular_velocity; };
     return std::ranges::any_of(def.loads, prescribes) || have_driven_blocks(def);
+}
+
+bool is_driven(const Model& model, const State& state)
+{
+    return model.is_driven || do_loads_drive(model, state) || do_walls_move(model, state);
 }
 
 bool have_driven_blocks(const CaseDef& def)

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace hdem
@@ -80,6 +81,18 @@ struct StageRules
 /// Does a stage end when the rock is at rest?
 [[nodiscard]] bool ends_at_rest(const StageDef& stage);
 
+/// Is its rest to be sought by a static solution, if anything allows one?
+[[nodiscard]] bool asks_for_statics(const StageDef& stage);
+
+/// A stage that brings rock to rest by springs, and waits for it as long as it takes.
+[[nodiscard]] StageDef stage_until_rest(std::string name);
+
+/// Do impulses alone act between blocks? They do not determine the stress in the rock.
+[[nodiscard]] bool is_by_impulses(Method method);
+
+/// Do they in some stage of the case?
+[[nodiscard]] bool has_impulses_alone(const CaseDef& def);
+
 /// Is the step of Eq. (32) taken to the letter where a case gives none?
 [[nodiscard]] bool takes_paper_step(const CaseDef& def);
 
@@ -88,6 +101,9 @@ struct StageRules
 
 /// Does something do so, by that or by loads?
 [[nodiscard]] bool is_driven(const CaseDef& def);
+
+/// The same of the running stage, moving walls included.
+[[nodiscard]] bool is_driven(const Model& model, const State& state);
 
 /// As the case file spells it.
 [[nodiscard]] const char* name_of(Method method);

@@ -1,5 +1,6 @@
 #include "tools/hdem/fos_report.h"
 
+#include "core/stage/rules.h"
 #include "core/support/bolt_strength.h"
 #include "io/atomic_file.h"
 #include "io/printable.h"
@@ -179,7 +180,7 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             "above F = {:.4f} a joint dilates by more than its friction pays for, as dilation is not reduced. Give less "
             "dilation_angle_deg.",
             most));
-    if (method == Method::impulse)
+    if (is_by_impulses(method))
         warnings.push_back(
             "the case runs by impulses, which do not determine the stress in the rock. Trials use springs; begin with method = "
             "\"force\" or \"hybrid\" for a stress that means something.");

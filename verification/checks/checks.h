@@ -45,6 +45,7 @@ std::vector<Check> fos_checks();
 std::vector<Check> support_checks();
 std::vector<Check> liner_checks();
 std::vector<Check> rock_mass_checks();
+std::vector<Check> static_rock_checks();
 
 /// In the order of the table.
 std::vector<Check> all_checks();

@@ -1,0 +1,121 @@
+#include "parallel/stages.h"
+#include "parallel/static_search.h"
+#include "parallel/static_solver.h"
+#include "verification/unit/case_run.h"
+
+#include <cmath>
+#include <utility>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+using Kind = StaticOutcome::Kind;
+
+CaseDef jointed_rock()
+{
+    CaseDef scene = scenes::joints(16.0, 16.0, 0.8, 2.0);
+    scene.joints[0].cohesion = 5e4;
+    return scene;
+}
+
+/// A tunnel in rock without cohesion or with little, by static solutions.
+CaseDef tunnel_in_weak_rock(double friction_angle_deg, double cohesion)
+{
+    CaseDef scene = scenes::three_joint_sets(1.7, friction_angle_deg, cohesion);
+    scene.joint_sets[0].dip_deg = 20.0;
+    scene.joint_sets[1].dip_deg = 70.0;
+    scene.joint_sets[1].spacing = 3.5;
+    scene.joint_sets[2].dip_deg = -60.0;
+    scene.generator.seed = 1;
+    scene.generator.smallest_block_area = 0.3626;
+    scene.contact.method = Method::force;
+    scene.excavations = {{.name = "tunnel",
+                          .shape = OutlineShape::horseshoe,
+                          .position = {17.5, 12.5},
+                          .width = 9.0,
+                          .height = 8.0,
+                          .inside = InsideOutline::one_block}};
+    scene.stages = {
+        {.name = "gravity", .until_converged = true, .max_cycles = 20, .solver = RestSolver::statics},
+        {.name = "dig", .until_converged = true, .max_cycles = 20, .solver = RestSolver::statics, .excavate = {"tunnel"}}};
+    return scene;
+}
+
+/// Here a search that begins again finds a balance that slow removal of the tunnel does not come to: by cycles over 5000 and over 50 000 cycles 116 blocks are lost.
+TEST(StaticWays, ABalanceFoundAfterBeginningAgainIsLookedForInParts)
+{
+    hdem::Setup setup = build_model(tunnel_in_weak_rock(10.0, 0.0));
+    Simulation tunnel(std::move(setup.model), std::move(setup.state));
+    const std::vector<StageResult> results = run_stages(tunnel, {});
+    ASSERT_TRUE(results[1].statics);
+    EXPECT_EQ(results[1].statics->outcome, "no_equilibrium");
+    EXPECT_GT(results[1].statics->loose.size(), 47U);
+}
+
+TEST(StaticWays, WhatIsLetGoInPartsIsNoLoad)
+{
+    hdem::Setup setup = build_model(tunnel_in_weak_rock(15.0, 1000.0));
+    Simulation tunnel(std::move(setup.model), std::move(setup.state));
+    const std::vector<StageResult> results = run_stages(tunnel, {});
+    ASSERT_TRUE(results[1].statics);
+    EXPECT_EQ(results[1].statics->outcome, "balanced");
+    EXPECT_EQ(tunnel.state().ledger.load_work, 0.0);
+    EXPECT_LT(std::abs(relative_residual(tunnel.state().ledger, stored_energy(tunnel.model(), tunnel.state()))), 1e-9);
+}
+
+TEST(StaticWays, NearlyInBalanceIsTakenUnlessTheRuleForbidsIt)
+{
+    const CaseRun rock(jointed_rock());
+    StaticRule rule = static_rule(rock.model());
+    rule.accepted = 1e-14;  // less than a search is carried to
+    State near = rock.state();
+    const StaticOutcome taken = solve_statics(rock.model(), near, 1, rule);
+    ASSERT_EQ(taken.kind, Kind::nearly_balanced);
+    EXPECT_TRUE(taken.is_taken());
+    EXPECT_LE(taken.residual, rule.nearly);
+    EXPECT_NE(state_hash(rock.model(), near), rock.hash());
+    for (Index b = 0; b < rock.model().blocks(); ++b)
+        EXPECT_EQ(near.blocks.velocity(b).norm(), 0.0);
+    rule.nearly = 1e-14;
+    State left = rock.state();
+    const StaticOutcome refused = solve_statics(rock.model(), left, 1, rule);
+    EXPECT_EQ(refused.kind, Kind::not_converged);
+    EXPECT_FALSE(refused.is_taken());
+    EXPECT_EQ(state_hash(rock.model(), left), rock.hash());
+}
+
+/// Edges by which a block that stands on a corner faces the ground, after it has been turned over that corner's middle.
+std::pair<Index, Index> edges_after_turning(int searches)
+{
+    CaseDef scene = scenes::block_on_ground(1.0, 1.0);
+    const double half = std::sqrt(0.5);
+    scene.blocks[1].polygon = {{0.0, 0.0}, {half, half}, {0.0, 2.0 * half}, {-half, half}};
+    const CaseRun run(scene);
+    State state = run.state();
+    StaticSearch search(run.model(), state, 1, static_rule(run.model()));
+    BlockMotion& motion = state.blocks.motion[run.slot("block")];
+    const auto turn_to = [&](double angle)
+    {
+        motion.angle = angle;
+        motion.c = std::cos(angle);
+        motion.s = std::sin(angle);
+    };
+    turn_to(radians(3.0));
+    for (int i = 0; i < searches; ++i)
+        search.find_contacts();
+    turn_to(radians(-3.0));
+    search.find_contacts();
+    EXPECT_EQ(state.contacts.size(), 1);
+    return {state.contacts.ref_edge[0], state.contacts.inc_edge[0]};
+}
+
+TEST(StaticSearch, KeepsFeaturesFromTheSixthSearchOn)
+{
+    EXPECT_EQ(edges_after_turning(1), edges_after_turning(2));
+    EXPECT_NE(edges_after_turning(4), edges_after_turning(5));
+    EXPECT_EQ(edges_after_turning(5), edges_after_turning(7));
+}
+}  // namespace
+}  // namespace hdem
