@@ -11,12 +11,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace hdem
 {
 namespace
 {
+/// How a file of blocks or traces that is in a format of maps or drawings becomes one that hdem reads; "" for any other name.
+std::string conversion_of(const std::string& key, const std::string& name)
+{
+    if (key != "blocks_file" && key != "domain.traces_file")
+        return "";
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string file = printable(name);
+    const std::string stem = printable(name.substr(0, name.size() - ending.size()));
+    if (ending == ".dxf")
+        return fmt::format("Make a text file of it: tools/import_dxf.py {} --{} {}.wkt", file,
+                           key == "blocks_file" ? "blocks" : "traces", stem);
+    if (ending == ".shp" || ending == ".gpkg" || ending == ".kml" || ending == ".gml" || ending == ".fgb")
+        return fmt::format("Make GeoJSON of it: ogr2ogr -f GeoJSON {}.geojson {} (Debian package: gdal-bin).", stem, file);
+    return "";
+}
+
 class NamedFileReader
 {
   public:
@@ -126,7 +144,11 @@ class NamedFileReader
     {
         if (name.empty())
             return nullptr;
-        TextFile file = read(name);
+        TextFile file;
+        if (const std::string conversion = conversion_of(key, name); !conversion.empty())
+            file = {.text = {}, .obstacle = "is of a format that hdem does not read", .remedy = conversion};
+        else
+            file = read(name);
         if (file.obstacle.empty())
             return &(read_.files[name] = std::move(file.text));
         problems_.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(name)),

@@ -56,8 +56,7 @@ std::vector<Index> StaticSearch::loose() const
         if (is_held_[b] == come_away)
             all.push_back(b);
     std::ranges::sort(all);
-    const auto twice = std::ranges::unique(all);
-    all.erase(twice.begin(), twice.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
 }
 

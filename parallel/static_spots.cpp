@@ -72,8 +72,7 @@ void StaticSearch::number_spots(std::vector<Index> blocks)
             spots_.contacts.push_back(list_.entry[e] / 2);
     }
     std::ranges::sort(spots_.contacts);
-    const auto twice = std::ranges::unique(spots_.contacts);
-    spots_.contacts.erase(twice.begin(), twice.end());
+    spots_.contacts.erase(std::unique(spots_.contacts.begin(), spots_.contacts.end()), spots_.contacts.end());
     unknowns.block = std::move(blocks);
     number(spots_, std::move(unknowns));
 }

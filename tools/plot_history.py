@@ -41,6 +41,12 @@ def state_of(run):
     return {"done": [], "running": ["the run goes on"]}.get(run.state(), [run.state()])
 
 
+def start_of(name, values):
+    """A position that changes little is drawn from its first value on; 0 for anything else."""
+    drawn = values[np.isfinite(values)]
+    return drawn[0] if name.startswith("position") and len(drawn) and np.ptp(drawn) < 0.05 * abs(drawn[0]) else 0.0
+
+
 def draw_history(run, options):
     table = run.energy() if options.history == "energy" else run.history(options.history)
     names = [name for name in table if name not in ("cycle", "time")]
@@ -54,12 +60,14 @@ def draw_history(run, options):
     for axes, panel in zip(grid[:, 0], panels):
         same = [name for name in names if panel_of(name, table.unit[name]) == panel]
         unit = table.unit[same[0]]
-        factor, shown = scaled_unit(unit, max(np.nan_to_num(np.abs(table[name])).max() for name in same))
+        starts = {name: start_of(name, table[name]) for name in same}
+        factor, shown = scaled_unit(unit, max(np.nan_to_num(np.abs(table[name] - starts[name])).max() for name in same))
         positive = np.concatenate([table[name][table[name] > 0.0] for name in same])
         log = options.history == "energy" and panel != "points" and len(positive) and positive.max() > 1e3 * positive.min()
         for name, colour in zip(same, ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"] * len(same)):
             values = np.where(table[name] > 0.0, table[name], np.nan) if log else table[name]    # a logarithm knows no zero
-            axes.plot(table["time"], values / factor, color=colour, linewidth=0.9, label=name.replace("_", " "))
+            label = name.replace("_", " ") + (f" from {starts[name]:.6g} {unit}" if starts[name] else "")
+            axes.plot(table["time"], (values - starts[name]) / factor, color=colour, linewidth=0.9, label=label)
         axes.set_yscale("log" if log else "linear")
         literal(axes.set_ylabel(f"[{shown}]" if shown != "1" else "[-]"))
         axes.grid(linewidth=0.3, color="#cccccc")

@@ -50,8 +50,7 @@ std::vector<Index> blocks_held_on_average(const Model& model, const State& state
                 if (state.blocks.is_free(face.block))
                     users.push_back(model.user_number[face.block]);
     std::ranges::sort(users);
-    const auto twice = std::ranges::unique(users);
-    users.erase(twice.begin(), twice.end());
+    users.erase(std::unique(users.begin(), users.end()), users.end());
     for (Index& number : users)
         number = model.slot_of_user[number];
     return users;

@@ -5,6 +5,17 @@
 
 namespace hdem
 {
+namespace
+{
+/// Entries of a block in a list that is sorted by blocks. (std::ranges::equal_range gives what clang before 16 cannot compile with this library.)
+template <typename Entry>
+IndexRange range_of(const std::vector<Entry>& sorted, Index block, Index Entry::*owner)
+{
+    const auto first = std::ranges::lower_bound(sorted, block, {}, owner), end = std::ranges::upper_bound(sorted, block, {}, owner);
+    return {static_cast<Index>(first - sorted.begin()), static_cast<Index>(end - sorted.begin())};
+}
+}  // namespace
+
 void list_ends(Support& support)
 {
     support.ends.clear();
@@ -28,8 +39,7 @@ void list_ends(Support& support)
 
 IndexRange ties_of(const Support& support, Index block)
 {
-    const auto found = std::ranges::equal_range(support.ties, block, {}, &LinerTie::block);
-    return {static_cast<Index>(found.begin() - support.ties.begin()), static_cast<Index>(found.end() - support.ties.begin())};
+    return range_of(support.ties, block, &LinerTie::block);
 }
 
 bool is_held(const Support& support, Index block)
@@ -39,7 +49,6 @@ bool is_held(const Support& support, Index block)
 
 IndexRange ends_of(const Support& support, Index block)
 {
-    const auto found = std::ranges::equal_range(support.ends, block, {}, &BoltEnd::block);
-    return {static_cast<Index>(found.begin() - support.ends.begin()), static_cast<Index>(found.end() - support.ends.begin())};
+    return range_of(support.ends, block, &BoltEnd::block);
 }
 }  // namespace hdem

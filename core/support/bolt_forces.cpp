@@ -168,8 +168,7 @@ std::vector<Index> bolted_blocks(const Model& model, const State& state)
         if (state.support.liners[tie.liner].installed != 0)
             blocks.push_back(tie.block);
     std::ranges::sort(blocks);
-    const auto again = std::ranges::unique(blocks);
-    blocks.erase(again.begin(), again.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     return blocks;
 }
 

@@ -14,13 +14,19 @@ if(NOT CPACK_HDEM_PYTHON_FOLDER STREQUAL modules)
     step(rmdir --parents --ignore-fail-on-non-empty ${root}/${CPACK_HDEM_PYTHON_FOLDER})
 endif()
 
-step(gzip --best --no-name ${root}/share/man/man1/hdem.1)
+step(gzip --best --no-name ${root}/share/man/man1/hdem.1 ${root}/share/man/man1/hdem-sweep.1)
+
+# Why lintian need not warn of the fonts.
+file(WRITE ${root}/share/lintian/overrides/hdem
+    "# The guide is opened from the disk, also where no other package brings its fonts.\n"
+    "hdem: duplicate-font-file *\n")
 
 # HTML where mkdocs is; else its pages as they are written.
 set(guide ${CPACK_HDEM_SOURCE}/tools/guide)
 find_program(MKDOCS mkdocs)
 if(MKDOCS AND EXISTS /usr/share/javascript/katex AND EXISTS /usr/share/mkdocs/themes/material)
     step(${guide}/build ${documents}/guide)
+    file(REMOVE ${documents}/guide/sitemap.xml ${documents}/guide/sitemap.xml.gz)    # for search engines, and with the time of packing
     set(of_guide libjs-katex mkdocs-material)
 else()
     message(STATUS "the guide is packed as Markdown: tools/setup --guide installs what makes HTML of it")

@@ -5,7 +5,7 @@
 
 A results.h5, a frame of blocks, of contacts or of bolts, or now and then the summary.json of a small run is changed byte by byte or object by object
 (hdf5_changes.py) and read as hdem_io.py does; of those that are read, one in N becomes a picture, a page, or what `hdem view` shows. The reading is done by a process of its own: a crash of the library,
-a file that takes 20 s, and 1 GB of memory are told too. Exit code 1 when anything is found; --keep gets the files.
+a file that takes 20 s of the processor or hangs, and 1 GB of memory are told too. Exit code 1 when anything is found; --keep gets the files.
 """
 import argparse
 import mmap
@@ -29,10 +29,12 @@ import small_case    # noqa: E402
 
 KINDS = ("results", "summary", "blocks", "contacts", "bolts")
 FRAMES = KINDS[2:]
-SLOWEST = 20.0          # s, of one file
+SLOWEST = 20.0          # s of the processor, of one file: a stop of the whole process, or other work on the machine, is nothing
+HANGS = 600.0           # s of the clock
 LARGEST = 1 << 30       # bytes in memory
 MEMORY = 3 << 30        # bytes of addresses
-CRASHED, SLOW, LARGE = "the process crashed", f"took {SLOWEST:g} s", "took 1 GB of memory"
+CRASHED, SLOW, HUNG, LARGE = "the process crashed", f"took {SLOWEST:g} s of the processor", f"did not end in {HANGS:g} s", "took 1 GB of memory"
+TICKS = os.sysconf("SC_CLK_TCK")
 
 
 def parse(arguments):
@@ -121,12 +123,12 @@ def kind_of(number, results):
 
 
 def work(options, folder, first, shared):
-    """Of a process of its own: numbers from `first` on; the number at hand and its beginning are shared."""
+    """Of a process of its own: numbers from `first` on; the number at hand, and the processor time at its beginning, are shared."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     warnings.simplefilter("ignore")
     reader = Reader(folder, options.draw_every)
     for number in range(first, options.results + options.frames):
-        shared[:16] = struct.pack("<qd", number, time.monotonic())
+        shared[:16] = struct.pack("<qd", number, time.process_time())
         chance, kind = random.Random(f"{options.seed} {number}"), kind_of(number, options.results)
         done = reader.damage(chance, kind)
         was_read, found = reader.try_one(kind, chance)
@@ -146,15 +148,27 @@ def tell(options, file, number, done, found):
         list_of.write(f"{number}\n")
 
 
+def used_by(process):
+    """Seconds of the processor, and bytes in memory, of a process that may have ended."""
+    try:
+        words = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0, 0
+    return (int(words[11]) + int(words[12])) / TICKS, int(words[21]) * mmap.PAGESIZE
+
+
 def watched(process, shared):
     """What went wrong with the process, or ""."""
+    at_hand, since = -1, 0.0
     while True:
         pid, status = os.waitpid(process, os.WNOHANG)
         if pid:
             return "" if status == 0 else f"{CRASHED} (status {status})"
-        _, began = struct.unpack("<qd", shared[:16])
-        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1]) if Path(f"/proc/{process}/statm").exists() else 0
-        wrong = SLOW if began and time.monotonic() - began > SLOWEST else LARGE if pages * mmap.PAGESIZE > LARGEST else ""
+        number, began = struct.unpack("<qd", shared[:16])
+        if number != at_hand:
+            at_hand, since = number, time.monotonic()
+        seconds, memory = used_by(process)
+        wrong = SLOW if began and seconds - began > SLOWEST else HUNG if time.monotonic() - since > HANGS else LARGE if memory > LARGEST else ""
         if wrong:
             os.kill(process, 9)
             os.waitpid(process, 0)

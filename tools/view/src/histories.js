@@ -18,6 +18,19 @@ export function tickTexts(ticks) {
     }
 }
 
+// A position that changes little is drawn from its first value on, as hdem plot does it; 0 for anything else.
+export function startOf(name, values) {
+    if (!name.startsWith("position")) return 0;
+    let [first, low, high] = [NaN, Infinity, -Infinity];
+    for (const value of values) {
+        if (!Number.isFinite(value)) continue;
+        if (first !== first) first = value;
+        if (value < low) low = value;
+        if (value > high) high = value;
+    }
+    return high - low < 0.05 * Math.abs(first) ? first : 0;
+}
+
 export class Histories {
     constructor(root, onTime) {
         Object.assign(this, { root, onTime, charts: [], tables: [], time: 0 });
@@ -47,21 +60,23 @@ export class Histories {
 
     add(columns, names, several) {
         const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--soft"), grid = style.getPropertyValue("--grid");
+        const starts = columns.map(({ name, values }) => startOf(name, values));
         let greatest = 0, least = Infinity;
-        for (const { values } of columns)
+        columns.forEach(({ values }, i) => {
             for (const value of values) {
-                const size = Math.abs(value);
+                const size = Math.abs(value - starts[i]);
                 if (size > greatest) greatest = size;
                 if (value > 0 && value < least) least = value;
             }
+        });
         const log = columns.every(({ unit, name }) => unit === "J" || name === "unbalanced_force_ratio") && greatest > LOG_FROM * least;
         const [factor, unit] = scaledUnit(columns[0].unit, greatest);
-        const scaled = columns.map(({ values }) => Array.from(values, (value) => (log && !(value > 0) ? null : Number.isFinite(value) ? value / factor : null)));
+        const scaled = columns.map(({ values }, i) => Array.from(values, (value) => (log && !(value > 0) ? null : Number.isFinite(value) ? (value - starts[i]) / factor : null)));
         const data = uPlot.join(columns.map(({ time }, i) => [Array.from(time), scaled[i]]));
         const kinds = [...new Set(columns.map(({ name }) => name))];
         const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 }, font: "11px system-ui, sans-serif" };
-        const series = columns.map(({ name, run }) => ({
-            label: name.replaceAll("_", " ") + (several ? ` · ${names[run]}` : ""), stroke: style.getPropertyValue(COLOURS[kinds.indexOf(name) % COLOURS.length]),
+        const series = columns.map(({ name, run, unit: own }, i) => ({
+            label: name.replaceAll("_", " ") + (starts[i] ? ` from ${+starts[i].toPrecision(6)} ${own}` : "") + (several ? ` · ${names[run]}` : ""), stroke: style.getPropertyValue(COLOURS[kinds.indexOf(name) % COLOURS.length]),
             width: 1.5, dash: run ? [6, 3] : undefined, spanGaps: true, points: { show: false },
         }));
         const holder = element("div", { className: "chart" });
@@ -69,7 +84,7 @@ export class Histories {
         const chart = new uPlot({
             width: this.root.clientWidth, height: 150, scales: { x: { time: false }, y: { distr: log ? 3 : 1 } },
             axes: [{ ...axis, size: 26, values: (_, ticks) => tickTexts(ticks) },
-                   { ...axis, ...(log ? { grid: { show: false }, ticks: { show: false } } : {}), size: 52, values: (_, ticks) => tickTexts(ticks) }],
+                   { ...axis, ...(log ? { grid: { show: false }, ticks: { show: false } } : {}), size: (_, texts) => Math.max(52, 14 + 7 * Math.max(0, ...(texts ?? []).map((text) => text.length))), values: (_, ticks) => tickTexts(ticks) }],
             series: [{ label: "s", value: (_, time) => (time === null || time === undefined ? "–" : time.toPrecision(5)) }, ...series],
             legend: { live: false }, cursor: { sync: { key: "hdem" }, drag: { x: true, y: false }, points: { size: 5 } }, hooks: { draw: [(u) => this.drawMark(u)] },
         }, data, holder);

@@ -6,6 +6,8 @@
 Exit code 77 (skipped) without h5py or matplotlib. verification/fuzz/damaged_results.py tries many more.
 """
 import json
+import mmap
+import os
 import re
 import resource
 import shutil
@@ -13,7 +15,9 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 try:
@@ -192,6 +196,27 @@ class DamagedFiles(unittest.TestCase):
         for kind, (files, refused, read) in counts.items():
             if files >= 100:
                 self.assertGreater(min(refused, read), 10, kind)
+
+    def test_slow_files_are_told_from_a_machine_that_is_busy(self):
+        sys.path.insert(0, str(FUZZ))
+        import damaged_results
+
+        def judged(slowest, hangs, work):
+            shared = mmap.mmap(-1, 16)
+            process = os.fork()
+            if process == 0:
+                shared[:16] = struct.pack("<qd", 1, time.process_time() + 1e-9)
+                work()
+                os._exit(0)
+            with unittest.mock.patch.multiple(damaged_results, SLOWEST=slowest, HANGS=hangs):
+                return damaged_results.watched(process, shared)
+
+        def spin():
+            while time.process_time() < 30.0:
+                pass
+        self.assertEqual(judged(0.3, 1e3, spin), damaged_results.SLOW)
+        self.assertEqual(judged(0.3, 1e3, lambda: time.sleep(1.0)), "")
+        self.assertEqual(judged(0.3, 0.5, lambda: time.sleep(60.0)), damaged_results.HUNG)
 
 
 if __name__ == "__main__":

@@ -111,14 +111,14 @@ class Package(unittest.TestCase):
         self.assertIn(f"python3 (>= 3.{minor}), python3 (<< 3.{int(minor) + 1})", needs)
 
     def test_holds_every_part_and_no_other(self):
-        for name in ("bin/hdem", "bin/hdem-sweep", "share/man/man1/hdem.1.gz", "share/bash-completion/completions/hdem", "share/hdem/view/viewer.html",
+        for name in ("bin/hdem", "bin/hdem-sweep", "share/man/man1/hdem.1.gz", "share/man/man1/hdem-sweep.1.gz", "share/bash-completion/completions/hdem", "share/hdem/view/viewer.html",
                      "share/doc/hdem/copyright", "share/doc/hdem/changelog.gz", "share/doc/hdem/CHANGELOG.md.gz", "share/doc/hdem/CITATION.cff",
                      "lib/python3/dist-packages/hdem/__init__.py", "include/hdem/core/joint/hdem_joint_law.h", "share/doc/hdem/hdf5_format.md"):
             self.assertIn(f"/usr/{name}", self.names)
         folders = {"/usr", *(f"/usr/{name}" for name in ("bin", "include", "lib", "share")), "/usr/lib/python3", "/usr/lib/python3/dist-packages", "/usr/share/man",
-                   "/usr/share/man/man1", "/usr/share/doc", "/usr/share/bash-completion", "/usr/share/bash-completion/completions", ""}
+                   "/usr/share/man/man1", "/usr/share/doc", "/usr/share/lintian", "/usr/share/lintian/overrides", "/usr/share/bash-completion", "/usr/share/bash-completion/completions", ""}
         ours = ("/usr/bin/hdem", "/usr/include/hdem", "/usr/lib/python3/dist-packages/hdem", "/usr/share/hdem", "/usr/share/doc/hdem", "/usr/share/man/man1/hdem.1.gz",
-                "/usr/share/bash-completion/completions/hdem")
+                "/usr/share/man/man1/hdem-sweep.1.gz", "/usr/share/lintian/overrides/hdem", "/usr/share/bash-completion/completions/hdem")
         self.assertEqual({name for name in self.names if name not in folders and not name.startswith(ours)}, set())
         self.assertEqual([name for name in self.names if name.endswith((".a", ".pyc", "__pycache__", ".cpp"))], [])
 
@@ -182,6 +182,7 @@ class Package(unittest.TestCase):
     def test_man_page_completion_and_guide(self):
         page = gzip.decompress((self.usr / "share/man/man1/hdem.1.gz").read_bytes()).decode()
         self.assertIn(f'"hdem {VERSION}', page)
+        self.assertIn("hdem\\-sweep collect", gzip.decompress((self.usr / "share/man/man1/hdem-sweep.1.gz").read_bytes()).decode())
         words = said("bash", "-c", f". {self.usr}/share/bash-completion/completions/hdem; COMP_WORDS=(hdem cri); COMP_CWORD=1; _hdem; echo ${{COMPREPLY[*]}}")
         self.assertEqual(words.strip(), "critical")
         guide = self.documents / "guide"

@@ -28,6 +28,7 @@ HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(TOOLS))
 import hdem_io    # noqa: E402
 import plot       # noqa: E402
+import plot_history    # noqa: E402
 import small_case    # noqa: E402
 
 
@@ -185,6 +186,17 @@ class InterruptedRun(unittest.TestCase):
         last = folder / f"frames/blocks_{frames[-1].number:06d}.hdf"
         last.write_bytes(last.read_bytes()[:1000])    # the power failed
         self.assertEqual(hdem_io.open_run(folder).frames, frames[:-1])
+
+
+class Positions(unittest.TestCase):
+    """A block at 20.5 m that moves by a millimetre: an axis from 20.5 to 20.501 cannot be read."""
+
+    def test_that_change_little_are_drawn_from_their_first_value(self):
+        self.assertEqual(plot_history.start_of("position_x", np.array([20.5, 20.501, np.nan])), 20.5)
+        self.assertEqual(plot_history.start_of("position_x", np.array([20.5, 23.0])), 0.0)
+        self.assertEqual(plot_history.start_of("position_x", np.array([0.0, 1e-3])), 0.0)
+        self.assertEqual(plot_history.start_of("force_x", np.array([20.5, 20.501])), 0.0)
+        self.assertEqual(plot_history.start_of("position_x", np.array([np.nan])), 0.0)
 
 
 class ColourRange(unittest.TestCase):

@@ -123,6 +123,12 @@ const steps = {
         await page.locator(".manual input").nth(1).press("Enter");
         said.manual = (await state(page)).legend;
     },
+    async positions(browser, said) {
+        const page = await open(browser, said);
+        await settled(page);
+        said.labels = await page.locator(".chart .u-series .u-label").allTextContents();
+        said.units = await page.locator(".chart > b").allTextContents();
+    },
     async support(browser, said) {
         const page = await open(browser, said);
         await page.selectOption("#field", "none");

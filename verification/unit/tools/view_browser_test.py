@@ -167,6 +167,14 @@ class SmallPages(Browser):
         self.assertGreater(count(dark, NIGHT), 0.5 * dark.shape[0] * dark.shape[1])
         self.assertEqual(count(dark, GROUND), 0)
 
+    def test_positions_that_change_little_are_drawn_from_their_first_value(self):
+        """Else two places of a block that moves by micrometres are two straight lines."""
+        history = '[[history]]\nname = "a place"\nblock = "l"\nquantities = ["position_x", "position_y"]\nevery = 10\n[[history]]\nname = "rest"'
+        folder = self.run_of("places", small_text().replace('[[history]]\nname = "rest"', history, 1))
+        said = self.browse("positions", self.page_of(folder, name="places"))
+        self.assertEqual([label for label in said["labels"] if "position" in label], ["position x from 0.833333 m", "position y from 0.833333 m"])
+        self.assertEqual(said["units"], ["[µm]"])
+
     def test_pointer_finds_moves_and_keeps(self):
         said = self.browse("pointer", self.file)
         self.assertTrue(said["tip"].startswith("ball"), said["tip"])
