@@ -61,7 +61,7 @@ struct StaticOutcome
 /// 4. blocks far more out of balance than the others are brought near to it by such steps of their own (parallel/static_spots.cpp)
 /// 5. in balance: features and contacts are found anew; the state is the answer if it is still in balance
 ///
-/// From zero stress, and where that leads nowhere, Newton and cycles take turns first (parallel/static_approach.h).
+/// From zero stress Newton and cycles may take turns first (parallel/static_approach.h); after an excavation see parallel/static_ways.h.
 ///
 /// `state` changes only when it is balanced, or nearly: places, forces and regimes of contacts, velocities 0, ledger. The slip's work goes to friction, all else that
 /// weight and springs have given to local damping, as the cycles in its place would have done. The same bits on any number of threads.
