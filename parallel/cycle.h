@@ -85,14 +85,13 @@ class CycleRunner
     [[nodiscard]] StageSamples& samples_of(const Team& team);
     /// @param is_last  the state is looked at after this cycle
     void evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock);
-    [[nodiscard]] bool looks_for_groups(const State& state, std::int64_t now) const;
     void find_fast(const Model& model, const State& state, const Team& team, std::int64_t now);
     void store_tilts(State& state, const Team& team);
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team);
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
-    void find_groups(State& state, const Team& team, std::int64_t now);
+    void find_groups(State& state, const Team& team);
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);

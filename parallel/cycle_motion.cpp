@@ -31,30 +31,31 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
     if (!state.moving.empty() && std::isfinite(rules_.groups.speed))
-        mark_moving(part.range, model, rules_.groups, state.moving, state.blocks);
+        mark_moving(part.range, state.moving, state.blocks);
     if (!part.bolted.empty())
         hold_by_bolts(work_.bolted, part.range, state.blocks);
 }
 
-bool CycleRunner::looks_for_groups(const State& state, std::int64_t now) const
-{
-    return std::isfinite(rules_.groups.speed) && hdem::looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
-}
-
 void CycleRunner::find_fast(const Model& model, const State& state, const Team& team, std::int64_t now)
 {
+    if (!std::isfinite(rules_.groups.speed))
+        return;
+    const bool among_all = looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
-    for (Index i = mine.begin; i < mine.end && looks_for_groups(state, now); ++i)
+    for (Index i = mine.begin; i < mine.end; ++i)
     {
         BlockPart& part = partition_.blocks[i];
         part.fast.clear();
-        hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
+        if (among_all)
+            hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
+        else
+            hdem::find_fast(part.range, model, rules_.groups, state.blocks, state.moving, part.fast);
     }
 }
 
-void CycleRunner::find_groups(State& state, const Team& team, std::int64_t now)
+void CycleRunner::find_groups(State& state, const Team& team)
 {
-    if (!looks_for_groups(state, now) ||
+    if (!std::isfinite(rules_.groups.speed) ||
         (state.moving.empty() && std::ranges::all_of(partition_.blocks, [](const BlockPart& part) { return part.fast.empty(); })))
         return;
     team.alone(

@@ -18,12 +18,17 @@ struct GroupRule
     double speed = std::numeric_limits<double>::infinity();  ///< faster ones, or of whose rim [m/s]
 };
 
-/// Are groups looked for in the cycle that follows so many of the stage? Where all blocks are fast that takes as long as a good part of a cycle. So it is done in each of a
-/// stage's first cycles, in which most of what falls gets free, and then now and then: more often while there are some.
+/// Are groups looked for among all blocks in the cycle that follows so many of the stage? Where all are fast that takes as long as a good part of a cycle. So it is done in each of
+/// a stage's first cycles, in which most of what falls gets free, and then now and then. In between only those that are known are looked at again, in each cycle: a group that hits something is damped
+/// from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
+
+/// The same among those that are known to move together.
+void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks,
+               const std::vector<MovingBlock>& moving, std::vector<Index>& fast);
 
 /// Groups of fast blocks. Local damping stands for what the rock around takes up: a block is held back by no more than the friction that its joints have left. But joints
 /// between blocks that fall or slide together hold nothing: a stack of two fell with 0.2 g, and slid 0.16 m where one block slides 0.91 m. So
@@ -78,7 +83,6 @@ class MovingGroups
     std::vector<Index> queue_;  ///< members
 };
 
-/// Let damping know, once forces are summed. Blocks that have become slow since groups were looked for are left out. Writes: force of these blocks.
-void mark_moving(IndexRange range, const Model& model, const GroupRule& rule, const std::vector<MovingBlock>& moving,
-                 Blocks& blocks);
+/// Let damping know, once forces are summed. Writes: force of these blocks.
+void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks);
 }  // namespace hdem
