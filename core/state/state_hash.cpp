@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace hdem
 {
@@ -80,6 +81,13 @@ Contact in_user_numbers(const Model& model, const std::vector<Index>& part_numbe
     return contact;
 }
 
+/// The joint of a contact by what it is: its place in memory depends on how often properties have been set.
+void add_joint(const Model& model, Index law, HashStream& hash)
+{
+    const CoulombSlip& joint = model.joints.laws[static_cast<std::size_t>(law)];
+    hash.add({joint.normal_stiffness, joint.shear_stiffness, joint.friction_coefficient, joint.cohesion, joint.restitution});
+}
+
 void add_contacts(const Model& model, const Contacts& contacts, HashStream& hash)
 {
     const std::vector<Index> part_number = user_part_numbers(model);
@@ -93,7 +101,8 @@ void add_contacts(const Model& model, const Contacts& contacts, HashStream& hash
     std::ranges::sort(order, {}, pair_of);
     for (const Index i : order)
     {
-        const Contact contact = in_user_numbers(model, part_number, contacts.get(i));
+        Contact contact = in_user_numbers(model, part_number, contacts.get(i));
+        add_joint(model, std::exchange(contact.law, 0), hash);
         tables::for_each_of_contact(contacts.has_preload, contacts.has_memory,
                                     [&](auto, const char*, const auto& list) { add_row(list, contact, hash); });
         add_number(contacts.stale[i], hash);
