@@ -177,11 +177,15 @@ void MovingGroups::gather(Index member, const View& view)
     queue_.assign(1, member);
     while (!queue_.empty())
     {
-        const Index block = members_[queue_.back()].block;
+        Member& now = members_[queue_.back()];
+        const Index block = now.block;
         queue_.pop_back();
         for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
         {
             const Index contact = view.list.entry[e] / 2;
+            if (!do_touch(contact, view.contacts))
+                continue;
+            now.touches = true;
             for (int end = 0; end < 2; ++end)
             {
                 if (tie_of(contact, end, view.rule, view.blocks, view.contacts) != Tie::slides)
@@ -228,8 +232,8 @@ void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, c
     moving.clear();
     for (const Member& member : members_)
     {
-        if (member.held)
-            continue;
+        if (member.held || !member.touches)
+            continue;  // (what touches nothing is not damped in any case)
         const Group& group = groups_[member.group];
         const bool slides = !group.is_alone && group.contact != no_index;
         if (member.touched && !slides)
@@ -245,7 +249,7 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
     {
         BlockForce& force = blocks.force[at->block];
         if (force.contacts == 0)
-            continue;  // what touches nothing is not damped in any case
+            continue;  // gone
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;

@@ -53,6 +53,7 @@ class MovingGroups
         Index block;
         bool touched = false;    ///< it, or a member that it touches, touches what is not fast
         bool held = false;       ///< by a joint that does not slide, or together with such a member
+        bool touches = false;    ///< anything
         Index group = no_index;  ///< of those that are not held
     };
     struct Group
