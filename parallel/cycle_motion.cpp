@@ -36,27 +36,27 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
         hold_by_bolts(work_.bolted, part.range, state.blocks);
 }
 
-void CycleRunner::find_fast(const Model& model, const State& state, const Team& team, std::int64_t now)
+void CycleRunner::find_fast(const Model& model, const State& state, const Team& team)
 {
     if (!std::isfinite(rules_.groups.speed))
         return;
-    const bool among_all = looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         BlockPart& part = partition_.blocks[i];
         part.fast.clear();
-        if (among_all)
-            hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
-        else
-            hdem::find_fast(part.range, model, rules_.groups, state.blocks, state.moving, part.fast);
+        hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
     }
 }
 
 void CycleRunner::find_groups(State& state, const Team& team)
 {
-    if (!std::isfinite(rules_.groups.speed) ||
-        (state.moving.empty() && std::ranges::all_of(partition_.blocks, [](const BlockPart& part) { return part.fast.empty(); })))
+    constexpr std::size_t few = 128;  // then looking takes no time
+    std::size_t count = 0;
+    for (const BlockPart& part : partition_.blocks)
+        count += part.fast.size();
+    const bool among_all = count <= few || looks_for_groups(state.cycle - state.stage_begin_cycle, !state.moving.empty());
+    if (!std::isfinite(rules_.groups.speed) || (state.moving.empty() && (count == 0 || !among_all)))
         return;
     team.alone(
         [&]
@@ -67,6 +67,9 @@ void CycleRunner::find_groups(State& state, const Team& team)
                 fast.insert(fast.end(), part.fast.begin(), part.fast.end());
                 bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
             }
+            if (!among_all)
+                std::erase_if(fast, [&](Index block)
+                              { return !std::ranges::binary_search(state.moving, block, {}, &MovingBlock::block); });
             groups_.find(rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts, state.moving);
         });
 }

@@ -21,11 +21,6 @@ bool is_fast(Index block, const Model& model, double speed, const Blocks& blocks
     return m.vx * m.vx + m.vy * m.vy + rim * rim > speed * speed;
 }
 
-auto first_in(IndexRange range, const std::vector<MovingBlock>& moving)
-{
-    return std::ranges::lower_bound(moving, range.begin, {}, &MovingBlock::block);
-}
-
 /// How a closed contact point ties its blocks.
 enum class Tie
 {
@@ -85,13 +80,6 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
     for (Index b = range.begin; b < range.end; ++b)
         if (is_fast(b, model, rule.speed, blocks) && blocks.present[b] != 0 && is_unbound(blocks.inertia[b]))
             fast.push_back(b);
-}
-
-void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks,
-               const std::vector<MovingBlock>& moving, std::vector<Index>& fast)
-{
-    for (auto at = first_in(range, moving); at != moving.end() && at->block < range.end; ++at)
-        find_fast({at->block, at->block + 1}, model, rule, blocks, fast);
 }
 
 void MovingGroups::take_members(const std::vector<Index>& fast, Index blocks)
@@ -245,7 +233,8 @@ void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, c
 
 void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks)
 {
-    for (auto at = first_in(range, moving); at != moving.end() && at->block < range.end; ++at)
+    for (auto at = std::ranges::lower_bound(moving, range.begin, {}, &MovingBlock::block);
+         at != moving.end() && at->block < range.end; ++at)
     {
         BlockForce& force = blocks.force[at->block];
         if (force.contacts == 0)

@@ -18,17 +18,13 @@ struct GroupRule
     double speed = std::numeric_limits<double>::infinity();  ///< faster ones, or of whose rim [m/s]
 };
 
-/// Are groups looked for among all blocks in the cycle that follows so many of the stage? Where all are fast that takes as long as a good part of a cycle. So it is done in each of
-/// a stage's first cycles, in which most of what falls gets free, and then now and then. In between only those that are known are looked at again, in each cycle: a group that hits something is damped
-/// from then on.
+/// Are groups looked for among all blocks in the cycle that follows so many of the stage, where many are fast? If all are, looking takes as long as a good part of a cycle. So it is done in
+/// each of a stage's first cycles, in which most of what falls gets free, and then now and then. In between only those that are known are looked at again, in each cycle: a group that hits
+/// something is damped from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
-
-/// The same among those that are known to move together.
-void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks,
-               const std::vector<MovingBlock>& moving, std::vector<Index>& fast);
 
 /// Groups of fast blocks. Local damping stands for what the rock around takes up: a block is held back by no more than the friction that its joints have left. But joints
 /// between blocks that fall or slide together hold nothing: a stack of two fell with 0.2 g, and slid 0.16 m where one block slides 0.91 m. So
