@@ -13,7 +13,8 @@ async function open(browser, said, path = file, options = {}) {
     page.on("request", (request) => request.url().startsWith("blob:") || said.requests.push(request.url()));
     const begin = Date.now();
     await page.goto(`file://${resolve(path)}`, { waitUntil: "commit" });
-    await page.waitForFunction(() => window.hdem || !document.getElementById("message")?.hidden, null, { timeout: 120000 });
+    // A page that is still read has no message yet.
+    await page.waitForFunction(() => window.hdem || document.getElementById("message")?.hidden === false, null, { timeout: 120000 });
     said.opened = (Date.now() - begin) / 1000;
     return page;
 }
