@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#ifdef __AVX__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
@@ -77,6 +77,47 @@ inline Pack& operator-=(Pack& a, Pack b)
 {
     return a = a - b;
 }
+#if defined(__SSE2__) && !defined(__AVX__)
+// g++ compares and chooses one number after the other where vectors are longer than registers.
+template <typename To, typename Operation, typename... From>
+[[gnu::always_inline]] inline To by_halves(const Operation& operation, const From&... from)
+{
+    To to;
+    auto* const result = reinterpret_cast<__m128d*>(&to.v);
+    result[0] = operation(reinterpret_cast<const __m128d*>(&from.v)[0]...);
+    result[1] = operation(reinterpret_cast<const __m128d*>(&from.v)[1]...);
+    return to;
+}
+inline Mask operator<(Pack a, Pack b)
+{
+    return by_halves<Mask>([](__m128d x, __m128d y) { return _mm_cmplt_pd(x, y); }, a, b);
+}
+inline Mask operator>(Pack a, Pack b)
+{
+    return b < a;
+}
+inline Mask operator<=(Pack a, Pack b)
+{
+    return by_halves<Mask>([](__m128d x, __m128d y) { return _mm_cmple_pd(x, y); }, a, b);
+}
+inline Mask operator==(Pack a, Pack b)
+{
+    return by_halves<Mask>([](__m128d x, __m128d y) { return _mm_cmpeq_pd(x, y); }, a, b);
+}
+inline Pack select(Mask m, Pack yes, Pack no)
+{
+    return by_halves<Pack>([](__m128d of, __m128d x, __m128d y) { return _mm_or_pd(_mm_and_pd(of, x), _mm_andnot_pd(of, y)); }, m,
+                           yes, no);
+}
+inline Pack max(Pack a, Pack b)
+{
+    return by_halves<Pack>([](__m128d x, __m128d y) { return _mm_max_pd(x, y); }, a, b);
+}
+inline Pack min(Pack a, Pack b)
+{
+    return by_halves<Pack>([](__m128d x, __m128d y) { return _mm_min_pd(x, y); }, a, b);
+}
+#else
 inline Mask operator<(Pack a, Pack b)
 {
     return {a.v < b.v};
@@ -93,6 +134,19 @@ inline Mask operator==(Pack a, Pack b)
 {
     return {a.v == b.v};
 }
+inline Pack select(Mask m, Pack yes, Pack no)
+{
+    return Pack(m.v ? yes.v : no.v);
+}
+inline Pack max(Pack a, Pack b)
+{
+    return Pack(a.v > b.v ? a.v : b.v);
+}
+inline Pack min(Pack a, Pack b)
+{
+    return Pack(a.v < b.v ? a.v : b.v);
+}
+#endif
 inline Mask operator&(Mask a, Mask b)
 {
     return {a.v & b.v};
@@ -106,18 +160,6 @@ inline Mask operator!(Mask a)
     return {~a.v};
 }
 
-inline Pack select(Mask m, Pack yes, Pack no)
-{
-    return Pack(m.v ? yes.v : no.v);
-}
-inline Pack max(Pack a, Pack b)
-{
-    return Pack(a.v > b.v ? a.v : b.v);
-}
-inline Pack min(Pack a, Pack b)
-{
-    return Pack(a.v < b.v ? a.v : b.v);
-}
 inline Pack abs(Pack a)
 {
     return max(a, -a);
@@ -133,10 +175,48 @@ inline bool any(Mask m)
 {
 #ifdef __AVX__
     return _mm256_movemask_pd(reinterpret_cast<__m256d>(m.v)) != 0;
+#elif defined(__SSE2__)
+    const auto* const halves = reinterpret_cast<const __m128d*>(&m.v);
+    return _mm_movemask_pd(_mm_or_pd(halves[0], halves[1])) != 0;
 #else
     return ((m.v[0] | m.v[1]) | (m.v[2] | m.v[3])) != 0;
 #endif
 }
+/// A word beside each lane. (g++ makes tens of moves by way of memory of vectors that it is asked to convert.)
+using WordLanes = std::uint32_t __attribute__((vector_size(16)));
+
+/// Words whose bits are all set where lanes are.
+[[nodiscard, gnu::always_inline]] inline WordLanes words_of(Mask m)
+{
+#if defined(__AVX__)
+    const __m256 all = reinterpret_cast<__m256>(m.v);
+    return reinterpret_cast<WordLanes>(_mm_shuffle_ps(_mm256_castps256_ps128(all), _mm256_extractf128_ps(all, 1), 0x88));
+#elif defined(__SSE2__)
+    const auto* const halves = reinterpret_cast<const __m128*>(&m.v);
+    return reinterpret_cast<WordLanes>(_mm_shuffle_ps(halves[0], halves[1], 0x88));
+#else
+    return __builtin_convertvector(m.v, WordLanes);
+#endif
+}
+
+/// Lanes that are set where all bits of words are.
+[[nodiscard, gnu::always_inline]] inline Mask mask_of(WordLanes words)
+{
+#if defined(__AVX2__)
+    return {reinterpret_cast<Mask::V>(_mm256_cvtepi32_epi64(reinterpret_cast<__m128i>(words)))};
+#elif defined(__SSE2__)
+    Mask m;
+    const auto w = reinterpret_cast<__m128i>(words);
+    auto* const halves = reinterpret_cast<__m128i*>(&m.v);
+    halves[0] = _mm_unpacklo_epi32(w, w);
+    halves[1] = _mm_unpackhi_epi32(w, w);
+    return m;
+#else
+    using SignedWords = std::int32_t __attribute__((vector_size(16)));
+    return {__builtin_convertvector(reinterpret_cast<SignedWords>(words), Mask::V)};
+#endif
+}
+
 /// What comparing two packs gives.
 template <typename P>
 using MaskOf = decltype(P() < P());

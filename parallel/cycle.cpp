@@ -216,6 +216,8 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, Th
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads.rule().most)));
     for (ContactPart& part : partition_.contacts)  // whoever has had the state may have changed anything
         part.forget();
+    for (BlockPart& part : partition_.blocks)
+        part.speed_squared = unknown_speed;
     Way way{margin_used({0, state.blocks.size()}, model, state.blocks, state.rebuilt_at)};
     const std::int64_t end = run_end_ = state.cycle + cycles;
     for (bool goes_on = true; goes_on && state.cycle < end && !state.contacts_outdated;)

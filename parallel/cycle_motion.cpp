@@ -45,7 +45,8 @@ void CycleRunner::find_fast(const Model& model, const State& state, const Team& 
     {
         BlockPart& part = partition_.blocks[i];
         part.fast.clear();
-        hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
+        if (part.speed_squared > rules_.groups.speed * rules_.groups.speed)
+            hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
     }
 }
 
@@ -90,10 +91,18 @@ double CycleRunner::change_positions(const Model& model, State& state, BlockPart
 {
     add_work_after(part.pushed, work_.constant, state, part.ledger);
     double way = 0.0;
+    part.speed_squared = 0.0;
     for (const IndexRange& range : part.active)
-        way = std::max(way, update_positions(range, model, state.blocks, pseudo));
+    {
+        const Travel travel = update_positions(range, model, state.blocks, pseudo);
+        way = std::max(way, travel.way);
+        part.speed_squared = std::max(part.speed_squared, travel.speed_squared);
+    }
     if (state.flies_ahead && !part.flying.empty())
+    {
+        part.speed_squared = unknown_speed;
         way += fly_ahead(part.flying, rules_.step.loose_distance, model, state.blocks, part.ledger);
+    }
     return way;
 }
 

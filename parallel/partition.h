@@ -10,6 +10,8 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
+#include <limits>
+
 namespace hdem
 {
 /// Contacts that follow each other. Contacts are sorted by their blocks, and blocks along a space-filling curve, so that a part is a patch of
@@ -43,6 +45,8 @@ struct ContactPart
     void remember(double gone);
 };
 
+inline constexpr double unknown_speed = std::numeric_limits<double>::infinity();
+
 struct BlockPart
 {
     IndexRange range;
@@ -57,6 +61,7 @@ struct BlockPart
     EnergyLedger ledger;             ///< of this cycle
     double way = 0.0;                ///< no point of these blocks went farther in this cycle, as a share of the block's margin
     StepBound step;                  ///< of these blocks
+    double speed_squared = unknown_speed;  ///< of the fastest of these blocks or its rim, when they last moved [m2/s2]
 };
 
 struct Partition

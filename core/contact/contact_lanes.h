@@ -7,6 +7,8 @@
 #include "core/state/workspace.h"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 namespace hdem
 {
@@ -129,37 +131,46 @@ class LawLanes
     BasicJointLanes<P> joint_;
 };
 
-using ByteLanes = std::uint8_t __attribute__((vector_size(4)));
+/// Four bytes, each in a word and at its place among the four: so they are loaded and stored as one number, and compared as words.
+inline constexpr WordLanes byte_places{0xffU, 0xff00U, 0xff0000U, 0xff000000U};
+inline constexpr WordLanes byte_ones{1U, 1U << 8, 1U << 16, 1U << 24};
+static_assert(std::endian::native == std::endian::little);
 
-/// Regimes of four contact points.
-[[nodiscard]] inline Mask::V load_regimes(const std::uint8_t* from)
+[[nodiscard, gnu::always_inline]] inline WordLanes load_bytes(const std::uint8_t* from)
 {
-    ByteLanes bytes;
+    std::uint32_t bytes;
     std::memcpy(&bytes, from, sizeof bytes);
-    return __builtin_convertvector(bytes, Mask::V);
+    return WordLanes{bytes, bytes, bytes, bytes} & byte_places;
 }
 
-inline void store_bytes(Mask::V values, std::uint8_t* to)
+[[gnu::always_inline]] inline void store_bytes(WordLanes placed, std::uint8_t* to)
 {
-    const ByteLanes bytes = __builtin_convertvector(values, ByteLanes);
+    const WordLanes two = placed | __builtin_shufflevector(placed, placed, 2, 3, 0, 1);
+    const WordLanes all = two | __builtin_shufflevector(two, two, 1, 0, 3, 2);
+    const std::uint32_t bytes = all[0];
     std::memcpy(to, &bytes, sizeof bytes);
 }
 
 /// Points that were in the impulse regime.
 [[nodiscard]] inline Mask were_impulses(const std::uint8_t* regime, Mask)
 {
-    return {load_regimes(regime) == static_cast<std::int64_t>(Regime::impulse)};
+    return mask_of(WordLanes(load_bytes(regime) == byte_ones * static_cast<std::uint32_t>(Regime::impulse)));
 }
 
-/// `slips` are among `spring`, and none of `held` is.
-inline void store_regimes(Mask spring, Mask slips, Mask held, std::uint8_t* regime)
+/// Regimes of four contact points, as load_bytes has them: `slips` are among `spring`, and none of `held` is.
+[[nodiscard, gnu::always_inline]] inline WordLanes regimes_of(Mask spring, Mask slips, Mask held)
 {
-    store_bytes((spring.v & 1) + (slips.v & 1) + (held.v & 3), regime);
+    return (words_of(spring) & byte_ones) + (words_of(slips) & byte_ones) + (words_of(held) & (byte_ones * 3U));
+}
+
+[[gnu::always_inline]] inline void store_regimes(Mask spring, Mask slips, Mask held, std::uint8_t* regime)
+{
+    store_bytes(regimes_of(spring, slips, held), regime);
 }
 
 inline void store_flags(Mask m, std::uint8_t* to)
 {
-    store_bytes(m.v & 1, to);
+    store_bytes(words_of(m) & byte_ones, to);
 }
 
 [[nodiscard]] inline FloatLanes to_float(Pack value)
@@ -215,30 +226,43 @@ inline void add_pack(Pack a, Pack& sum)
     sum += a;
 }
 
-/// Loads of four contacts on their two blocks; `swapped`: ref is the block of part_b.
-inline void store_loads(Pack x, Pack y, Pack moment_ref, Pack moment_inc, Pack reserve, const std::uint8_t* swapped, BlockLoad* to)
+/// The other sign in lanes of `m`.
+[[nodiscard, gnu::always_inline]] inline Pack turned(Mask m, Pack value)
 {
-    Pack a = -x, b = -y, c = moment_ref, d = reserve;
-    transpose(a, b, c, d);
-    a.store(&to[swapped[0]].x);
-    b.store(&to[2 + swapped[1]].x);
-    c.store(&to[4 + swapped[2]].x);
-    d.store(&to[6 + swapped[3]].x);
-    transpose(x, y, moment_inc, reserve);
-    x.store(&to[1 - swapped[0]].x);
-    y.store(&to[3 - swapped[1]].x);
-    moment_inc.store(&to[5 - swapped[2]].x);
-    reserve.store(&to[7 - swapped[3]].x);
+    constexpr std::int64_t sign = std::numeric_limits<std::int64_t>::min();
+    return Pack(std::bit_cast<Pack::V>(std::bit_cast<Mask::V>(value.v) ^ (m.v & sign)));
+}
+
+/// Loads of four contacts on their two blocks; `swapped`: ref is the block of part_b.
+[[gnu::always_inline]] inline void store_loads(Pack x, Pack y, Pack moment_ref, Pack moment_inc, Pack reserve,
+                                               const std::uint8_t* swapped, BlockLoad* to)
+{
+    const Mask ref_first = mask_of(WordLanes(load_bytes(swapped) == WordLanes{})), inc_first = !ref_first;
+    const auto put = [to](Pack a, Pack b, Pack c, Pack d, int side)
+    {
+        transpose(a, b, c, d);
+        a.store(&to[side].x);
+        b.store(&to[2 + side].x);
+        c.store(&to[4 + side].x);
+        d.store(&to[6 + side].x);
+    };
+    put(turned(ref_first, x), turned(ref_first, y), select(inc_first, moment_inc, moment_ref), reserve, 0);
+    put(turned(inc_first, x), turned(inc_first, y), select(inc_first, moment_ref, moment_inc), reserve, 1);
 }
 
 /// `touching` contacts, of which `springs` have no impulse.
-inline void store_use(Pack mobilised, Pack t_x, Pack t_y, Mask touching, Mask springs, JointUse* to)
+[[gnu::always_inline]] inline void store_use(Pack mobilised, Pack t_x, Pack t_y, Mask touching, Mask springs, JointUse* to)
 {
+    const WordLanes by_springs = words_of(springs), others = words_of(touching) & ~by_springs;
+    const FloatLanes bits = std::bit_cast<FloatLanes>((by_springs & std::uint32_t{contact_force}) |
+                                                      (others & std::uint32_t{contact_impulse}));
     const FloatLanes m = to_float(mobilised), x = to_float(t_x), y = to_float(t_y);
-    for (int i = 0; i < lanes; ++i)
-        to[i] = {m[i], x[i], y[i],
-                 springs.has(i)    ? std::uint32_t{contact_force}
-                 : touching.has(i) ? std::uint32_t{contact_impulse}
-                                   : 0};
+    const FloatLanes mx_01 = __builtin_shufflevector(m, x, 0, 4, 1, 5), mx_23 = __builtin_shufflevector(m, x, 2, 6, 3, 7);
+    const FloatLanes yb_01 = __builtin_shufflevector(y, bits, 0, 4, 1, 5), yb_23 = __builtin_shufflevector(y, bits, 2, 6, 3, 7);
+    const auto put = [to](FloatLanes row, int i) { std::memcpy(static_cast<void*>(&to[i]), &row, sizeof row); };
+    put(__builtin_shufflevector(mx_01, yb_01, 0, 1, 4, 5), 0);
+    put(__builtin_shufflevector(mx_01, yb_01, 2, 3, 6, 7), 1);
+    put(__builtin_shufflevector(mx_23, yb_23, 0, 1, 4, 5), 2);
+    put(__builtin_shufflevector(mx_23, yb_23, 2, 3, 6, 7), 3);
 }
 }  // namespace hdem

@@ -165,8 +165,8 @@ template <typename React>
     put<all>(own, m.energy, energy);
 
     const Mask bears = spring & (!(normal == zero) | (overlap + opening - rest > Pack(-closed_gap) * load_lane(l.length_floor)));
-    const Mask::V regimes = (bears.v & 1) + ((bears & slips).v & 1) + (held.v & 3);
-    store_bytes(all ? regimes : (own.v & regimes) + (~own.v & load_regimes(place.regime[k])), place.regime[k]);
+    const WordLanes regimes = regimes_of(bears, bears & slips, held), here = words_of(own);
+    store_bytes(all ? regimes : (here & regimes) + (~here & load_bytes(place.regime[k])), place.regime[k]);
     const Pack held_rest = overlap + opening - select(g.last_normal[k] > zero, max(last_stretch, zero), zero);
     put<all>(own, l.rest_overlap[k], select(bears, rest, select(held, max(held_rest, zero), zero)));
     put<all>(own, l.overlap[k], overlap);

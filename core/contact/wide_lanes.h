@@ -174,17 +174,18 @@ template <typename Row>
     d.v = _mm512_shuffle_f64x2(high_03, high_47, 0xdd);
 }
 
-[[nodiscard]] inline __m128i load_bytes(const std::uint8_t* from)
+[[nodiscard]] inline __m128i load_eight_bytes(const std::uint8_t* from)
 {
     return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
 }
 
 [[nodiscard]] inline WideMask were_impulses(const std::uint8_t* regime, WideMask)
 {
-    return {static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::impulse))))};
+    return {
+        static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_eight_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::impulse))))};
 }
 
-inline void store_bytes(__m128i bytes, std::uint8_t* to)
+inline void store_eight_bytes(__m128i bytes, std::uint8_t* to)
 {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(to), bytes);
 }
@@ -193,12 +194,12 @@ inline void store_regimes(WideMask spring, WideMask slips, WideMask held, std::u
 {
     const __m128i one = _mm_set1_epi8(1);
     const __m128i springs = _mm_add_epi8(_mm_maskz_mov_epi8(spring.v, one), _mm_maskz_mov_epi8(slips.v, one));
-    store_bytes(_mm_add_epi8(springs, _mm_maskz_mov_epi8(held.v, _mm_set1_epi8(3))), regime);
+    store_eight_bytes(_mm_add_epi8(springs, _mm_maskz_mov_epi8(held.v, _mm_set1_epi8(3))), regime);
 }
 
 inline void store_flags(WideMask m, std::uint8_t* to)
 {
-    store_bytes(_mm_maskz_mov_epi8(m.v, _mm_set1_epi8(1)), to);
+    store_eight_bytes(_mm_maskz_mov_epi8(m.v, _mm_set1_epi8(1)), to);
 }
 
 template <>
@@ -236,7 +237,7 @@ struct Floats<WidePack>
 [[gnu::always_inline]] inline void store_loads(WidePack x, WidePack y, WidePack moment_ref, WidePack moment_inc, WidePack reserve,
                                                const std::uint8_t* swapped, BlockLoad* to)
 {
-    const WideMask inc_first{static_cast<__mmask8>(_mm_cmpneq_epi8_mask(load_bytes(swapped), _mm_setzero_si128()))};
+    const WideMask inc_first{static_cast<__mmask8>(_mm_cmpneq_epi8_mask(load_eight_bytes(swapped), _mm_setzero_si128()))};
     const __m512d x0 = turned(!inc_first, x.v), y0 = turned(!inc_first, y.v);
     const __m512d x1 = turned(inc_first, x.v), y1 = turned(inc_first, y.v);
     const __m512d moment0 = select(inc_first, moment_inc, moment_ref).v, moment1 = select(inc_first, moment_ref, moment_inc).v;

@@ -135,16 +135,18 @@ void update_velocities(IndexRange range, const Model& model, const DampingRule& 
         change_velocities<false>(range, model, rule, blocks, works);
 }
 
-double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo)
+Travel update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo)
 {
     const Pack dt = blocks.step.next;
-    Pack fastest = 0.0, rim = 0.0;
+    Pack fastest = 0.0, rim = 0.0, speed = 0.0;
     for_groups(range,
                [&](Index i, auto count)
                {
                    Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                    Columns pose(&blocks.motion[i].x, row_stride<BlockMotion>, count);
                    Pack vx = v.a, vy = v.b, w = v.c;
+                   const Pack radius = load_some(&model.radius[i], count), of_rim = radius * w;
+                   speed = max(speed, vx * vx + vy * vy + of_rim * of_rim);
                    for (Index k = 0; pseudo != nullptr && k < count; ++k)
                    {
                        Triple& p = (*pseudo)[i + k];
@@ -155,11 +157,11 @@ double update_positions(IndexRange range, const Model& model, Blocks& blocks, st
                    }
                    const Pack share = Pack(1.0) / load_some(&blocks.margin[i], count, 1.0);
                    fastest = max(fastest, (vx * vx + vy * vy) * share * share);
-                   rim = max(rim, abs(w) * load_some(&model.radius[i], count) * share);
+                   rim = max(rim, abs(w) * radius * share);
                    step(pose, v.d, vx, vy, w, dt);
                    pose.store(&blocks.motion[i].x, row_stride<BlockMotion>, count);
                    v.store(&blocks.motion[i].vx, row_stride<BlockMotion>, count);
                });
-    return (std::sqrt(greatest(fastest)) + greatest(rim)) * blocks.step.next;
+    return {.way = (std::sqrt(greatest(fastest)) + greatest(rim)) * blocks.step.next, .speed_squared = greatest(speed)};
 }
 }  // namespace hdem

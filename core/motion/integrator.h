@@ -25,10 +25,16 @@ struct VelocityWorks
 /// damping to `works`, each force times the mean of the velocities before and after.
 void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
 
+/// What blocks did in a cycle.
+struct Travel
+{
+    double way = 0.0;            ///< bound on the share of its margin that any of them has used up
+    double speed_squared = 0.0;  ///< greatest vx^2 + vy^2 + (w radius)^2, without the position correction [m2/s2]
+};
+
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to
 /// rounding; its angle is off by (w dt)^3 / 12. The rest of the rounding is taken out by a Newton step towards length 1.
-/// @return bound on the share of its margin that any of these blocks has used up
 ///
 /// `pseudo`: velocities of the position correction to be added, one entry a block; used up. Or none.
-double update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo = nullptr);
+Travel update_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo = nullptr);
 }  // namespace hdem
