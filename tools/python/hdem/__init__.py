@@ -9,6 +9,7 @@
 SI units, angles in radians but for keys of the case that end in _deg; all per metre of thickness. Numbers have the same bits as those of the
 program `hdem`, on any number of threads and however a run is cut into calls.
 """
+from . import _compiled    # noqa: F401, first: it says what to do where the compiled part is missing
 from ._case import Case
 from ._core import default_threads, version_line
 from ._errors import CaseError, Error, RunError

@@ -6,6 +6,17 @@ import { element } from "./dom.js";
 const COLOURS = ["--c0", "--c1", "--c2", "--c3", "--c4", "--c5"];
 const LOG_FROM = 1e3; // greatest value over least positive one, from which on energies stand on a logarithmic axis
 
+const FAINT = 1e-12; // of the greatest value: less is round-off, and no tick of a logarithmic axis stands there
+const TINY = 1e-9; // of its unit: axes that end below are counted in powers of ten, as ticks are rounded to sixteen digits
+
+// What values are divided by, and how the axis says it.
+function axisUnit(ofValues, greatest) {
+    const [factor, unit] = scaledUnit(ofValues, greatest);
+    if (!(greatest > 0) || greatest >= TINY * factor) return [factor, unit];
+    const exponent = Math.floor(Math.log10(greatest / factor));
+    return [factor * 10 ** exponent, `1e${exponent} ${unit}`.trim()];
+}
+
 const panelOf = (name, unit) => (unit !== "1" ? unit : name.endsWith("_points") ? "points" : name);
 
 // As few digits as tell all ticks apart.
@@ -70,8 +81,8 @@ export class Histories {
             }
         });
         const log = columns.every(({ unit, name }) => unit === "J" || name === "unbalanced_force_ratio") && greatest > LOG_FROM * least;
-        const [factor, unit] = scaledUnit(columns[0].unit, greatest);
-        const scaled = columns.map(({ values }, i) => Array.from(values, (value) => (log && !(value > 0) ? null : Number.isFinite(value) ? (value - starts[i]) / factor : null)));
+        const [factor, unit] = axisUnit(columns[0].unit, greatest);
+        const scaled = columns.map(({ values }, i) => Array.from(values, (value) => (log && !(value > FAINT * greatest) ? null : Number.isFinite(value) ? (value - starts[i]) / factor : null)));
         const data = uPlot.join(columns.map(({ time }, i) => [Array.from(time), scaled[i]]));
         const kinds = [...new Set(columns.map(({ name }) => name))];
         const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 }, font: "11px system-ui, sans-serif" };

@@ -32,13 +32,13 @@ async function start() {
     byId("loading").remove();
     window.hdem = { view, runs, ready: performance.now() };
     startLive(view, facts);
-    await showHistories(view, runs);
+    window.hdem.histories = await showHistories(view, runs);
     for (const run of runs) for (let i = 0; i < run.frames.length && run.bytes < 300e6; ++i) await run.frame(i).then(() => new Promise((done) => setTimeout(done)));
 }
 
 async function showHistories(view, runs) {
     const tables = await Promise.all(runs.map((run) => run.tables())), names = [...new Set(tables.flat().map((table) => table.name))];
-    if (!names.length) return;
+    if (!names.length) return null;
     const histories = new Histories(byId("charts"), (time) => (view.play(false), view.goTo(view.timeline.placeOfTime(runs, time))));
     const show = (name) => histories.show(tables.map((own) => own.find((table) => table.name === name)), runs.map((run) => run.facts.name));
     byId("history-holder").append(choice("history", names.map((name) => [name, name.replaceAll("_", " ")]), names[0], show));
@@ -49,7 +49,7 @@ async function showHistories(view, runs) {
     follow();
     const redraw = view.retheme.bind(view);
     view.retheme = (theme) => (redraw(theme), show(byId("history").value));
-    window.hdem.histories = histories;
+    return histories;
 }
 
 start().catch((error) => {

@@ -11,7 +11,7 @@ const ORDER = ["forces", "joints", "outline", "crosses", "water", "linings", "bo
 
 export class Pane {
     constructor(run, view) {
-        Object.assign(this, { run, view, camera: new Camera(), wanted: -1, shown: -1, hovered: -1, pinned: -1 });
+        Object.assign(this, { run, view, camera: new Camera(), wanted: -1, shown: -1, hovered: -1, pinned: -1, isExact: false });
         this.canvas = element("canvas", { tabIndex: 0, ariaLabel: `Blocks of ${run.facts.name}` });
         this.caption = element("div", { className: "caption" });
         this.scaleBar = element("div", { className: "scale-bar" }, element("i"), element("span"));
@@ -132,9 +132,9 @@ export class Pane {
     draw() {
         if (!this.frame) return;
         const { view } = this;
-        const isDone = this.scene.draw(this.camera, { ink: rgb("#1c2126"), edges: view.layers.edges, layers: ORDER, ratio: this.ratio });
+        this.isExact = this.scene.draw(this.camera, { ink: rgb("#1c2126"), edges: view.layers.edges, layers: ORDER, ratio: this.ratio });
         clearTimeout(this.later);
-        if (!isDone) this.later = setTimeout(() => view.redraw(), 160);
+        if (!this.isExact) this.later = setTimeout(() => view.redraw(), 160);
         const aim = 90 / this.camera.scale, power = 10 ** Math.floor(Math.log10(aim)), step = [5, 2, 1].find((n) => n * power <= aim) * power;
         this.scaleBar.firstChild.style.width = `${step * this.camera.scale}px`;
         this.scaleBar.lastChild.textContent = step >= 1 ? `${step} m` : step >= 1e-3 ? `${+(step * 1e3).toPrecision(2)} mm` : `${+(step * 1e6).toPrecision(2)} µm`;

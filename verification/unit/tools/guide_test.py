@@ -77,6 +77,13 @@ class Pages(unittest.TestCase):
                 if not text.startswith("--8<--"):
                     tomllib.loads(text)
 
+    def test_titles_of_cases_are_words(self):
+        """They stand in pictures and pages; which check uses a case is a comment in it."""
+        import tomllib
+        for file in [*(ROOT / "verification/cases").rglob("*.toml"), *(GUIDE / "cases").rglob("*.toml")]:
+            title = tomllib.loads(file.read_text(encoding="utf-8")).get("title", "")
+            self.assertNotRegex(title, r"\([^)]*([A-Z]\d|rest\.|robust\.|closed form|sect\.)", file.name)
+
     def test_failing_commands_and_wrong_outputs_are_noticed(self):
         for text, failures in (("```sh\nexit 3\n```\n", 1), ("```sh\necho one   two\n```\n\n<!-- output -->\n```text\none two\n```\n", 0), ("```sh\necho one\n```\n\n```text\ntwo\n```\n", 1),
                                ("<!-- long -->\n```sh\nexit 3\n```\n", 0), ("<!-- not run: why -->\n```sh\nexit 3\n```\n", 0), ("```sh\nfalse\ntrue\n```\n", 1), ("```python\nraise SystemExit(1)\n```\n", 1),

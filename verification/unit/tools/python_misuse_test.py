@@ -4,9 +4,11 @@
     python_misuse_test.py CASE    any case of some blocks, with the package on PYTHONPATH; exit code 77: it was not built, or there is no pytest
 """
 import os
+import shutil
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 try:
     import numpy as np
@@ -94,6 +96,23 @@ def test_numbers_of_other_kinds_are_taken():
     run.velocities = np.asfortranarray(run.velocities)
     run.velocities = run.velocities.astype(object)
     assert run.cycle == 3
+
+
+@pytest.mark.parametrize("file, words", [
+    (None, "has no compiled part (_core*.so)"),
+    ("_core.cpython-39-x86_64-linux-gnu.so", f"no compiled part for this Python {sys.version_info.major}.{sys.version_info.minor}, only _core.cpython-39-x86_64-linux-gnu.so"),
+    ("_core.so", "cannot be loaded: ")])
+def test_a_package_without_its_compiled_part_says_how_to_get_it(tmp_path, file, words):
+    package = Path(hdem.__file__).parent
+    shutil.copytree(package, tmp_path / "hdem", ignore=shutil.ignore_patterns("_core*.so", "__pycache__"))
+    if file:
+        (tmp_path / "hdem" / file).write_bytes(b"not a library")
+    done = subprocess.run([sys.executable, "-B", "-c", "import hdem"], capture_output=True, text=True, env=os.environ | {"PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 1
+    told = done.stderr[done.stderr.index("\nImportError: "):]
+    for part in ("ImportError: hdem: ", words, "tools/setup", "PYTHONPATH=build/release/python", "Debian package"):
+        assert part in told, done.stderr
+    assert "circular" not in done.stderr
 
 
 def test_a_forked_process_leaves_the_folder_alone(tmp_path):

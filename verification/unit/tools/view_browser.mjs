@@ -6,16 +6,21 @@ import { join, resolve } from "node:path";
 const [modules, program, scratch, what, file] = process.argv.slice(2);
 const { chromium } = createRequire(join(resolve(modules), "any.js"))("playwright-core");
 
-async function open(browser, said, path = file, options = {}) {
-    const page = await browser.newPage({ viewport: { width: 1200, height: 800 }, ...options });
+const PATIENCE = 120000; // ms for anything that a page does by itself: no limit that a busy machine comes near to
+
+async function open(browser, said, { path = file, script = null } = {}) {
+    const page = await browser.newPage({ viewport: { width: 1200, height: 800 } });
+    page.setDefaultTimeout(PATIENCE);
+    if (script) await page.addInitScript(script);
     page.on("console", (message) => message.type() === "error" && said.problems.push(message.text()));
     page.on("pageerror", (error) => said.problems.push(`${error.message} ${error.stack}`));
     page.on("request", (request) => request.url().startsWith("blob:") || said.requests.push(request.url()));
     const begin = Date.now();
     await page.goto(`file://${resolve(path)}`, { waitUntil: "commit" });
     // A page that is still read has no message yet.
-    await page.waitForFunction(() => window.hdem || document.getElementById("message")?.hidden === false, null, { timeout: 120000 });
+    await page.waitForFunction(() => window.hdem || document.getElementById("message")?.hidden === false);
     said.opened = (Date.now() - begin) / 1000;
+    await page.waitForFunction(() => !window.hdem || window.hdem.histories !== undefined); // they come after the first picture
     return page;
 }
 
@@ -26,10 +31,20 @@ const state = (page) => page.evaluate(() => {
              legend: document.getElementById("legend").textContent, block: document.getElementById("block").textContent, time: window.hdem.histories?.time, mark: window.hdem.histories?.markAt };
 });
 
-// After the frame that was asked for is on the screen.
+// After the frame that was asked for is on the screen, to the pixel, and nothing is still to be drawn.
 async function settled(page) {
-    await page.waitForFunction(() => window.hdem.view.panes.every((pane) => pane.shown === pane.wanted) && !window.hdem.view.busy);
-    await page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 220)));
+    await page.waitForFunction(() => {
+        const { view } = window.hdem;
+        return !view.busy && !view.due && view.panes.every((pane) => pane.shown === pane.wanted && pane.isExact);
+    });
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+// What the tip says, once it is about this block.
+async function tipOver(page, block) {
+    await page.mouse.move(...(await placeOf(page, block)));
+    await page.waitForFunction((name) => document.querySelector(".tip:not([hidden]) b")?.textContent === name, block);
+    return page.locator(".tip").textContent();
 }
 
 async function press(page, ...keys) {
@@ -50,6 +65,9 @@ const placeOf = (page, name) => page.evaluate((wanted) => {
     const [x, y] = pane.camera.toScreen(pose[4 * block], pose[4 * block + 1]);
     return [box.left + x, box.top + y];
 }, name);
+
+// Before the scripts of a page: it loads itself again only when it is told that it may, however slow what comes before is.
+const HELD = "{ const set = window.setInterval.bind(window); window.setInterval = (call, every) => set(() => window.mayReload && call(), every); }";
 
 const steps = {
     async keys(browser, said) {
@@ -90,16 +108,14 @@ const steps = {
     async pointer(browser, said) {
         const page = await open(browser, said);
         await settled(page);
-        const place = await placeOf(page, "ball");
-        await page.mouse.move(...place);
-        said.tip = await page.locator(".tip").textContent();
-        await page.mouse.click(...place);
+        said.tip = await tipOver(page, "ball");
+        await page.mouse.click(...(await placeOf(page, "ball")));
+        await page.waitForFunction(() => window.hdem.view.panes[0].pinned >= 0);
         said.pinned = await state(page);
-        const ground = await placeOf(page, "ground");
-        await page.mouse.move(...ground);
-        said.groundTip = await page.locator(".tip").textContent();
-        const before = await state(page);
-        await page.mouse.wheel(0, -400);
+        said.groundTip = await tipOver(page, "ground");
+        const before = await state(page), ground = await placeOf(page, "ground");
+        await page.mouse.wheel(0, -400); // does not wait
+        await page.waitForFunction((scale) => window.hdem.view.panes[0].camera.scale !== scale, before.scale);
         await settled(page);
         said.zoom = [before.scale, (await state(page)).scale];
         await page.mouse.down();
@@ -159,8 +175,10 @@ const steps = {
         await page.selectOption("#match", "time");
         await press(page, "Home", "ArrowRight", "ArrowRight", "ArrowRight");
         said.times = await page.evaluate(() => window.hdem.view.panes.map((pane) => pane.entry.time));
+        const scale = said.scales[0];
         await page.mouse.move(200, 300);
         await page.mouse.wheel(0, -300);
+        await page.waitForFunction((before) => window.hdem.view.panes[0].camera.scale !== before, scale);
         await settled(page);
         said.cameras = await page.evaluate(() => window.hdem.view.panes.map(({ camera, run }) => [camera.x + run.facts.origin[0], camera.y + run.facts.origin[1], camera.scale]));
         said.series = await page.locator(".u-legend .u-label").allTextContents();
@@ -180,12 +198,10 @@ const steps = {
         });
         await picture(page, "sheet");
         await page.evaluate(() => { const { view } = window.hdem; view.panes[0].camera.zoom(1.31, 100, 130); view.cameraMoved(view.panes[0]); });
-        await new Promise((done) => setTimeout(done, 600));
         await picture(page, "sheet_zoomed");
         await press(page, "Home");
         await picture(page, "sheet_first");
-        await press(page, "f", "-");
-        await new Promise((done) => setTimeout(done, 600)); // a sheet of how they stand
+        await press(page, "f", "-"); // a sheet of how they stand
         said.moved = await page.evaluate(() => { // those at the right side stand beside the model, and are turned there
             const { view } = window.hdem, [pane] = view.panes, { scene, run } = pane, { pose } = scene, x1 = pane.box[2];
             for (let i = 0; i < run.count; ++i) if (pose[4 * i] > x1 - 12) pose[4 * i] += 20, ([pose[4 * i + 2], pose[4 * i + 3]] = [pose[4 * i + 2] - 1e-2 * pose[4 * i + 3], pose[4 * i + 3] + 1e-2 * pose[4 * i + 2]]);
@@ -229,12 +245,12 @@ const steps = {
         }));
     },
     async live(browser, said) {
-        const page = await open(browser, said);
+        const page = await open(browser, said, { script: HELD });
         said.sign = await page.evaluate(() => document.getElementById("live").hidden ? "" : document.getElementById("live").textContent);
         await press(page, "Home");
         await page.selectOption("#field", "speed");
-        await page.evaluate(() => (window.first = true));
-        await page.waitForFunction(() => !window.first && window.hdem, null, { timeout: 60000 });
+        await page.evaluate(() => (window.isFirst = window.mayReload = true));
+        await page.waitForFunction(() => !window.isFirst && window.hdem);
         await settled(page);
         said.again = await state(page);
     },

@@ -228,6 +228,12 @@ class SmallPages(Browser):
         self.assertAlmostEqual(count(drawn, BLUE, 60) / (0.5 * 2.4 * length), 1.0, delta=0.35)    # every second dash
         self.assertEqual(count(without, BLUE, 60), 0)
 
+    def test_values_of_round_off_have_an_axis(self):
+        """A dam at rest: energies of 1e-24 J beside 700 J, a ratio of 1e-14. uPlot counts ticks without end there."""
+        dam = (CASES / "water/dam.toml").read_text(encoding="utf-8").replace('until = "converged"', 'until = ["converged", "cycles > 199"]')
+        said = self.browse("positions", self.page_of(self.run_of("still", dam), name="still"))
+        self.assertGreater(len(said["labels"]), 5)
+
     def test_compares_two_runs(self):
         moon = self.run_of("moon", small_text("[gravity]\nvector = [0.0, -1.62]\n"))
         said = self.browse("compare", self.page_of(self.folder, moon, name="two"))

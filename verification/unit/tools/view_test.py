@@ -28,6 +28,7 @@ import small_case
 HDEM = Path(sys.argv[1]).resolve()
 SHARE = HDEM.parent.parent / "share/hdem"
 CASES = Path(__file__).resolve().parents[2] / "cases"
+PATIENCE = 300.0    # s for what a run or its page does by itself: a busy machine takes a few
 if not (SHARE / "view/viewer.html").exists():
     print("skipped: hdem was built without the viewer (no Node.js, or its packages could not be fetched)")
     sys.exit(77)
@@ -295,12 +296,12 @@ class PageOfARunThatGoesOn(unittest.TestCase):
                 folder = Path(tempfile.mkdtemp(prefix="hdem_live_test_"))
                 self.addCleanup(shutil.rmtree, folder)    # after the run was killed
                 process, page = self.start(folder), folder / "out/view.html"
-                seen = self.whole_pages(page, 120.0, 3)
+                seen = self.whole_pages(page, PATIENCE, 3)
                 self.assertEqual(len(seen), 3, seen)
                 process.send_signal(how)
-                process.communicate(timeout=60)
+                process.communicate(timeout=PATIENCE)
                 self.assertEqual(process.returncode, 130 if how == signal.SIGINT else -9)
-                end = time.monotonic() + 30.0
+                end = time.monotonic() + PATIENCE
                 while ViewPage(page).facts["live"] and time.monotonic() < end:    # after SIGKILL nobody waits for it
                     time.sleep(0.1)
                 last = ViewPage(page)
