@@ -1,5 +1,6 @@
 #include "core/stage/load_changes.h"
 
+#include "core/stage/properties.h"
 #include "core/state/stage_cycles.h"
 
 #include <algorithm>
@@ -49,12 +50,12 @@ class Changes
         add(later(zero, factor.first_cycle(model_.time_step)), later(zero, factor.last_cycle(model_.time_step)));
     }
 
-    /// Those that the stage changes over its set_cycles.
+    /// Those that the stage changes over some cycles.
     void add_joints()
     {
         const auto stage = static_cast<std::size_t>(state_.stage);
         if (state_.stage_begun && stage < model_.stage_laws.size() && !model_.stage_laws[stage].laws.empty())
-            add(state_.stage_begin_cycle, state_.stage_begin_cycle + model_.stages[stage].set_cycles);
+            add(state_.stage_begin_cycle, state_.stage_begin_cycle + set_until(model_.stages[stage], model_.time_step));
     }
 
     [[nodiscard]] std::int64_t over_from() const { return over_from_; }
@@ -155,7 +156,7 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
         if (boundary.acts(state.stage))
             add_factor("boundary \"" + boundary.name + "\"", boundary.factor);
     if (stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty())
-        add("set_cycles: joints change", state.stage_begin_cycle + def.set_cycles);
+        add("set: joints change", state.stage_begin_cycle + set_until(def, model.time_step));
     add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);
     return found;
 }

@@ -18,7 +18,7 @@ namespace hdem
 /// Does something change at a time that the case gives in seconds, now or later? Until then all steps must be the same: cycles stand for times.
 [[nodiscard]] bool are_times_to_come(const Model& model, const State& state);
 
-/// What still changes when a stage ends, each as text: loads and sides on their way to their last value, joints within set_cycles, forces within
+/// What still changes when a stage ends, each as text: loads and sides on their way to their last value, joints on their way to what the stage sets, forces within
 /// relax_cycles. At the end of the last stage also loads that have not begun.
 /// @param state  of the stage's last cycle; only its cycles and stages are read
 [[nodiscard]] std::vector<std::string> changes_to_come(const Model& model, const State& state);

@@ -108,17 +108,21 @@ class Problem
 }  // namespace
 
 void require_same_bits(Report& report, const std::string& case_file, const Overrides& overrides,
-                       std::span<const char* const> methods)
+                       std::span<const char* const> methods, const OtherRuns& others)
 {
+    std::string numbers = "1";
+    for (const int threads : others.threads)
+        numbers += fmt::format(", {}", threads);
     for (const char* method : methods)
     {
         const Problem problem(case_folder() / case_file, overrides + Overrides{set("contact.method", std::string(method))});
         const Ended one = problem.run(1);
-        double others = 0.0;
-        for (const int threads : {2, 3})
-            others += problem.run(threads) == one ? 0.0 : 1.0;
-        others += one.cycle > 1 && problem.restart(one.cycle / 2, 2) == one ? 0.0 : 1.0;
-        report.require({fmt::format("{}, {}: runs that differ", case_file, method), "1, 2, 3 threads, restarted", 0.0, others},
+        double differ = 0.0;
+        for (const int threads : others.threads)
+            differ += problem.run(threads) == one ? 0.0 : 1.0;
+        differ += one.cycle > 1 && problem.restart(one.cycle / 2, 2) == one ? 0.0 : 1.0;
+        const std::string& name = others.name.empty() ? case_file : others.name;
+        report.require({fmt::format("{}, {}: runs that differ", name, method), numbers + " threads, restarted", 0.0, differ},
                        absolute(0.0));
     }
 }
