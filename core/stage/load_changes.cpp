@@ -1,5 +1,6 @@
 #include "core/stage/load_changes.h"
 
+#include "core/model/liner_growth.h"
 #include "core/state/stage_cycles.h"
 
 #include <algorithm>
@@ -47,6 +48,13 @@ class Changes
             return;
         const std::int64_t zero = zero_of(factor, state_);
         add(later(zero, factor.first_cycle(model_.time_step)), later(zero, factor.last_cycle(model_.time_step)));
+    }
+
+    void add(const Liner& liner)
+    {
+        const std::int64_t age = cycles_since(liner.stage, state_);
+        if (age >= 0)
+            add(state_.cycle - age, later(state_.cycle - age, settled_at(liner)));
     }
 
     /// Those that the stage changes over its set_cycles.
@@ -97,6 +105,8 @@ std::int64_t steady_from(const Model& model, const State& state)
     for (const Boundary& boundary : model.boundaries)
         if (boundary.acts(state.stage))
             changes.add(boundary.factor);
+    for (const Liner& liner : model.support.liners)
+        changes.add(liner);
     changes.add_joints();
     return changes.over_from();
 }
@@ -154,6 +164,13 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
     for (const Boundary& boundary : model.boundaries)
         if (boundary.acts(state.stage))
             add_factor("boundary \"" + boundary.name + "\"", boundary.factor);
+    for (const Liner& liner : model.support.liners)
+        if (const std::int64_t age = cycles_since(liner.stage, state); age >= 0)
+        {
+            add("liner \"" + liner.name + "\": its weight or pressure grows, or its strength falls,",
+                later(state.cycle - age, settled_at(liner)));
+            add("liner \"" + liner.name + "\" hardens", later(state.cycle - age, hardened_at(liner)));
+        }
     if (stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty())
         add("set_cycles: joints change", state.stage_begin_cycle + def.set_cycles);
     add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);

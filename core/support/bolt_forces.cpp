@@ -240,9 +240,9 @@ void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Block
             continue;
         BlockForce& on = blocks.force[push.block];
         on.reserve += push.reserve;
-        if (on.contacts != 0)
+        if ((on.contacts & contact_force) != 0)
             continue;
-        on.contacts = contact_force;
+        on.contacts = contact_force;  // also where it touches others by impulses: nothing else damps its swinging on the bolt
         on.mobilised = 0.0F;
         on.t_x = static_cast<float>(push.force.x / pull);
         on.t_y = static_cast<float>(push.force.y / pull);

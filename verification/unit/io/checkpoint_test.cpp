@@ -4,12 +4,11 @@
 #include "core/state/state_hash.h"
 #include "io/checkpoint.h"
 #include "io/stage_end_text.h"
-#include "parallel/stages.h"
+#include "verification/runs/run_end.h"
 #include "verification/scenes/scenes.h"
 #include "verification/unit/sample_joints.h"
 #include "verification/unit/small_run.h"
 
-#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -18,88 +17,8 @@ namespace hdem
 {
 namespace
 {
+using runs::restart, runs::run_until, runs::run_unbroken, runs::RunEnd;
 using test::ScratchFolder;
-
-/// Saves the run at one cycle, or breaks it off there.
-class SaveAt : public Keeper
-{
-  public:
-    SaveAt(std::filesystem::path folder, std::int64_t cycle, bool go_on) : folder_(std::move(folder)), cycle_(cycle), go_on_(go_on)
-    {
-    }
-    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return now < cycle_ ? cycle_ : never; }
-    [[nodiscard]] bool keep(const Simulation& simulation) override
-    {
-        if (simulation.state().cycle != cycle_)
-            return true;
-        RunRecord record;
-        record.history_axes.resize(simulation.model().histories.size(), Vec2(0.0, 0.0));
-        write_checkpoint(folder_, record, simulation.model(), simulation.state());
-        return go_on_;
-    }
-
-  private:
-    std::filesystem::path folder_;
-    std::int64_t cycle_;
-    bool go_on_;
-};
-
-struct Ended
-{
-    std::uint64_t hash = 0;
-    std::int64_t cycle = 0;
-    std::vector<std::int64_t> stage_cycles;
-    std::vector<std::string> told;  ///< of the stages, for people
-    std::vector<double> ledger;
-    std::int64_t counters = 0;
-
-    bool operator==(const Ended&) const = default;
-};
-
-Ended run(Simulation& simulation, Keeper* keeper)
-{
-    Ended ended;
-    for (const StageResult& stage : run_stages(simulation, {}, keeper))
-    {
-        ended.stage_cycles.insert(ended.stage_cycles.end(), {stage.first_cycle, stage.cycles, stage.at_rest});
-        ended.told.push_back(fmt::format("not at rest: {}", fmt::join(stage.not_at_rest, " ")));
-        ended.told.push_back(fmt::format("ended by {}, {:a}, at {:a}; then {}", stage.ended_by, stage.value, stage.time,
-                                         fmt::join(stage.to_come, " ")));
-        if (stage.statics)
-            ended.told.push_back(fmt::format("{} after {}, {:a}; loose: {}", stage.statics->outcome, stage.statics->iterations,
-                                             stage.statics->residual, fmt::join(stage.statics->loose, " ")));
-    }
-    const State& state = simulation.state();
-    ended.hash = state_hash(simulation.model(), state);
-    ended.cycle = state.cycle;
-    for (const LedgerTerm& term : ledger_terms)
-        ended.ledger.push_back(state.ledger.*term.value);
-    ended.counters = state.broad_phase_runs + state.feature_searches + state.excavation_cycle;
-    return ended;
-}
-
-Ended run_unbroken(const CaseDef& scene)
-{
-    hdem::Setup setup = build_model(scene);
-    Simulation simulation(std::move(setup.model), std::move(setup.state));
-    return run(simulation, nullptr);
-}
-
-void run_until(const CaseDef& scene, std::int64_t cycle, const std::filesystem::path& folder)
-{
-    hdem::Setup setup = build_model(scene);
-    Simulation simulation(std::move(setup.model), std::move(setup.state));
-    SaveAt keeper(folder, cycle, false);
-    run(simulation, &keeper);
-}
-
-Ended restart(const CaseDef& scene, const std::filesystem::path& folder, int threads)
-{
-    hdem::Setup setup = build_model(scene);
-    State state = CheckpointReader(checkpoint_file(folder)).state(setup.model);
-    Simulation simulation(std::move(setup.model), std::move(state), threads);
-    return run(simulation, nullptr);
-}
 
 /// A tunnel in rock: blocks fall out after the excavation; the last stage changes method and damping.
 CaseDef tunnel(Method method)
@@ -123,7 +42,7 @@ TEST_P(Checkpoint, GivesTheUnbrokenRunToTheLastBitFromAnyCycle)
 {
     const ScratchFolder folder("checkpoint");
     const CaseDef scene = tunnel(GetParam());
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     EXPECT_GT(unbroken.cycle, 1100);
     std::mt19937 random(1);
     std::vector<std::int64_t> cycles = {1, unbroken.stage_cycles[1], unbroken.stage_cycles[1] + 1, unbroken.cycle};
@@ -150,7 +69,7 @@ TEST(Checkpoint, EndsStagesInTheSameCycle)
                     {.name = "band",
                      .ends = {end("history:pair.shear_displacement within 1e-3 for 120 cycles"), end("time > 100")},
                      .max_cycles = 4000}};
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     ASSERT_EQ(unbroken.stage_cycles.size(), 9u);
     EXPECT_GT(unbroken.stage_cycles[1], 500) << "350 cycles of the ramp and 150 of quiet";
     EXPECT_LT(unbroken.stage_cycles[1], 4000);
@@ -173,7 +92,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfStressedRock)
     const ScratchFolder folder("checkpoint_stress");
     CaseDef scene = tunnel(Method::hybrid);
     scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {50, 310, 1150})
     {
         run_until(scene, cycle, folder.path());
@@ -189,7 +108,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunBelowWater)
     scene.water = {.given = true, .table = {{0.0, 14.0}, {12.0, 6.0}}};
     scene.stages[1].water_level = 5.0;
     scene.stages[1].relax_cycles = 300;
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {310, 499, 500, 501, 1150})
     {
         run_until(scene, cycle, folder.path());
@@ -230,7 +149,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunWithBolts)
     liner.bond_strength = 1e3;
     liner.cohesion = 1e3;
     liner.hardening = {{{0.0, 0.1}, {500.0, 1.0}}};
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {310, 700, 1150})
     {
         run_until(scene, cycle, folder.path());
@@ -267,7 +186,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfSides)
     scene.stages = {{.name = "held", .cycles = 300},
                     {.name = "loose", .until_converged = true, .max_cycles = 400, .relax_cycles = 200},
                     {.name = "pushed", .cycles = 300}};
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     EXPECT_EQ(unbroken.cycle, 1000);
     for (const std::int64_t cycle : {150, 300, 301, 433, 700, 701, 855})
     {
@@ -285,7 +204,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfEachJointLaw)
         CaseDef scene = tunnel(Method::hybrid);
         scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
         scene.joints = {joint};
-        const Ended unbroken = run_unbroken(scene);
+        const RunEnd unbroken = run_unbroken(scene);
         run_until(scene, 310, folder.path());
         for (const int threads : {1, 2, 3, 8})
             EXPECT_EQ(restart(scene, folder.path(), threads), unbroken)
@@ -302,7 +221,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfTwoJointLaws)
     scene.joints = {test::sample_joints()[0], test::sample_joints()[1]};
     scene.joints[1].name = "rough";
     scene.joint_sets[0].joint = "rough";
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {310, 1150})
     {
         run_until(scene, cycle, folder.path());
@@ -321,7 +240,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfStepsThatVary)
     scene.stages = {{.name = "dig", .until_converged = true, .max_cycles = 1500, .excavate = {"tunnel"}}};
     scene.convergence.mean_speed = 1e-9;
     scene.convergence.loose_distance = 1e-4;
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {601, 1203})
     {
         run_until(scene, cycle, folder.path());
@@ -337,7 +256,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfForcesThatAreTakenOff)
     const ScratchFolder folder("checkpoint_relax");
     CaseDef scene = tunnel(Method::hybrid);
     scene.stages[1].relax_cycles = 600;
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     const std::int64_t begin = unbroken.stage_cycles[1];
     for (const std::int64_t cycle : {begin + 1, begin + 311, begin + 600})
     {
@@ -355,7 +274,7 @@ TEST(Checkpoint, GivesTheUnbrokenRunOfBlocksThatRest)
     scene.convergence.least_cycles = 10000;
     scene.convergence.block_unbalanced_ratio = 1e-2;
     scene.convergence.unbalanced_force_ratio = 1e-2;
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     for (const std::int64_t cycle : {3000, 6703, 8601})
     {
         run_until(scene, cycle, folder.path());
@@ -379,7 +298,7 @@ TEST(Checkpoint, KeepsWhichBlocksWereNotAtRestAndWhatStaticSolutionsFound)
         {.name = "dig", .until_converged = true, .max_cycles = 600, .solver = RestSolver::statics, .excavate = {"tunnel"}},
         {.name = "more", .cycles = 100}};
     scene.convergence.least_cycles = 100;
-    const Ended unbroken = run_unbroken(scene);
+    const RunEnd unbroken = run_unbroken(scene);
     using testing::HasSubstr, testing::Contains;
     EXPECT_THAT(unbroken.told, Contains(HasSubstr("balanced after")).Times(testing::Ge(2)));
     EXPECT_THAT(unbroken.told, Contains(HasSubstr("loose: b")));
@@ -410,7 +329,7 @@ TEST(CheckpointReader, BringsTheModelIntoTheOrderOfTheRun)
     State state = CheckpointReader(checkpoint_file(folder.path())).state(setup.model);
     EXPECT_EQ(setup.model.user_number, in_the_run);
     Simulation simulation(std::move(setup.model), std::move(state));
-    EXPECT_EQ(run(simulation, nullptr), run_unbroken(scene));
+    EXPECT_EQ(runs::run_to_end(simulation), run_unbroken(scene));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Checkpoint, testing::Values(Method::force, Method::impulse, Method::hybrid));

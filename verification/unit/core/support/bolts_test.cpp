@@ -184,6 +184,28 @@ until = "converged"
     EXPECT_EQ(trial_of(true, 3.0).end, TrialEnd::failed) << "with a third of its strength it does not hold the slab";
 }
 
+/// Walls that touch it by impulses do not damp it.
+TEST(Bolts, BringBlocksBetweenWallsToRestByEachMethod)
+{
+    for (const Method method : {Method::force, Method::impulse, Method::hybrid})
+    {
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "roof", scenes::rectangle({-3.0, 0.2}, {3.0, 2.0}));
+        scenes::add_fixed_block(scene, "left", scenes::rectangle({-3.0, -3.0}, {-1.0, 0.1}));
+        scenes::add_fixed_block(scene, "right", scenes::rectangle({1.0, -3.0}, {3.0, 0.1}));
+        scenes::add_block(scene, "block", scenes::rectangle({-1.0, -2.0}, {1.0, 0.0}));
+        scene.joints[0].friction_angle_deg = 0.0;
+        scene.contact.method = method;
+        scene.bolts = {{.name = "bolt", .from = Vec2(0.0, -0.5), .to = Vec2(0.0, 1.0)}};
+        scene.bolts[0].stiffness = 4e7;
+        scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 20000}};
+        CaseRun run(scene);
+        EXPECT_TRUE(run_stages(run.simulation, {}).at(0).at_rest);
+        const double weight = 2700.0 * 4.0 * 9.81;
+        EXPECT_NEAR(run.state().support.bolts[0].force, weight, 1e-3 * weight);
+    }
+}
+
 TEST(BoltPattern, StandsInEqualStretchesSquareToTheOutline)
 {
     const Polygon room = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};
