@@ -4,6 +4,7 @@
 #include "io/case_reader.h"
 #include "io/frame_writer.h"
 #include "io/hdf5_reader.h"
+#include "parallel/stages.h"
 #include "parallel/strength_trial.h"
 #include "verification/unit/case_run.h"
 #include "verification/unit/small_run.h"
