@@ -1,13 +1,30 @@
 #pragma once
-/// Generated blocks as polygons to write.
+/// Generated blocks as files for other programs: GeoJSON (RFC 7946) and WKT. Coordinates are metres in the plane of the model.
 
 #include "core/rock/rock_mass.h"
-#include "io/geojson.h"
 
+#include <span>
+#include <string>
 #include <vector>
 
 namespace hdem
 {
+/// What a mapped rock mass is written as.
+struct BlockShape
+{
+    BlockDef block;                  ///< its polygon: the outer ring, anticlockwise
+    std::vector<Polygon> holes;      ///< rings around other blocks
+    std::string excavation;          ///< that it lies in, or ""
+    std::vector<std::string> edges;  ///< what each edge of the outer ring was cut by: the name of a set, "domain", ...
+    double area = 0.0;               ///< [m2]
+};
+
 /// All blocks but walls, in their order.
 [[nodiscard]] std::vector<BlockShape> block_shapes(const CaseDef& def, const RockMass& rock);
+
+/// One feature a block, with properties name, material, fixed, area, excavation and edges.
+[[nodiscard]] std::string to_geojson(std::span<const BlockShape> blocks);
+
+/// As write_polygons; above each block a comment with what its edges were cut by.
+[[nodiscard]] std::string to_wkt(std::span<const BlockShape> blocks);
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #pragma once
-/// What the checks in case_checks_rock.cpp and case_checks_run.cpp share.
+/// What the checks in io/case_checks_*.cpp share.
 
 #include "io/case_problems.h"
 #include "io/case_source.h"

@@ -10,7 +10,9 @@ namespace hdem
 /// Geometry (simple polygons, outlines inside the domain, the number of blocks) is checked by core/rock, which cuts them. Names of generated blocks
 /// do not exist yet; with a [domain], unknown block names are left to the model.
 ///
-/// Of domain, joint sets, excavations, blocks, materials and joints, and all names:
+/// What can be a name, that none is given twice, and materials and joints that others refer to:
+void check_names(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Of domain, faults, regions, joint sets, excavations and stress at the start:
 void check_rock_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Of boundaries:
 void check_boundary_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
@@ -20,6 +22,10 @@ void check_support_keys(const CaseDef& def, const CaseSource& source, CaseProble
 void check_water_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Which numbers the law of each joint takes, and what they may be:
 void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of loads, settings, stages and histories:
+/// Of loads, settings and the search for a factor of safety:
 void check_run_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Of stages and their ends:
+void check_stage_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Of histories:
+void check_history_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 }  // namespace hdem

@@ -75,6 +75,13 @@ class BoundaryCheck : public CaseCheck
                 problems_.add(path + "." + key, object, key, "belongs to another kind", "Remove it, or choose that kind.");
         if (boundary.kind != BoundaryKind::servo && given(path + ".max_velocity"))
             problems_.add(path + ".max_velocity", object, "max_velocity", "belongs to kind servo", "Remove it.");
+        const bool has_numbers = boundary.kind == BoundaryKind::stress && boundary.stress;
+        if (given(path + ".stress_gradient") && !has_numbers && !problems_.has(path + ".stress"))
+            problems_.add(path + ".stress_gradient", object, "stress_gradient", "belongs to a stress of two numbers",
+                          "Give stress = [compression, shear], or remove this key.");
+        if (given(path + ".stress_height") && !given(path + ".stress_gradient"))
+            problems_.add(path + ".stress_height", object, "stress_height", "belongs to stress_gradient, which is not given",
+                          "Give stress_gradient, or remove this key.");
         if (boundary.is_insitu && !def_.insitu.given && !problems_.has("insitu"))
             problems_.add(path + ".stress", object, "stress = \"insitu\"", "there is no [insitu]",
                           "Give [insitu], or stress = [compression, shear].");

@@ -1,5 +1,5 @@
 #pragma once
-/// From a field of a case_def.h struct to an entry of the schema table: type, default and assignment follow from the field itself.
+/// From a field of a struct of core/model/*_def.h to an entry of the schema table: type, default and assignment follow from the field itself.
 /// For the files io/case_schema*.cpp only.
 
 #include "io/case_schema.h"

@@ -121,6 +121,12 @@ class NamedFileReader
         for (std::size_t i = 0; i < def.boundaries.size(); ++i)
             add_table(def.boundaries[i].factor, fmt::format("boundary[{}]", i),
                       fmt::format("boundary \"{}\"", printable(def.boundaries[i].name)));
+        for (std::size_t i = 0; i < def.stages.size(); ++i)
+        {
+            StageDef& stage = def.stages[i];
+            add_rows(stage.set_table_file, fmt::format("stage[{}].set_table_file", i),
+                     fmt::format("stage \"{}\"", printable(stage.name)), stage.set_table, stage.set_table_by);
+        }
     }
 
   private:
@@ -157,19 +163,25 @@ class NamedFileReader
         return nullptr;
     }
 
-    /// Rows of the table_file of a load or a side.
+    /// Of a load or a side.
     void add_table(FactorDef& factor, const std::string& path, const std::string& object)
     {
-        if (!factor.table.empty())
+        add_rows(factor.table_file, path + ".table_file", object, factor.table, factor.table_by);
+    }
+
+    /// Rows of the file that `key` names, where the case itself gives none.
+    void add_rows(const std::string& name, const std::string& key, const std::string& object, FactorTable& rows, TableColumn& by)
+    {
+        if (!rows.empty())
             return;
-        const std::string* text = text_of(path + ".table_file", object, factor.table_file);
+        const std::string* text = text_of(key, object, name);
         if (text == nullptr)
             return;
         std::istringstream in(*text);
-        FactorFile file = read_factors(in, path_of(factor.table_file));
+        FactorFile file = read_factors(in, path_of(name));
         take(file.problems);
-        factor.table = std::move(file.rows);
-        factor.table_by = file.by;
+        rows = std::move(file.rows);
+        by = file.by;
     }
 
     CaseFile& read_;

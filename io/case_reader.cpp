@@ -92,11 +92,14 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     resolve_orientations(result.def, problems);
     load_laws(result, result.def, file, files, problems);
     check_rock_keys(result.def, source, problems);
+    check_names(result.def, source, problems);
     check_boundary_keys(result.def, source, problems);
     check_support_keys(result.def, source, problems);
     check_water_keys(result.def, source, problems);
     check_joint_keys(result.def, source, problems);
     check_run_keys(result.def, source, problems);
+    check_stage_keys(result.def, source, problems);
+    check_history_keys(result.def, source, problems);
 
     const auto found = source.located(problems.errors());
     located.insert(located.begin(), found.begin(), found.end());

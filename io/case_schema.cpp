@@ -34,6 +34,13 @@ const std::vector<std::string>& point_quantities()
     return point_history_quantities();
 }
 
+const std::vector<std::string>& fitting_quantities(const HistoryDef& history)
+{
+    if (!history.bolt.empty() || !history.liner.empty())
+        return history.bolt.empty() ? liner_quantities() : bolt_quantities();
+    return history.point ? point_quantities() : (history.between.empty() ? block_quantities() : contact_quantities());
+}
+
 const std::vector<SectionSpec>& case_schema()
 {
     static const std::vector<SectionSpec> all = {

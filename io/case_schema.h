@@ -1,6 +1,6 @@
 #pragma once
 /// The one table of every key a case file may have. It drives reading, defaults, range checks, io/case_format.md and the
-/// JSON Schema: to add a key, add the field to core/model/case_def.h and one entry to one of the case_schema_*.cpp.
+/// JSON Schema: to add a key, add the field to its struct in core/model/*_def.h and one entry to one of the case_schema_*.cpp.
 
 #include "core/model/case_def.h"
 #include "io/toml_tree.h"
@@ -105,4 +105,6 @@ const std::vector<std::string>& contact_quantities();
 const std::vector<std::string>& bolt_quantities();
 const std::vector<std::string>& liner_quantities();
 const std::vector<std::string>& point_quantities();
+/// Those of the kind of history that this one is.
+const std::vector<std::string>& fitting_quantities(const HistoryDef& history);
 }  // namespace hdem

@@ -69,6 +69,18 @@ SectionSpec boundary_section()
                                     .choices = {"fixed", "roller", "stress", "velocity", "servo"},
                                     .required = true}),
          with_assign(std::move(stress), assign_stress),
+         field<&BoundaryDef::stress_gradient>(
+             {.name = "stress_gradient",
+              .unit = "Pa/m",
+              .effect = "Change of both numbers of `stress` a metre upwards: below 0 where the pressure grows with depth. With it "
+                        "`stress` holds at y = stress_height.",
+              .example = "[-2.65e4, 0.0]",
+              .range = any_size}),
+         field<&BoundaryDef::stress_height>({.name = "stress_height",
+                                             .unit = "m",
+                                             .effect = "Height y at which `stress` holds, where it has a gradient.",
+                                             .example = "40.0",
+                                             .range = coordinate}),
          field<&BoundaryDef::velocity>({.name = "velocity",
                                         .unit = "m/s",
                                         .effect = "Of the wall. Belongs to kind velocity.",

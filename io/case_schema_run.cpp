@@ -173,6 +173,21 @@ SectionSpec stage_section()
                                                  "once: set them in a stage of their own.",
                                        .example = "5000",
                                        .range = {.low = 0, .high = 1e9}}),
+         field<&StageDef::set_table>({.name = "set_table",
+                                      .effect = "Instead of set_cycles: rows [cycle, share], counted from the start of the stage. "
+                                                "The share of the change is linear between rows and constant before the first. "
+                                                "Shares are from 0 to 1, and the last one is 1.",
+                                      .example = "[[0, 0.0], [1000, 0.6], [5000, 1.0]]",
+                                      .range = {.low = 0, .high = 1e15},
+                                      .default_note = "set_cycles"}),
+         field<&StageDef::set_table_file>({.name = "set_table_file",
+                                           .effect = "A text file with such rows, headed as those of loads: cycle,factor or "
+                                                     "time,factor.",
+                                           .example = "\"weakening.csv\"",
+                                           .default_note = "set_cycles"}),
+         field<&StageDef::set_table_by>({.name = "set_table_by",
+                                         .effect = "What the first column of `set_table` is. A file says so itself.",
+                                         .choices = {"cycle", "time"}}),
          field<&StageDef::water_level>({.name = "water_level",
                                         .unit = "m",
                                         .effect = "water.level from here on. The change is a step; with relax_cycles what is less "

@@ -8,7 +8,7 @@
 /// The heading is cycle,factor or time,factor. Lines that begin with # are skipped.
 
 #include "core/check.h"
-#include "core/model/case_def.h"
+#include "core/model/factor_def.h"
 
 #include <iosfwd>
 #include <string>

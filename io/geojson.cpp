@@ -161,26 +161,6 @@ bool read_fixed(const Json& value, BlockDef& block)
     return true;
 }
 
-/// "fixed", "x rotation", or "" where nothing is.
-std::string fixed_text(const BlockDef& block)
-{
-    if (block.fix_x && block.fix_y && block.fix_rotation)
-        return "fixed";
-    std::string text = block.fix_x ? "x" : "";
-    for (const auto& [is_fixed, word] : {std::pair(block.fix_y, "y"), std::pair(block.fix_rotation, "rotation")})
-        if (is_fixed)
-            text += (text.empty() ? "" : " ") + std::string(word);
-    return text;
-}
-
-Json ring_json(const Polygon& ring)
-{
-    Json points = Json::array();
-    for (std::size_t i = 0; i <= ring.size(); ++i)
-        points.push_back({ring[i % ring.size()].x(), ring[i % ring.size()].y()});
-    return points;
-}
-
 /// A closed ring without its last point; empty when something is wrong, which is said.
 Polygon ring_of(Walker& walk, const Json& polygon)
 {
@@ -281,41 +261,5 @@ PolygonFile read_geojson_blocks(const std::string& text, const std::string& file
                           });
     result.problems = std::move(walk.problems);
     return result;
-}
-
-std::string to_geojson(std::span<const BlockShape> blocks)
-{
-    Json features = Json::array();
-    for (const BlockShape& shape : blocks)
-    {
-        Json rings = Json::array({ring_json(shape.block.polygon)});
-        for (const Polygon& hole : shape.holes)
-            rings.push_back(ring_json(hole));
-        const std::string fixed = fixed_text(shape.block);
-        features.push_back({{"type", "Feature"},
-                            {"properties",
-                             {{"name", shape.block.name},
-                              {"material", shape.block.material},
-                              {"fixed", fixed.empty() ? Json(false) : Json(fixed)},
-                              {"area", shape.area},
-                              {"excavation", shape.excavation},
-                              {"edges", shape.edges}}},
-                            {"geometry", {{"type", "Polygon"}, {"coordinates", std::move(rings)}}}});
-    }
-    const Json document = {{"type", "FeatureCollection"}, {"features", std::move(features)}};
-    return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string to_wkt(std::span<const BlockShape> blocks)
-{
-    std::ostringstream out;
-    for (const BlockShape& shape : blocks)
-    {
-        out << "# edges: " << fmt::format("{}", fmt::join(shape.edges, "; ")) << '\n';
-        if (!shape.holes.empty())
-            out << "# this block has " << shape.holes.size() << " holes, which are not written\n";
-        write_polygons(out, std::span(&shape.block, 1));
-    }
-    return out.str();
 }
 }  // namespace hdem

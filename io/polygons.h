@@ -11,7 +11,7 @@
 /// A file whose name ends in .csv has a row a vertex instead: name,x,y and, from a block's first row, material,fixed.
 
 #include "core/check.h"
-#include "core/model/case_def.h"
+#include "core/model/rock_def.h"
 
 #include <iosfwd>
 #include <span>

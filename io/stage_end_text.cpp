@@ -209,7 +209,7 @@ max_cycles = 200000
 | `time > T`, `cycles > N` | the stage has lasted so long |
 
 - `for T s` or `for N cycles` may stand behind each of them but the last: it must have held so long at every look. Looks are at cycles that are multiples of convergence.check_every.
-- Rock comes to some of these ends by settling: `speed <`, `unbalanced_force_ratio <`, `within` and `quiet`. They wait, as `converged` does, until loads, sides and `set_cycles`
+- Rock comes to some of these ends by settling: `speed <`, `unbalanced_force_ratio <`, `within` and `quiet`. They wait, as `converged` does, until loads, sides, `set_cycles` and pressures behind linings
   do not change any more, forces are taken off, and convergence.least_cycles have passed. The others are met at once; what was still changing is named at the end.
 - A stage that waits for motion only (`displacement >`, `speed >`, `history`) also ends when [convergence] holds, no load changes and no motion is prescribed: nothing can happen any more.
   That counts as an end.

@@ -1,6 +1,7 @@
 #include "io/stage_joints.h"
 
 #include "core/rock/joint_laws.h"
+#include "core/stage/properties.h"
 #include "io/case_override.h"
 
 #include <fmt/format.h>
@@ -37,10 +38,24 @@ std::string changed_at_once(const JointDef& a, const JointDef& b)
     for (std::optional<double> JointDef::*const strength :
          {&JointDef::tension, &JointDef::residual_friction_angle_deg, &JointDef::residual_cohesion, &JointDef::residual_tension})
         rest.*strength = a.*strength;
-    for (const auto& [name, field] :
-         {std::pair{"normal_stiffness", &JointDef::normal_stiffness}, std::pair{"shear_stiffness", &JointDef::shear_stiffness}})
+    for (const auto& [name, field] : {std::pair{"normal_stiffness", &JointDef::normal_stiffness},
+                                      {"shear_stiffness", &JointDef::shear_stiffness},
+                                      {"jrc", &JointDef::jrc},
+                                      {"jcs", &JointDef::jcs},
+                                      {"damage", &JointDef::damage},
+                                      {"asperity_angle_deg", &JointDef::asperity_angle_deg},
+                                      {"mobilised_angle_deg", &JointDef::mobilised_angle_deg},
+                                      {"wear_length", &JointDef::wear_length},
+                                      {"wear", &JointDef::wear},
+                                      {"transition_stress", &JointDef::transition_stress},
+                                      {"rock_cohesion", &JointDef::rock_cohesion},
+                                      {"rock_friction_angle_deg", &JointDef::rock_friction_angle_deg},
+                                      {"residual_displacement", &JointDef::residual_displacement},
+                                      {"residual_share", &JointDef::residual_share}})
         if (rest.*field != a.*field)
             return name;
+    if (rest.dilation_angle_deg != a.dilation_angle_deg)
+        return "dilation_angle_deg";
     return rest == a ? "" : "a number that is no strength";
 }
 
@@ -151,9 +166,10 @@ class StageJoints
                             "the joint has no memory of slip and breaking before this stage",
                             "Give residual_cohesion in [joint." + is.name + "] too, so that it has one from the start.");
             const std::string at_once = changed_at_once(was, is);
-            if (def_.stages[stage].set_cycles > 0 && !at_once.empty())
-                return fail(stage, fmt::format("joint.{}: {}", is.name, at_once), "only strengths change over set_cycles",
-                            "Set it in a stage without set_cycles.");
+            if (sets_over_time(def_.stages[stage]) && !at_once.empty())
+                return fail(stage, fmt::format("joint.{}: {}", is.name, at_once),
+                            "only strengths change over set_cycles or a table: friction, cohesion and tension",
+                            "Set it in a stage without set_cycles and set_table.");
         }
         if (joints != before)
             def_.stages[stage].joints = joints;
@@ -163,9 +179,9 @@ class StageJoints
     {
         if (materials == materials_before(stage))
             return;
-        if (def_.stages[stage].set_cycles > 0)
-            return fail(stage, "material...", "only strengths of joints change over set_cycles",
-                        "Set densities in a stage without set_cycles.");
+        if (sets_over_time(def_.stages[stage]))
+            return fail(stage, "material...", "only strengths of joints change over set_cycles or a table",
+                        "Set densities in a stage without set_cycles and set_table.");
         def_.stages[stage].materials = materials;
     }
 

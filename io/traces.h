@@ -8,7 +8,7 @@
 /// One WKT line a row; a file whose name ends in .csv has rows of name,x,y instead. Coordinates are in metres.
 
 #include "core/check.h"
-#include "core/model/case_def.h"
+#include "core/model/trace_cells.h"
 
 #include <iosfwd>
 #include <string>

@@ -90,9 +90,11 @@ class Simulation
     void change_water();
     /// What the running stage sets of joints and materials.
     void change_properties();
-    /// Joints of now, where the stage changes them over its set_cycles.
+    /// Joints of now, where the stage changes them over some cycles.
     void set_joints();
     void excavate(const std::string& name);
+    /// Forces of excavated blocks and of sides that have ended act no more.
+    void end_released_forces();
     void renew_contacts();
     void solve_statics();
 

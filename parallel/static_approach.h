@@ -9,9 +9,8 @@ namespace hdem
 [[nodiscard]] bool is_unloaded(const Model& model, const State& state);
 
 /// Bring `state` near to balance: a few iterations of Newton, then a few hundred damped cycles by springs, in turn, until the unbalanced ratio of the cycles is
-/// small. Newton carries a load through the whole model in one step, but for long does not find which points open and slip where all change at once;
-/// cycles find just that, in a few hundred, but take thousands to carry a load across a large model. 42 866 blocks from zero stress: eight rounds, 20 s, where Newton by
-/// itself had not come to an end after 500 iterations.
+/// small. Each does what the other cannot. Newton carries a load through the whole model in one step, but where all points change at once it does
+/// not find which of them open and slip. Cycles find that in a few hundred, but take thousands to carry a load across a large model (core/tried.md).
 ///
 /// Velocities are 0 afterwards; cycle, time, method and step are as before, and contacts have forces. The ledger holds what the cycles booked.
 /// @return  false if it does not come near, or a block goes too deep into another

@@ -27,7 +27,8 @@ class StaticSearch
 
     /// Find contacts and features at the present places, and begin there.
     void find_contacts();
-    /// Twice at most: with steps of half at least until they bring nothing any more, then from the start again with steps as short as the energy asks for.
+    /// Iterate until the blocks are in balance. At least half of each step is taken first. Where that brings nothing any more the search begins once more, with
+    /// steps as short as the energy asks for.
     End run();
     /// From where it began as far as the iterations of the rule go, whatever that brings.
     void advance() { iterate({}); }

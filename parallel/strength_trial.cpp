@@ -32,12 +32,19 @@ Model with_water_as_it_is(Model model)
     return model;
 }
 
+Simulation begun(const Moment& start, const StrengthReduction& reduction, const ThreadRule& threads)
+{
+    Model model = with_water_as_it_is(trial_model(start, reduction));
+    State state = trial_state(model, start.state);
+    return {std::move(model), std::move(state), threads};
+}
+
 class TrialRun
 {
   public:
     TrialRun(const Moment& start, const TrialRule& rule, const ThreadRule& threads)
         : rule_(rule),
-          simulation_(with_water_as_it_is(trial_model(start, rule.reduction)), start.state, threads)
+          simulation_(begun(start, rule.reduction, threads))
     {
         simulation_.begin_stage(start.state.stage);
         watch_.emplace(rule.failure, simulation_.model(), simulation_.state());

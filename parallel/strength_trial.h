@@ -51,6 +51,11 @@ struct Moment
 /// nothing is changed at its start. Loads that act at the state's cycle go on for ever, others end.
 [[nodiscard]] Model trial_model(const Moment& start, const StrengthReduction& reduction);
 
+/// State of `start` from which a trial with this model begins. Joints whose strength grows with slip at first (Barton-Bandis) have slipped on until they bear under the
+/// reduced strength what they bear, to their peak at most. Weakened where they stand they would bear less than before at once, run through that slip, and
+/// come to their peak with a speed: rock would fail below it, the more the less it is damped.
+[[nodiscard]] State trial_state(const Model& trial_model, State start);
+
 /// From `start` to the verdict. When asked to stop, the trial is undecided at once.
 /// @param end  receives the moment of the verdict, where it is not null
 [[nodiscard]] Trial run_trial(const Moment& start, const TrialRule& rule, const ThreadRule& threads,

@@ -1,3 +1,5 @@
+#include "core/joint/mobilised_memory.h"
+#include "core/model/liner_growth.h"
 #include "core/stage/rules.h"
 #include "core/state/stage_cycles.h"
 #include "parallel/strength_trial.h"
@@ -21,6 +23,17 @@ void hold_factor(Factor& factor, double time_step, const State& state)
     factor = {.rows = {{0.0, value}}};
 }
 
+/// A lining that is there does not change with its age any more.
+void hold_liner(Liner& liner, std::int64_t age)
+{
+    if (age < 0)
+        return;
+    liner.pressure *= grown_share(liner.pressure_cycles, age);
+    liner.pressure_cycles = 0;
+    if (!liner.hardening.empty())
+        liner.hardening = {{{0.0, hardening_at(liner, age)}}};
+}
+
 /// Loads and sides that act in this state go on as they are in it, other loads are over. Trials begin the stage anew: what is counted from its
 /// start would begin anew with it.
 void hold_loads(Model& model, const State& state)
@@ -40,6 +53,8 @@ void hold_loads(Model& model, const State& state)
     }
     for (Boundary& boundary : model.boundaries)
         hold_factor(boundary.factor, model.time_step, state);
+    for (Liner& liner : model.support.liners)
+        hold_liner(liner, cycles_since(liner.stage, state));
 }
 
 /// Laws in force in the state's stage.
@@ -108,6 +123,28 @@ Model trial_model(const Moment& start, const StrengthReduction& reduction)
             *step /= std::sqrt(reduction.stiffness);
     }
     return model;
+}
+
+State trial_state(const Model& trial_model, State start)
+{
+    const std::vector<JointRow>& rows = trial_model.stage_laws[start.stage].rows;
+    Contacts& contacts = start.contacts;
+    if (rows.empty() || !contacts.has_memory)
+        return start;
+    for (Index i = 0; i < contacts.size(); ++i)
+    {
+        Contact contact = contacts.get(i);
+        if (contact.last_length <= 0.0 || !rows[contact.law].has_memory())
+            continue;
+        // Both ends slide by the same way: one ahead of the other would be past its peak where the other comes to it.
+        const auto& [first, second] = contact.point;
+        const double length = 2.0 * contact.last_length, normal = (first.normal_force + second.normal_force) / length;
+        const double shear = (first.shear_force + second.shear_force) / length;
+        for (PointHistory& point : contact.point)
+            point.memory = mobilised_memory(rows[contact.law], normal, shear, point.memory);
+        contacts.put(i, contact);
+    }
+    return start;
 }
 
 namespace

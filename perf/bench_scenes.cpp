@@ -32,6 +32,19 @@ CaseDef wall_between_sides(int courses, int bricks)
     return def;
 }
 
+/// The same with rough joints. Its normal springs are those of the wall, so that all joints are closed alike.
+CaseDef rough_wall(int courses, int bricks)
+{
+    CaseDef def = wall_between_sides(courses, bricks);
+    JointDef& joint = def.joints.front();
+    joint.law = JointLaw::barton_bandis;
+    joint.jrc = 10.0;
+    joint.jcs = 1e8;
+    joint.residual_friction_angle_deg = joint.friction_angle_deg;
+    joint.friction_angle_deg = 0.0;
+    return def;
+}
+
 /// Bricks 3 m x 1 m, also with half a brick of offset.
 CaseDef long_bricks(int courses, int bricks)
 {
@@ -85,6 +98,8 @@ CaseDef make_scene(const std::string& scene, Index blocks, Method method)
     CaseDef def;
     if (scene == "wall")
         def = wall_between_sides(side, side);
+    else if (scene == "rough_wall")
+        def = rough_wall(side, side);
     else if (scene == "voronoi")
         def = scenes::voronoi(side, side);
     else if (scene == "joints")

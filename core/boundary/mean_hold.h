@@ -2,6 +2,7 @@
 /// Rock that tractions press from all sides: two translations and a rotation of the whole are free, and are held here.
 
 #include "core/check.h"
+#include "core/model/case_def.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"

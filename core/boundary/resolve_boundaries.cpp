@@ -102,7 +102,10 @@ class BoundaryResolver
             const auto traction = [&](const Vec2& at) -> Vec2
             {
                 if (!from.is_insitu)
-                    return from.stress->y() * along - from.stress->x() * out;
+                {
+                    const Vec2 stress = *from.stress + (at.y() + origin_.y() - from.stress_height) * from.stress_gradient;
+                    return stress.y() * along - stress.x() * out;
+                }
                 const StressDef s = stress_at(model_.insitu, at.y());
                 return {s.xx * out.x() + s.xy * out.y(), s.xy * out.x() + s.yy * out.y()};
             };

@@ -177,6 +177,16 @@ struct BartonBandis
         return high * n[peak_displacement];
     }
 
+    /// It slips on until it bears a shear stress, to its peak at most.
+    static void mobilise(const JointNumbers& n, double normal, double shear, JointMemory& m)
+    {
+        const double delta = drawn_state(n, normal, shear);
+        if (delta <= m.state)
+            return;
+        m.state = delta;
+        m.slip = direction_of(shear) * delta - shear * n[shear_compliance];
+    }
+
     static void weaken(JointNumbers& n, double factor) { n[strength_share] /= factor; }
     static void stiffen(JointNumbers& n, double times)
     {

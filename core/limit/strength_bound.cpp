@@ -1,10 +1,7 @@
 #include "core/limit/strength_bound.h"
 
-#include "core/boundary/side_forces.h"
-#include "core/detection/edge_touch.h"
-#include "core/joint/all_laws.h"
+#include "core/limit/force_points.h"
 #include "core/limit/linear_program.h"
-#include "core/state/workspace.h"
 #include "core/support/bolt_strength.h"
 
 #include <algorithm>
@@ -22,52 +19,6 @@ constexpr double balanced = 1.0 - 1e-7;  // of lambda
 constexpr int most_iterations = 400'000;
 constexpr Index most_blocks = 20'000;
 
-/// Strength of a point at F = 1.
-struct PointStrength
-{
-    double friction = 0.0;  ///< tan phi
-    double cohesion = 0.0;  ///< c l [N]
-    double tension = 0.0;   ///< T l [N]
-    bool is_weakened = true;
-
-    [[nodiscard]] PointStrength at(double factor) const
-    {
-        const double f = is_weakened ? factor : 1.0;
-        return {friction / f, cohesion / f, tension / f, is_weakened};
-    }
-};
-
-struct ForcePoint
-{
-    std::array<Index, 2> block{};                 ///< ref, inc
-    std::array<std::array<double, 3>, 2> normal;  ///< on each block: force and moment over radius of N = 1
-    std::array<std::array<double, 3>, 2> shear;
-    PointStrength strength;
-    std::array<int, 3> column{-1, -1, -1};
-};
-
-/// Tangent of a strength curve at a normal stress: c and tan phi.
-PointStrength tangent_of(const JointRow& row, double stress, double length)
-{
-    const double at = std::max(stress, 1e3), h = 1e-4 * at;
-    const double slope = (peak_strength(row, at + h) - peak_strength(row, at - h)) / (2.0 * h);
-    return {slope, std::max(peak_strength(row, at) - slope * at, 0.0) * length, 0.0};
-}
-
-PointStrength strength_of(const Model& model, const Contacts& contacts, Index contact, int k, double length)
-{
-    const Index law = contacts.law[contact];
-    const CoulombSlip& slip = model.joints.laws[law];
-    if (!model.joints.has_memory(law))
-        return {slip.friction_coefficient, slip.cohesion * length, 0.0};
-    const JointRow& row = model.joints.rows[law];
-    if (row.kind != kind_of<CoulombResidual>())
-        return tangent_of(row, contacts.normal_force(k, contact) / length, length);
-    if (contacts.memory(k, contact).broken > 0.5)
-        return {row.residual_friction, row.residual_cohesion * length, row.numbers[CoulombResidual::residual_tension] * length};
-    return {slip.friction_coefficient, slip.cohesion * length, row.tension * length};
-}
-
 class Program
 {
   public:
@@ -75,7 +26,6 @@ class Program
             bool corners_bear)
         : model_(model),
           state_(state),
-          corners_bear_(corners_bear),
           bolts_(bolt_strengths(model, state)),
           weakens_bolts_(weakens_bolts)
     {
@@ -84,8 +34,11 @@ class Program
             if (!weakened.empty() && weakened[joint] == 0)
                 for (const Index law : {static_cast<Index>(joint), model.joints.unbonded_of(static_cast<Index>(joint))})
                     kept_.push_back(law);
-        find_loads();
-        find_points();
+        points_ = force_points(model, state, kept_, corners_bear);
+        loads_ = loads_to_balance(model, state);
+        for (Index block = 0; block < model.blocks(); ++block)
+            if (state.blocks.is_free(block))
+                unit_ = std::max({unit_, std::abs(loads_[block].x), std::abs(loads_[block].y), std::abs(loads_[block].w)});
         add_columns();
     }
 
@@ -131,84 +84,6 @@ class Program
             for (int i = 0; i < 3; ++i)
                 if (moves[i] > 0.0)
                     row_[block][i] = rows_++;
-        }
-    }
-
-    void find_loads()
-    {
-        std::vector<Triple> loads = constant_forces(model_, state_);
-        loads.resize(static_cast<std::size_t>(model_.blocks()));
-        for (const Load& load : model_.loads)
-            for (std::size_t k = 0; k < load.blocks.size() && load.from <= state_.cycle && state_.cycle < load.until; ++k)
-            {
-                const Index block = load.blocks[k];
-                const BlockMotion& m = state_.blocks.motion[block];
-                const Vec2 force = model_.mass[block] * load.acceleration + load.force;
-                const Vec2 arm = load.arm.empty() ? Vec2(0.0, 0.0) : load.arm[k];
-                const Vec2 turned(m.c * arm.x() - m.s * arm.y(), m.s * arm.x() + m.c * arm.y());
-                Triple& on = loads[block];
-                on = {on.x + force.x(), on.y + force.y(), on.w + load.moment + cross(turned, load.force)};
-            }
-        for (Index block = 0; block < model_.blocks(); ++block)
-        {
-            const Vec2 weight = model_.mass[block] * model_.gravity;
-            Triple& on = loads[block];
-            on = {on.x + weight.x(), on.y + weight.y(), on.w / model_.radius[block]};
-            if (state_.blocks.is_free(block))
-                unit_ = std::max({unit_, std::abs(on.x), std::abs(on.y), std::abs(on.w)});
-        }
-        loads_ = std::move(loads);
-    }
-
-    void find_points()
-    {
-        const Contacts& contacts = state_.contacts;
-        std::vector<std::pair<std::array<Index, 4>, Index>> order;  // by the user's numbers
-        for (Index i = 0; i < contacts.size(); ++i)
-        {
-            const Index ref = contacts.ref[i], inc = contacts.inc[i];
-            if (ref == inc || state_.blocks.present[ref] == 0 || state_.blocks.present[inc] == 0 ||
-                (!state_.blocks.is_free(ref) && !state_.blocks.is_free(inc)))
-                continue;
-            const Index a = model_.user_number[ref], b = model_.user_number[inc];
-            const Index part_a = contacts.part_a[i] - model_.shapes.part_begin[contacts.swapped[i] != 0 ? inc : ref];
-            const Index part_b = contacts.part_b[i] - model_.shapes.part_begin[contacts.swapped[i] != 0 ? ref : inc];
-            order.push_back({{std::min(a, b), std::max(a, b), part_a, part_b}, i});
-        }
-        std::ranges::sort(order);
-        for (const auto& [numbers, contact] : order)
-            add_points(contact);
-    }
-
-    void add_points(Index contact)
-    {
-        const Contacts& contacts = state_.contacts;
-        const Index ref = contacts.ref[contact], inc = contacts.inc[contact];
-        const EdgeTouch touch = touch_edges(contacts.edges(contact), state_.blocks.motion[ref], state_.blocks.motion[inc]);
-        const double floor = contacts.length_floor(contact), length = point_length(touch.length, floor);
-        if (!corners_bear_ && touch.length <= floor)
-            return;
-        for (int k = 0; k < 2; ++k)
-        {
-            const TouchPoint& p = touch.point[k];
-            const bool is_closed = contacts.regime[k][contact] != static_cast<std::uint8_t>(Regime::open);
-            if (!is_closed && (touch.length <= 0.0 || p.overlap < -floor))
-                continue;
-            ForcePoint point{.block = {ref, inc}};
-            for (int side = 0; side < 2; ++side)
-            {
-                const Index block = point.block[side];
-                const double sign = side == 1 ? 1.0 : -1.0;  // forces are given on inc: N along -m, S along t
-                const double t = side == 1 ? p.inc_t : p.ref_t, m = side == 1 ? p.inc_m : p.ref_m;
-                const Vec2 along(touch.ex, touch.ey), across = turned_left(along);
-                const Vec2 arm = (t * along + m * across) / model_.radius[block];
-                const Vec2 normal = -sign * across, shear = sign * along;
-                point.normal[side] = {normal.x(), normal.y(), cross(arm, normal)};
-                point.shear[side] = {shear.x(), shear.y(), cross(arm, shear)};
-            }
-            point.strength = strength_of(model_, contacts, contact, k, length);
-            point.strength.is_weakened = std::ranges::find(kept_, contacts.law[contact]) == kept_.end();
-            points_.push_back(point);
         }
     }
 
@@ -274,7 +149,6 @@ class Program
 
     const Model& model_;
     const State& state_;
-    bool corners_bear_ = true;
     std::vector<BoltStrength> bolts_;
     bool weakens_bolts_ = false;
     int first_bolt_ = 0;  ///< column

@@ -46,7 +46,7 @@ struct StrengthBound
 /// tangent at the present normal stress, which lies above them. Contacts that are open by less than their least length count.
 ///
 /// @param weakened  per [joint.NAME]: is its strength divided by F? Empty: all
-/// @see verification/unit/limit/strength_bound_test.cpp
+/// @see verification/unit/core/limit/strength_bound_test.cpp
 [[nodiscard]] StrengthBound strength_bound(const Model& model, const State& state, const std::vector<std::uint8_t>& weakened,
                                            double least, double most, bool weakens_bolts = false);
 

@@ -2,7 +2,7 @@
 /// Sides of the domain with names resolved to blocks: what holds or presses them, and in which stages. Constant during a run.
 /// What acts follows from the number of the stage alone, so that a checkpoint holds nothing of it but the blocks' own state.
 
-#include "core/model/case_def.h"
+#include "core/model/boundary_def.h"
 #include "core/model/factor.h"
 
 #include <cstdint>

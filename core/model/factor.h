@@ -1,7 +1,8 @@
 #pragma once
 /// What a load or a side is multiplied with as a run goes on.
 
-#include "core/model/case_def.h"
+#include "core/model/factor_def.h"
+#include "core/model/stage_def.h"
 
 #include <cstdint>
 

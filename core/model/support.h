@@ -2,7 +2,8 @@
 /// Bolts with names resolved to blocks. Constant during a run: what has happened to them is in core/state/support_state.h. All forces and stiffnesses are those of one
 /// metre of thickness: divided by the bolt's spacing out of plane.
 
-#include "core/model/case_def.h"
+#include "core/model/factor_def.h"
+#include "core/model/support_def.h"
 
 #include <limits>
 #include <string>

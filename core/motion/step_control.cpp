@@ -22,6 +22,7 @@ constexpr double longest = 4096.0;       // times the case's step
 constexpr double slide_share = 1.5e-3;   // of the block's size a cycle
 constexpr double approach_share = 0.02;  // the same where it touches nothing
 constexpr double fall_share = 1e-7;      // of its size, see StepRule::falls_by
+constexpr double not_looked_at = 0.0;    // a stable step that is not known
 constexpr double settled_share = 0.01;   // of its size: a block that moved less in its stage keeps its contact lengths
 
 bool is_settled(Index block, const Model& model, const Blocks& blocks)
@@ -160,6 +161,12 @@ double stable_step_of(Index block, const Model& model, const BlockContacts& list
     return greatest > 0.0 ? 2.0 / std::sqrt(greatest) : infinity;
 }
 
+void forget_stable_steps(const StepRule& rule, State& state)
+{
+    if (!rule.varies || state.cycle == state.stage_begin_cycle)
+        std::ranges::fill(state.blocks.stable_step, not_looked_at);
+}
+
 StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, const Model& model, const BlockContacts& list,
                       const Contacts& contacts, Blocks& blocks)
 {
@@ -171,7 +178,7 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
         const bool takes_part = blocks.takes_part(b);
         if (!takes_part && !is_beside_moving(b, list, contacts, blocks))
             continue;
-        if (look_at_all || blocks.stable_step[b] == 0.0)  // 0: not yet in this stage, whose steps may begin to vary within it
+        if (look_at_all || blocks.stable_step[b] == not_looked_at)
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
         const double least = std::min(rule.stable_share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
         const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * model.size(b) / rule.falls_by) : infinity;

@@ -34,6 +34,11 @@ struct StepRule
 [[nodiscard]] double stable_step_of(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts,
                                     const Blocks& blocks);
 
+/// The one place that says when Blocks::stable_step holds no more; 0 there means: not looked at. What was looked at counts within one stage, and from the cycle on
+/// in which its steps vary: while they do not, contacts change without anybody looking. bound_steps looks at each block for which nothing is known.
+/// @pre  before cycles run under this rule
+void forget_stable_steps(const StepRule& rule, State& state);
+
 /// What a range of blocks says about the next step.
 struct StepBound
 {

@@ -2,7 +2,7 @@
 /// Traces of joint sets: which straight lines cross the domain.
 
 #include "core/geometry/convex_split.h"
-#include "core/model/case_def.h"
+#include "core/model/rock_def.h"
 #include "core/rock/distribution.h"
 
 #include <boost/random/uniform_real_distribution.hpp>

@@ -2,6 +2,7 @@
 /// Names and times of a case definition -> blocks and cycles of a model.
 
 #include "core/check.h"
+#include "core/model/case_def.h"
 #include "core/model/model.h"
 
 namespace hdem

@@ -1,7 +1,7 @@
 #pragma once
 /// A set of parallel planes in space, seen in a vertical section.
 
-#include "core/model/case_def.h"
+#include "core/model/rock_def.h"
 
 #include <optional>
 

@@ -1,5 +1,7 @@
 #include "core/stage/load_changes.h"
 
+#include "core/model/liner_growth.h"
+#include "core/stage/properties.h"
 #include "core/state/stage_cycles.h"
 
 #include <algorithm>
@@ -49,12 +51,19 @@ class Changes
         add(later(zero, factor.first_cycle(model_.time_step)), later(zero, factor.last_cycle(model_.time_step)));
     }
 
-    /// Those that the stage changes over its set_cycles.
+    void add(const Liner& liner)
+    {
+        const std::int64_t age = cycles_since(liner.stage, state_);
+        if (age >= 0)
+            add(state_.cycle - age, later(state_.cycle - age, settled_at(liner)));
+    }
+
+    /// Those that the stage changes over some cycles.
     void add_joints()
     {
         const auto stage = static_cast<std::size_t>(state_.stage);
         if (state_.stage_begun && stage < model_.stage_laws.size() && !model_.stage_laws[stage].laws.empty())
-            add(state_.stage_begin_cycle, state_.stage_begin_cycle + model_.stages[stage].set_cycles);
+            add(state_.stage_begin_cycle, state_.stage_begin_cycle + set_until(model_.stages[stage], model_.time_step));
     }
 
     [[nodiscard]] std::int64_t over_from() const { return over_from_; }
@@ -97,6 +106,8 @@ std::int64_t steady_from(const Model& model, const State& state)
     for (const Boundary& boundary : model.boundaries)
         if (boundary.acts(state.stage))
             changes.add(boundary.factor);
+    for (const Liner& liner : model.support.liners)
+        changes.add(liner);
     changes.add_joints();
     return changes.over_from();
 }
@@ -154,8 +165,15 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
     for (const Boundary& boundary : model.boundaries)
         if (boundary.acts(state.stage))
             add_factor("boundary \"" + boundary.name + "\"", boundary.factor);
+    for (const Liner& liner : model.support.liners)
+        if (const std::int64_t age = cycles_since(liner.stage, state); age >= 0)
+        {
+            add("liner \"" + liner.name + "\": its weight or pressure grows, or its strength falls,",
+                later(state.cycle - age, settled_at(liner)));
+            add("liner \"" + liner.name + "\" hardens", later(state.cycle - age, hardened_at(liner)));
+        }
     if (stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty())
-        add("set_cycles: joints change", state.stage_begin_cycle + def.set_cycles);
+        add("set: joints change", state.stage_begin_cycle + set_until(def, model.time_step));
     add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);
     return found;
 }

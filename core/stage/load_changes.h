@@ -12,14 +12,15 @@ namespace hdem
 /// Cycle at which a stage ends that began at `begin`, if it does not come to rest earlier.
 [[nodiscard]] std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step);
 
-/// First cycle from which nothing changes in the running stage any more: no load or side begins, ends, grows or falls, no joint changes.
+/// First cycle from which nothing changes in the running stage any more: no load or side begins, ends, grows or falls, no joint
+/// changes, no lining's weight or pressure grows and its strength does not fall.
 [[nodiscard]] std::int64_t steady_from(const Model& model, const State& state);
 
 /// Does something change at a time that the case gives in seconds, now or later? Until then all steps must be the same: cycles stand for times.
 [[nodiscard]] bool are_times_to_come(const Model& model, const State& state);
 
-/// What still changes when a stage ends, each as text: loads and sides on their way to their last value, joints within set_cycles, forces within
-/// relax_cycles. At the end of the last stage also loads that have not begun.
+/// What still changes when a stage ends, each as text: loads and sides on their way to their last value, joints on their way to what the stage sets, forces within
+/// relax_cycles, linings. At the end of the last stage also loads that have not begun.
 /// @param state  of the stage's last cycle; only its cycles and stages are read
 [[nodiscard]] std::vector<std::string> changes_to_come(const Model& model, const State& state);
 

@@ -2,6 +2,7 @@
 
 #include "core/boundary/resolve_boundaries.h"
 #include "core/joint/normal_closure.h"
+#include "core/model/factor.h"
 #include "core/state/state_hash.h"
 
 #include <algorithm>
@@ -60,6 +61,11 @@ void take_densities(const std::vector<double>& densities, Model& model)
         model.full_inertia[b] = {1.0 / model.mass[b], 1.0 / model.mass[b], 1.0 / model.inertia[b], 0.0};
     }
     model.density = densities;
+}
+
+Factor share_by_table(const StageDef& stage)
+{
+    return {.rows = stage.set_table, .is_by_time = stage.set_table_by == TableColumn::time};
 }
 
 bool differs(const StageLaws& before, const JointTable& now, Index law)
@@ -139,16 +145,31 @@ void set_joints_between(const StageLaws& before, Index stage, double share, Mode
     take_joints(laws, model.joints);
 }
 
+bool sets_over_time(const StageDef& stage)
+{
+    return stage.set_cycles > 0 || !stage.set_table.empty();
+}
+
+std::int64_t set_until(const StageDef& stage, double step)
+{
+    return stage.set_table.empty() ? stage.set_cycles : share_by_table(stage).last_cycle(step);
+}
+
 double share_set(const Model& model, const State& state)
 {
-    const std::int64_t over = model.stages[static_cast<std::size_t>(state.stage)].set_cycles;
+    const StageDef& stage = model.stages[static_cast<std::size_t>(state.stage)];
+    const std::int64_t over = set_until(stage, model.time_step);
     const std::int64_t done = (state.cycle - state.stage_begin_cycle) / set_every * set_every;
-    return state.cycle - state.stage_begin_cycle >= over ? 1.0 : static_cast<double>(done) / static_cast<double>(over);
+    if (state.cycle - state.stage_begin_cycle >= over)
+        return 1.0;
+    return stage.set_table.empty() ? static_cast<double>(done) / static_cast<double>(over)
+                                   : share_by_table(stage).at(done, model.time_step);
 }
 
 std::int64_t next_share(const Model& model, const State& state)
 {
-    const std::int64_t begin = state.stage_begin_cycle, over = model.stages[static_cast<std::size_t>(state.stage)].set_cycles;
+    const StageDef& stage = model.stages[static_cast<std::size_t>(state.stage)];
+    const std::int64_t begin = state.stage_begin_cycle, over = set_until(stage, model.time_step);
     return begin + std::min(over, ((state.cycle - begin) / set_every + 1) * set_every);
 }
 
@@ -156,7 +177,7 @@ bool is_setting_joints(const Model& model, const State& state)
 {
     const auto stage = static_cast<std::size_t>(state.stage);
     return state.stage_begun && stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty() &&
-           state.cycle < state.stage_begin_cycle + model.stages[stage].set_cycles;
+           state.cycle < state.stage_begin_cycle + set_until(model.stages[stage], model.time_step);
 }
 
 bool keep_forces(const StageLaws& before, const Model& model, State& state)

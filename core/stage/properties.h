@@ -16,12 +16,18 @@ void set_properties(Model& model, Index stage);
 /// @param share  of the way: tangents of friction angles, cohesion, tension and what follows from them [-]
 void set_joints_between(const StageLaws& before, Index stage, double share, Model& model);
 
-/// Share of the change that the stage of the state has made by now, which grows over its set_cycles in steps of ten cycles [-].
+/// Do strengths come to what a stage sets over some cycles, by set_cycles or by a table?
+[[nodiscard]] bool sets_over_time(const StageDef& stage);
+/// Cycles of the stage after which all of it is set.
+/// @param step  [s] a cycle
+[[nodiscard]] std::int64_t set_until(const StageDef& stage, double step);
+
+/// Share of the change that the stage of the state has made by now. It is looked at every ten cycles [-].
 [[nodiscard]] double share_set(const Model& model, const State& state);
-/// Cycle at which it grows next.
+/// Cycle at which it is looked at next.
 [[nodiscard]] std::int64_t next_share(const Model& model, const State& state);
 
-/// Is it still to grow?
+/// Is it still to change?
 [[nodiscard]] bool is_setting_joints(const Model& model, const State& state);
 
 /// After the stiffness of joints has changed: all contacts bear what they bore. Their preload takes up the difference, so that a linear spring goes on with

@@ -10,8 +10,8 @@
 
 namespace hdem
 {
-/// Pose at the cycle's start and velocity half a step before it. One cache line a block: a contact reads two of them,
-/// and seven separate arrays cost seven lines each (measured in perf, see parallel/README.md).
+/// Pose at the cycle's start and velocity half a step before it. One cache line a block: a contact reads two of them, where
+/// seven separate arrays would cost it fourteen.
 template <typename R>
 struct alignas(64) BasicMotion
 {

@@ -1,7 +1,7 @@
 #pragma once
 /// Everything that changes during a run. A checkpoint holds exactly this.
 
-#include "core/model/case_def.h"
+#include "core/model/method_def.h"
 #include "core/state/blocks.h"
 #include "core/state/contacts.h"
 #include "core/state/energy_terms.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// Bolts around an excavation.
 
-#include "core/model/case_def.h"
+#include "core/model/support_def.h"
 
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "core/support/liner_forces.h"
 
+#include "core/model/liner_growth.h"
 #include "core/support/bolt_link.h"
 #include "core/support/liner_solver.h"
 
@@ -10,21 +11,6 @@ namespace hdem
 {
 namespace
 {
-/// Factor of modulus and strengths so many cycles after it was installed: linear between rows, constant before and behind them.
-double hardening(const Liner& liner, std::int64_t cycles)
-{
-    if (liner.hardening.empty())
-        return 1.0;
-    const auto age = static_cast<double>(cycles);
-    const auto next = std::ranges::find_if(liner.hardening, [&](const auto& row) { return row[0] > age; });
-    if (next == liner.hardening.begin())
-        return (*next)[1];
-    const auto& last = *std::prev(next);
-    if (next == liner.hardening.end())
-        return last[1];
-    return last[1] + ((*next)[1] - last[1]) * (age - last[0]) / ((*next)[0] - last[0]);
-}
-
 Vec2 place_of_rock(const LinerSegment& segment, int end, const Blocks& blocks)
 {
     const BlockMotion& m = blocks.motion[segment.block];
@@ -34,10 +20,12 @@ Vec2 place_of_rock(const LinerSegment& segment, int end, const Blocks& blocks)
 LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model, const State& state)
 {
     const std::int64_t age = state.cycle - record.since;
-    LinerLoad load{
-        .step = state.blocks.step.last, .factor = hardening(liner, age), .gravity = model.gravity, .rock = {}, .gone = {}};
-    load.pressure = liner.pressure *
-                    (liner.pressure_cycles > age ? static_cast<double>(age) / static_cast<double>(liner.pressure_cycles) : 1.0);
+    LinerLoad load{.step = state.blocks.step.last,
+                   .factor = hardening_at(liner, age),
+                   .pressure = liner.pressure * grown_share(liner.pressure_cycles, age),
+                   .gravity = model.gravity * grown_share(liner_weight_cycles, age),
+                   .rock = {},
+                   .gone = {}};
     for (std::size_t s = 0; s < liner.segments.size(); ++s)
     {
         const LinerSegment& segment = liner.segments[s];
@@ -183,7 +171,7 @@ bool install_liners(const Model& model, State& state)
             continue;
         std::fill_n(state.support.history.begin() + liner.history, liner.history_size, 0.0);
         const LinerMemory memory = liner_memory(liner, state.support.history);
-        *memory.factor = hardening(liner, 0);
+        *memory.factor = hardening_at(liner, 0);
         for (std::size_t s = 0; s < liner.segments.size(); ++s)
             for (int end = 0; liner.segments[s].block != no_index && end < 2; ++end)
             {

@@ -3,10 +3,11 @@
 ///
 ///   m (u - u_0 - dt v_0) / dt^2 = forces of beams + forces of ties + weight + pressure           implicit Euler, for x, y and rotation of each node
 ///
-/// Nodes have the mass of their length, so that a liner that has come off falls. Implicit, so that it does not bound the time step: explicit nodes of 0.15 m of
-/// shotcrete, 0.25 m apart, would allow 8e-5 s. A liner's own swinging is damped by that; it follows the rock within some cycles. Springs that flow make the forces those of
-/// a convex energy of u; its least value is found by Newton's method with a line search. The matrix is factored anew only where what flows, the step or the stiffness
-/// has changed: most cycles solve once.
+/// Nodes have the mass of their length, so that a liner that has come off falls. The scheme is implicit, because explicit nodes would bound the time step: 8e-5 s for
+/// 0.15 m of shotcrete with nodes 0.25 m apart. It damps the liner's own swinging; the liner follows the rock within some cycles.
+///
+/// Springs that flow make the forces those of a convex energy of u. Its least value is found by Newton's method with a line search. The matrix is factored anew
+/// only where what flows, the step or the stiffness has changed: most cycles solve once.
 ///
 /// Small displacements and rotations: beams keep the directions that they were drawn in.
 

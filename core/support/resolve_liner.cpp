@@ -35,7 +35,8 @@ class LinerMaker
     {
         set_numbers();
         for (const Polygon& stretch : plan_.stretches)
-            add_stretch(stretch);
+            if (const Polygon path = without_short_pieces(stretch); path.size() > 1)
+                add_stretch(path);
         if (std::ranges::none_of(liner_.segments, [](const LinerSegment& s) { return s.block != no_index; }))
             return std::nullopt;
         liner_.history_size = liner_history_size(liner_);
@@ -65,6 +66,19 @@ class LinerMaker
         liner_.hardening = def.hardening;
         liner_.pressure = def.pressure;
         liner_.pressure_cycles = def.pressure_cycles;
+    }
+
+    /// An arc that begins at a corner leaves a piece of round-off before it. Its beam would be so much stiffer than all others that nothing is left of their forces.
+    [[nodiscard]] Polygon without_short_pieces(const Polygon& stretch) const
+    {
+        const double least = least_share * longest_;
+        Polygon kept{stretch.front()};
+        for (const Vec2& point : stretch)
+            if ((point - kept.back()).norm() >= least)
+                kept.push_back(point);
+        if (kept.size() > 1)
+            kept.back() = stretch.back();
+        return kept;
     }
 
     void add_stretch(const Polygon& stretch)

@@ -2,6 +2,7 @@
 /// [water] of a case -> water of the model.
 
 #include "core/check.h"
+#include "core/model/case_def.h"
 #include "core/model/model.h"
 
 #include <vector>

@@ -44,6 +44,7 @@ std::vector<Check> water_checks();
 std::vector<Check> fos_checks();
 std::vector<Check> support_checks();
 std::vector<Check> liner_checks();
+std::vector<Check> large_model_checks();
 std::vector<Check> rock_mass_checks();
 std::vector<Check> static_rock_checks();
 

@@ -2,41 +2,12 @@
 
 #include "parallel/critical_search.h"
 #include "parallel/reference_state.h"
-
-#include <map>
-#include <mutex>
-#include <utility>
+#include "verification/runs/remembered_trials.h"
 
 namespace hdem::verification
 {
 namespace
 {
-/// Keeps trials in memory, and asks the search to stop after so many.
-class BreaksOff final : public TrialStore
-{
-  public:
-    BreaksOff(std::stop_source& stop, int after) : stop_(stop), left_(after) {}
-    [[nodiscard]] std::optional<Trial> find(FactorSearch search, double factor) override
-    {
-        const std::lock_guard lock(mutex_);
-        const auto at = trials_.find({search, factor});
-        return at == trials_.end() ? std::nullopt : std::optional(at->second);
-    }
-    void add(FactorSearch search, const Trial& trial) override
-    {
-        const std::lock_guard lock(mutex_);
-        trials_[{search, trial.factor}] = trial;
-        if (--left_ == 0)
-            stop_.request_stop();
-    }
-
-  private:
-    std::mutex mutex_;
-    std::map<std::pair<FactorSearch, double>, Trial> trials_;
-    std::stop_source& stop_;
-    int left_;
-};
-
 bool same_trials(const SafetyFactor& a, const SafetyFactor& b)
 {
     const auto same = [](const FactorTrial& x, const FactorTrial& y)
@@ -53,7 +24,7 @@ std::optional<FosAnswer> broken_off_and_gone_on(const std::string& case_file, co
 {
     constexpr int trials = 3;
     std::stop_source stop;
-    BreaksOff store(stop, trials);
+    runs::RememberedTrials store(stop, trials);
     try
     {
         static_cast<void>(find_factor(case_file, overrides, {.store = &store, .stop = stop.get_token()}));

@@ -159,6 +159,49 @@ void check_isotropic(Report& report)
                 {{0.5, 7.0}, 90.0, 1.38110, "hoop stress at (0.5, 7) [MPa]"}},
                {-0.369245, 0.0});
 }
+
+/// The joints of one set that cuts the rock at this dip, under [xx, yy] in Pa.
+StressedSet stressed(double dip, double friction, const Vec2& stress)
+{
+    const CaseRun run(
+        "insitu/rock.toml",
+        {{"domain.fixed_edges", "[0]"},
+         {"insitu", fmt::format("{{stress = [{}, {}, 0.0]}}", stress.x(), stress.y())},
+         {"joint_set", fmt::format("[{{name = \"asked\", dip_deg = {}, spacing = 1.0}}]", dip)},
+         {"joint.default", fmt::format("{{normal_stiffness = 1e10, shear_stiffness = 1e9, friction_angle_deg = {}}}", friction)}});
+    for (const StressedSet& set : summarise_insitu(run.model(), run.state()).sets)
+        if (set.name == "asked")
+            return set;
+    return {};
+}
+
+/// How much of their strength joints have in use, and which are above it.
+void check_slip_tendency(Report& report)
+{
+    const Vec2 stress(-15e6, -5e6);
+    for (const auto& [dip, used] : {std::pair(15.0, 0.4409270), {30.0, 0.5773503}, {45.0, 0.5}, {60.0, 0.3464102}})
+    {
+        report.require({fmt::format("dip {:g}°: τ over σ_n", dip), "t = σ n", used,
+                        stressed(dip, 30.0, stress).most_used * std::tan(radians(30.0))},
+                       relative(2e-7));
+        const StressedSet set = stressed(dip, 29.9, stress);
+        report.require({fmt::format("dip {:g}°, φ 29.9°: share of the length above its strength", dip), "only 30° slips",
+                        dip == 30.0 ? 1.0 : 0.0, set.length_above / set.length},
+                       absolute(1e-12));
+    }
+    // s1 is vertical: the normal of a joint is as far from it as its dip says.
+    const double ratio = 4.0, phi = radians(30.0);
+    const double spread = std::asin((ratio + 1.0) / (ratio - 1.0) * std::sin(phi));
+    const double least = 0.5 * (phi + spread) * 180.0 / std::numbers::pi, most = 120.0 - least;
+    for (const auto& [angle, slips] :
+         {std::pair(least - 0.01, false), {least + 0.01, true}, {most - 0.01, true}, {most + 0.01, false}})
+    {
+        const StressedSet set = stressed(angle, 30.0, {-2e6, -8e6});
+        report.require({fmt::format("s1/s3 = 4, φ 30°, normal {:.2f}° from s1: share of the length above its strength", angle),
+                        "sin(2θ − φ) > (s1 + s3)/(s1 − s3) sin φ", slips ? 1.0 : 0.0, set.length_above / set.length},
+                       absolute(1e-12));
+    }
+}
 }  // namespace
 
 std::vector<Check> insitu_checks()
@@ -170,6 +213,7 @@ std::vector<Check> insitu_checks()
             {"insitu.I5", "Running bond as a continuum: stiffness by moving the outer bricks", check_bond},
             {"insitu.I6", "Hole under unequal stress, soft in shear", check_soft_shear},
             {"insitu.I7", "Hole under equal stress, K_S = K_N", check_isotropic},
-            {"insitu.I8", "Wedge in a roof: greatest weight, drop at slip, and fall", check_roof_wedge}};
+            {"insitu.I8", "Wedge in a roof: greatest weight, drop at slip, and fall", check_roof_wedge},
+            {"insitu.I9", "Which joints are above their strength: slip tendency", check_slip_tendency}};
 }
 }  // namespace hdem::verification

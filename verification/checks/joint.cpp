@@ -2,7 +2,7 @@
 
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
-#include "verification/checks/joint_slow.h"
+#include "verification/checks/joint_checks.h"
 
 #include <fmt/format.h>
 
@@ -147,6 +147,10 @@ std::vector<Check> joint_checks()
             {"joint.J7", "Patton in direct shear", check_patton},
             {"joint.J8", "Continuously yielding in direct shear", check_yielding},
             {"joint.J9", "Plesha in direct shear there and back", check_plesha},
-            {"joint.J10", "Saeb-Amadei in direct shear: strength and opening", check_saeb}};
+            {"joint.J10", "Saeb-Amadei in direct shear: strength and opening", check_saeb},
+            {"joint.laws", "Each law by itself: J1 to J10, ten cycles of ±5 mm, four lanes against one", check_joint_laws},
+            {"joint.contacts", "Each law on 1, 2 and 16 contacts, and its energy over ten cycles of ±5 mm", check_contacts},
+            {"joint.fall", "A slab with cohesion that falls on rock of the same joint does not stick", check_fall},
+            {"joint.bits", "Each law on 1, 2, 3 and 8 threads and after a restart: the same bits", check_bits}};
 }
 }  // namespace hdem::verification

@@ -1,9 +1,8 @@
 /// Joint laws in the cycle, slowly enough for seven digits: scale, wear, constant normal stiffness.
 
-#include "verification/checks/joint_slow.h"
-
 #include "core/contact/contact_report.h"
 #include "verification/checks/case_run.h"
+#include "verification/checks/joint_checks.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>

@@ -1,125 +1,61 @@
 #include "verification/checks/same_bits.h"
 
-#include "core/state/state_hash.h"
-#include "io/checkpoint.h"
+#include "verification/checks/turned_case.h"
+#include "verification/runs/run_end.h"
+#include "verification/runs/scratch_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
-#include <filesystem>
-#include <vector>
+#include <limits>
+#include <numbers>
 
 namespace hdem::verification
 {
 namespace
 {
-/// For one checkpoint; removed with all that is in it.
-class ScratchFolder
+/// Checks may run at once.
+runs::ScratchFolder scratch_folder()
 {
-  public:
-    ScratchFolder()
-    {
-        static std::atomic<int> count = 0;
-        path_ = std::filesystem::temp_directory_path() / fmt::format("hdem_verify.{}.{}", getpid(), ++count);
-        std::filesystem::create_directory(path_);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    static std::atomic<int> count = 0;
+    return runs::ScratchFolder(fmt::format("verify{}", ++count));
+}
 
-  private:
-    std::filesystem::path path_;
-};
-
-/// Writes a checkpoint at a cycle and leaves the run there.
-class BreakOff final : public Keeper
+bool goes_on_the_same(const runs::Build& build, const runs::RunEnd& unbroken)
 {
-  public:
-    BreakOff(const std::filesystem::path& folder, std::int64_t cycle) : folder_(folder), cycle_(cycle) {}
-    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return now < cycle_ ? cycle_ : never; }
-    [[nodiscard]] bool keep(const Simulation& simulation) override
-    {
-        if (simulation.state().cycle < cycle_)
-            return true;
-        RunRecord record;
-        record.history_axes.resize(simulation.model().histories.size(), Vec2(0.0, 0.0));
-        write_checkpoint(folder_, record, simulation.model(), simulation.state());
+    if (unbroken.cycle < 2)
         return false;
-    }
-
-  private:
-    const std::filesystem::path& folder_;
-    std::int64_t cycle_;
-};
-
-/// What two runs must have in common.
-struct Ended
-{
-    std::uint64_t hash = 0;
-    std::int64_t cycle = 0;
-    std::vector<std::uint64_t> ledger;  ///< bits of its terms
-
-    bool operator==(const Ended&) const = default;
-};
-
-class Problem
-{
-  public:
-    Problem(std::filesystem::path file, Overrides overrides) : file_(std::move(file)), overrides_(std::move(overrides)) {}
-
-    [[nodiscard]] Ended run(int threads) const
-    {
-        LoadedCase loaded = load_case(file_, overrides_);
-        return end_of(Simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads));
-    }
-    [[nodiscard]] Ended restart(std::int64_t cycle, int threads) const
-    {
-        const ScratchFolder folder;
-        LoadedCase loaded = load_case(file_, overrides_);
-        Simulation begun(std::move(loaded.setup.model), std::move(loaded.setup.state), threads);
-        BreakOff keeper(folder.path(), cycle);
-        run_stages(begun, {}, &keeper);
-        LoadedCase again = load_case(file_, overrides_);
-        State state = CheckpointReader(checkpoint_file(folder.path())).state(again.setup.model);
-        return end_of(Simulation(std::move(again.setup.model), std::move(state), threads));
-    }
-
-  private:
-    static Ended end_of(Simulation simulation)
-    {
-        run_stages(simulation, {});
-        const State& state = simulation.state();
-        Ended ended{.hash = state_hash(simulation.model(), state), .cycle = state.cycle};
-        for (const LedgerTerm& term : ledger_terms)
-            ended.ledger.push_back(std::bit_cast<std::uint64_t>(state.ledger.*term.value));
-        return ended;
-    }
-
-    std::filesystem::path file_;
-    Overrides overrides_;
-};
+    const runs::ScratchFolder folder = scratch_folder();
+    runs::run_until(build, unbroken.cycle / 2, folder.path(), 2);
+    return runs::restart(build, folder.path(), 2) == unbroken;
+}
 }  // namespace
 
-void require_same_bits(Report& report, const std::string& case_file, const Overrides& overrides,
-                       std::span<const char* const> methods)
+std::int64_t require_same_bits(Report& report, const std::string& case_file, const Overrides& overrides,
+                               std::span<const char* const> methods, const OtherRuns& others)
 {
+    constexpr std::array turns{0.0, 23.0};
+    const std::string& name = others.name.empty() ? case_file : others.name;
+    const std::string compared = fmt::format("1, {} threads, restarted", fmt::join(others.threads, ", "));
+    std::int64_t contacts = std::numeric_limits<std::int64_t>::max();
     for (const char* method : methods)
-    {
-        const Problem problem(case_folder() / case_file, overrides + Overrides{set("contact.method", std::string(method))});
-        const Ended one = problem.run(1);
-        double others = 0.0;
-        for (const int threads : {2, 3})
-            others += problem.run(threads) == one ? 0.0 : 1.0;
-        others += one.cycle > 1 && problem.restart(one.cycle / 2, 2) == one ? 0.0 : 1.0;
-        report.require({fmt::format("{}, {}: runs that differ", case_file, method), "1, 2, 3 threads, restarted", 0.0, others},
-                       absolute(0.0));
-    }
+        for (const double degrees : std::span(turns).first(others.turned ? 2 : 1))
+        {
+            const Overrides drawn = overrides + Overrides{set("contact.method", std::string(method))};
+            const Overrides given = degrees == 0.0 ? drawn : turned_case(case_file, drawn, degrees * std::numbers::pi / 180.0);
+            const runs::Build build([&] { return load_case(case_folder() / case_file, given).setup; });
+            const runs::RunEnd one = runs::run_unbroken(build, 1);
+            double differ = 0.0;
+            for (const int threads : others.threads)
+                differ += runs::run_unbroken(build, threads) == one ? 0.0 : 1.0;
+            differ += goes_on_the_same(build, one) ? 0.0 : 1.0;
+            const std::string turn = degrees == 0.0 ? "" : fmt::format(", turned by {:g}°", degrees);
+            report.require({fmt::format("{}, {}{}: runs that differ", name, method, turn), compared, 0.0, differ}, absolute(0.0));
+            contacts = std::min(contacts, one.contacts);
+        }
+    return contacts;
 }
 }  // namespace hdem::verification

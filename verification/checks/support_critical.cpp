@@ -5,11 +5,13 @@
 #include "core/support/bolt_forces.h"
 #include "parallel/critical_search.h"
 #include "verification/checks/case_run.h"
+#include "verification/checks/same_bits.h"
 #include "verification/checks/support_checks.h"
 #include "verification/checks/turned_case.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +19,8 @@ namespace hdem::verification
 {
 namespace
 {
+constexpr std::array force_and_hybrid{"force", "hybrid"};
+
 /// As `hdem critical` does it.
 Bracket find_critical(const std::string& case_file, const Overrides& overrides, const std::string& key, const CriticalRange& range,
                       double tolerance, const FailureCondition& fails)
@@ -117,9 +121,10 @@ void check_tunnel_held(Report& report, const char* method, double angle)
 
 void check_tunnel(Report& report)
 {
-    for (const char* method : {"force", "hybrid"})
+    for (const char* method : force_and_hybrid)
         for (const double angle : {0.0, 23.0 * std::numbers::pi / 180.0})
             check_tunnel_held(report, method, angle);
+    require_same_bits(report, "support/tunnel.toml", {set("bolt[0].yield", 2e4)}, force_and_hybrid);
 }
 
 void check_goodman_bray(Report& report)
@@ -129,7 +134,7 @@ void check_goodman_bray(Report& report)
                    relative(1e-3));
     const FailureCondition moves{.quantity = FailureCondition::Quantity::displacement, .blocks = {}, .limit = 5e-3};
     const std::string file = "support/goodman_bray.toml";
-    for (const char* method : {"force", "hybrid"})
+    for (const char* method : force_and_hybrid)
         for (const double angle : {0.0, turn})
         {
             const Overrides given = turned_case(file, {set("contact.method", std::string(method))}, angle);
@@ -138,6 +143,7 @@ void check_goodman_bray(Report& report)
                             "Goodman and Bray", published, found.middle()},
                            relative(1e-2));
         }
+    require_same_bits(report, file, {set("bolt[0].pretension", 1.02 * published)}, force_and_hybrid);
     const CaseRun held(report, file, {set("bolt[0].pretension", 1.02 * published)});
     report.require({"with 2 % more: cycles to rest", "at rest", 2e4, static_cast<double>(held.state().cycle)}, at_most());
     const Bracket soft = find_critical(file, {set("joint.default.shear_stiffness", 5e8)}, "bolt[0].pretension", {3e6, 1e6}, 4e3,

@@ -1,5 +1,7 @@
 #include "verification/checks/turned_case.h"
 
+#include "verification/checks/checks.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -70,13 +72,19 @@ void turn_water(const CaseDef& def, double angle, Overrides& turns)
     }
 }
 
+/// Directions [deg].
+Vec2 turned_arc(const Vec2& arc, double angle)
+{
+    return arc + Vec2::Constant(angle * 180.0 / std::numbers::pi);
+}
+
 void turn_support(const CaseDef& def, double angle, Overrides& turns)
 {
     for (std::size_t i = 0; i < def.bolts.size(); ++i)
     {
         const std::string key = fmt::format("bolt[{}].", i);
         if (def.bolts[i].arc)
-            turns.push_back(set(key + "arc", *def.bolts[i].arc + Vec2::Constant(angle * 180.0 / std::numbers::pi)));
+            turns.push_back(set(key + "arc", turned_arc(*def.bolts[i].arc, angle)));
         if (!def.bolts[i].from)
             continue;
         turns.push_back(set(key + "from", turned(*def.bolts[i].from, angle)));
@@ -87,8 +95,13 @@ void turn_support(const CaseDef& def, double angle, Overrides& turns)
 void turn_liners(const CaseDef& def, double angle, Overrides& turns)
 {
     for (std::size_t i = 0; i < def.liners.size(); ++i)
+    {
+        const std::string key = fmt::format("liner[{}].", i);
+        if (def.liners[i].arc)
+            turns.push_back(set(key + "arc", turned_arc(*def.liners[i].arc, angle)));
         if (!def.liners[i].path.empty())
-            turns.push_back(set(fmt::format("liner[{}].path", i), turned_polygon(def.liners[i].path, angle)));
+            turns.push_back(set(key + "path", turned_polygon(def.liners[i].path, angle)));
+    }
 }
 
 Override turned_stress(const StressDef& s, double angle)
@@ -99,6 +112,15 @@ Override turned_stress(const StressDef& s, double angle)
                         n * n * s.xx + c * c * s.yy + 2.0 * c * n * s.xy, c * n * (s.xx - s.yy) + (c * c - n * n) * s.xy)};
 }
 }  // namespace
+
+std::vector<std::pair<const char*, double>> methods_and_angles()
+{
+    std::vector<std::pair<const char*, double>> all;
+    for (const char* method : all_methods)
+        for (const double angle : {0.0, 23.0})
+            all.emplace_back(method, angle);
+    return all;
+}
 
 Vec2 turned(const Vec2& p, double angle)
 {

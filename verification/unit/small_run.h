@@ -7,9 +7,9 @@
 #include "core/geometry/polygon.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
+#include "verification/runs/scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -19,29 +19,7 @@
 
 namespace hdem::test
 {
-/// Empty folder, removed at the end of the test.
-class ScratchFolder
-{
-  public:
-    explicit ScratchFolder(const std::string& name)
-        : path_(std::filesystem::path(testing::TempDir()) / ("hdem_" + name + "_" + std::to_string(getpid())))
-    {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder()
-    {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+using runs::ScratchFolder;
 
 inline std::string text_in(const std::filesystem::path& file)
 {

@@ -47,6 +47,22 @@ TEST(FactorTable, SaysWhereItIsWrong)
     EXPECT_THAT(problem_of(""), HasSubstr("has 0 rows"));
 }
 
+TEST(FactorTable, OfWhatAStageSetsIsReadBesideTheCase)
+{
+    const test::ScratchFolder folder("shares");
+    std::ofstream(folder / "weaker.csv") << "time,factor\n0,0\n0.5,0.3\n2,1\n";
+    std::ofstream(folder / "case.toml")
+        << test::two_blocks
+        << "[[stage]]\nduration = 3\nset = [\"joint.default.friction_angle_deg = 5\"]\nset_table_file = "
+           "\"weaker.csv\"\n";
+    const CaseFile file = read_case_file(folder / "case.toml");
+    EXPECT_EQ(file.def.stages.back().set_table, (FactorTable{{0.0, 0.0}, {0.5, 0.3}, {2.0, 1.0}}));
+    EXPECT_EQ(file.def.stages.back().set_table_by, TableColumn::time);
+    EXPECT_EQ(file.files.count("weaker.csv"), 1U) << "a checkpoint takes it along";
+    std::ofstream(folder / "weaker.csv") << "time,factor\n0,0\n0.5,0.3\n";
+    EXPECT_THROW(read_case_file(folder / "case.toml"), InputError) << "not whole at the end";
+}
+
 TEST(FactorTable, IsReadBesideTheCase)
 {
     const test::ScratchFolder folder("factors");

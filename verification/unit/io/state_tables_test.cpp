@@ -5,8 +5,8 @@
 #include "core/state/state_tables.h"
 #include "io/checkpoint.h"
 #include "parallel/simulation.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/scenes/scenes.h"
-#include "verification/unit/sample_joints.h"
 #include "verification/unit/small_run.h"
 
 #include <bit>
@@ -24,7 +24,7 @@ CaseDef with_everything()
 {
     CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 3.0);
     scene.contact.method = Method::hybrid;
-    scene.joints = {test::sample_joints()[0]};
+    scene.joints = {scenes::sample_joints()[0]};
     scene.insitu = {.given = true, .surface = 12.0, .ratio = 1.5};
     scene.water = {.given = true, .table = {{0.0, 14.0}, {12.0, 6.0}}};
     scene.excavations = {{.name = "tunnel", .shape = OutlineShape::circle, .position = {6.0, 6.0}, .diameter = 4.0}};

@@ -3,12 +3,11 @@
 #include "io/case_reader.h"
 #include "parallel/reference_state.h"
 #include "parallel/safety_factor.h"
+#include "verification/runs/remembered_trials.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <mutex>
 
 namespace hdem
 {
@@ -173,39 +172,16 @@ TEST(SafetyFactor, StiffeningKeepsForces)
     EXPECT_NEAR(after.normal_force, before.normal_force, 1e-4 * before.normal_force);
 }
 
-class Remembered : public TrialStore
-{
-  public:
-    [[nodiscard]] std::optional<Trial> find(FactorSearch search, double factor) override
-    {
-        const std::lock_guard lock(mutex_);
-        const auto at = trials_.find({search, factor});
-        return at == trials_.end() ? std::nullopt : std::optional(at->second);
-    }
-    void add(FactorSearch search, const Trial& trial) override
-    {
-        const std::lock_guard lock(mutex_);
-        trials_[{search, trial.factor}] = trial;
-        ++runs;
-    }
-    void forget_one() { trials_.erase(trials_.begin()); }
-    int runs = 0;
-
-  private:
-    std::mutex mutex_;
-    std::map<std::pair<FactorSearch, double>, Trial> trials_;
-};
-
 TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)
 {
     const Case c = started(slope(once));
-    Remembered store;
+    runs::RememberedTrials store;
     const SafetyFactor first = factor_of(c, 1, &store);
-    const int runs = store.runs;
+    const int runs = store.added();
     EXPECT_GT(runs, 3);
     store.forget_one();
     const SafetyFactor again = factor_of(c, 2, &store);
-    EXPECT_EQ(store.runs, runs + 1);
+    EXPECT_EQ(store.added(), runs + 1);
     EXPECT_EQ(again.as_given.middle(), first.as_given.middle());
     EXPECT_EQ(again.trials.size(), first.trials.size());
 }

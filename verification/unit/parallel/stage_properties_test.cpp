@@ -1,36 +1,16 @@
-/// Stiffness and density that a stage changes, and strengths that change over some cycles.
+/// Stiffness and density that a stage changes.
 
-#include "core/stage/load_changes.h"
 #include "core/stage/properties.h"
-#include "io/checkpoint.h"
-#include "parallel/stages.h"
-#include "verification/unit/case_run.h"
-#include "verification/unit/sample_joints.h"
-#include "verification/unit/small_run.h"
+#include "verification/scenes/sample_joints.h"
+#include "verification/unit/parallel/stage_changes.h"
 
 namespace hdem
 {
 namespace
 {
 using test::CaseRun;
-
-double ledger_residual(const CaseRun& run)
-{
-    return std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state())));
-}
-
-/// Two stages; the second has the joints and materials of the case, changed.
-CaseDef with_change(CaseDef scene, const std::function<void(JointDef&)>& joint, double density = 0.0)
-{
-    scene.stages = {{.name = "settle", .cycles = 4000}, {.name = "changed", .cycles = 4000}};
-    StageDef& stage = scene.stages.back();
-    stage.joints = scene.joints;
-    for (JointDef& j : stage.joints)
-        joint(j);
-    if (density > 0.0)
-        stage.materials = {{.name = scene.materials[0].name, .density = density}};
-    return scene;
-}
+using test::ledger_residual;
+using test::with_change;
 
 struct Forces
 {
@@ -213,98 +193,6 @@ TEST(StageProperties, TheStepIsGoodForAllStages)
     CaseRun run(stiffer);
     CaseRun plain(same);
     EXPECT_LT(run.simulation.critical_step(), 0.3 * plain.simulation.critical_step()) << "of the stage to come";
-}
-
-/// A block on a slope whose friction falls evenly slips when its tangent has come down to that of the slope.
-TEST(StageProperties, StrengthsComeDownOverCycles)
-{
-    for (const bool has_memory : {false, true})
-    {
-        const double slope = std::tan(20.0 * std::acos(-1.0) / 180.0);
-        CaseDef scene = scenes::block_on_ground();
-        scene.gravity = 9.81 * Vec2(std::sin(std::atan(slope)), -std::cos(std::atan(slope)));
-        scene.contact.method = Method::force;
-        scene.joints[0].friction_angle_deg = 45.0;
-        scene.joints[0].cohesion = 0.0;
-        if (has_memory)
-            scene.joints[0].residual_friction_angle_deg = 45.0;
-        scene = with_change(scene,
-                            [&](JointDef& j)
-                            {
-                                j.friction_angle_deg = 0.0;
-                                if (has_memory)
-                                    j.residual_friction_angle_deg = 0.0;
-                            });
-        scene.stages[0].cycles = 20'000;
-        scene.stages[1].set_cycles = 10'000;
-        scene.stages[1].cycles = 20'000;
-        CaseRun run(scene);
-        run.advance(20'000);
-        run.simulation.begin_stage(1);
-        EXPECT_EQ(steady_from(run.model(), run.state()), 30'001);
-        std::int64_t slips_at = 0;
-        while (slips_at == 0 && run.state().cycle < 30'000)
-        {
-            run.advance(10);
-            if (run.velocity("block").norm() > 1e-3)
-                slips_at = run.state().cycle - 20'000;
-        }
-        EXPECT_NEAR(static_cast<double>(slips_at), 10'000 * (1.0 - slope), 400.0) << has_memory;
-        EXPECT_LT(ledger_residual(run), 1e-6);
-        run.advance(30'000 - run.state().cycle);
-        run.advance(1);
-        EXPECT_EQ(run.model().joints.laws[0].friction_coefficient, 0.0);
-    }
-}
-
-/// Written to a file in the middle, and on several threads.
-TEST(StageProperties, GiveTheSameBitsAfterARestartAndOnThreads)
-{
-    CaseDef scene = scenes::joints(8.0, 8.0, 1.0, 6.0);
-    scene.domain.fixed = {"bottom", "left"};
-    scene = with_change(
-        scene,
-        [](JointDef& j)
-        {
-            j.normal_stiffness *= 2.0;
-            j.friction_angle_deg = 12.0;
-        },
-        0.5 * scene.materials[0].density);
-    scene.stages.push_back({.name = "weaker", .cycles = 1500, .set_cycles = 1000, .joints = scene.stages[1].joints});
-    scene.stages.back().joints[0].friction_angle_deg = 5.0;
-    for (StageDef& stage : scene.stages)
-        stage.cycles = 1500;
-    const auto simulate = [&](std::int64_t save_at, int threads)
-    {
-        hdem::Setup setup = build_model(scene);
-        Simulation simulation(std::move(setup.model), std::move(setup.state), threads);
-        class Stop : public Keeper
-        {
-          public:
-            explicit Stop(std::int64_t at) : at_(at) {}
-            [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override { return now < at_ ? at_ : never; }
-            [[nodiscard]] bool keep(const Simulation& s) override { return s.state().cycle != at_; }
-
-          private:
-            std::int64_t at_;
-        } stop(save_at);
-        run_stages(simulation, {}, &stop);
-        if (simulation.state().cycle < 4500)
-        {
-            hdem::Setup again = build_model(scene);
-            EXPECT_EQ(model_hash(again.model), model_hash(simulation.model()));
-            Simulation rest(std::move(again.model), simulation.state(), threads);
-            run_stages(rest, {});
-            EXPECT_LT(std::abs(relative_residual(rest.state().ledger, stored_energy(rest.model(), rest.state()))), 1e-4);
-            return state_hash(rest.model(), rest.state());
-        }
-        return state_hash(simulation.model(), simulation.state());
-    };
-    const std::uint64_t unbroken = simulate(-1, 1);
-    for (const std::int64_t save_at : {700, 1500, 1777, 3000, 3333, 3990, 4321})
-        EXPECT_EQ(simulate(save_at, 1), unbroken) << save_at;
-    EXPECT_EQ(simulate(-1, 2), unbroken);
-    EXPECT_EQ(simulate(3777, 3), unbroken);
 }
 }  // namespace
 }  // namespace hdem

@@ -2,8 +2,8 @@
 
 #include "core/contact/contact_report.h"
 #include "core/joint/coulomb_residual.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/case_run.h"
-#include "verification/unit/sample_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(JointForces, PeakDropAndDilationInDirectShear)
 {
     for (const auto& [pieces, width] : {std::pair{1, 1.0}, std::pair{2, 8.0}, std::pair{16, 16.0}})
     {
-        CaseRun run(shear_box(test::sample_joints()[0], pieces, width));
+        CaseRun run(shear_box(scenes::sample_joints()[0], pieces, width));
         const double peak = 1e5 + pressure * std::tan(radians(30.0));
         run.advance(cycles_until(run, 0.99 * peak / 1e9));
         Box box = look(run, width);
@@ -87,7 +87,7 @@ TEST(JointForces, PeakDropAndDilationInDirectShear)
 /// Ten cycles of +-5 mm.
 TEST(JointForces, KeepTheLedgerOverTenReversals)
 {
-    for (const JointDef& joint : test::sample_joints())
+    for (const JointDef& joint : scenes::sample_joints())
     {
         CaseDef scene = shear_box(joint);
         scene.loads.pop_back();

@@ -1,8 +1,8 @@
 /// Where nothing moves nothing changes: contacts of blocks at rest are left out, and a restart looks at them once more.
 
 #include "core/contact/contact_forces.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/case_run.h"
-#include "verification/unit/sample_joints.h"
 
 #include <cstring>
 #include <utility>
@@ -46,7 +46,7 @@ bool is_same(const Look& a, const Look& b)
 
 TEST(JointRest, LeavesEveryLawAsItIs)
 {
-    for (const JointDef& joint : test::sample_joints())
+    for (const JointDef& joint : scenes::sample_joints())
     {
         SCOPED_TRACE("law " + std::to_string(static_cast<int>(joint.law)));
         CaseDef scene = scenes::joints(8.0, 8.0, 1.0, 7.0);

@@ -39,6 +39,29 @@ TEST(BartonBandis, MobilisesItsRoughness)
     EXPECT_GE(p.least_heat, 0.0);
 }
 
+/// As at the start of a trial with reduced strength.
+TEST(BartonBandis, SlipsOnUntilItBearsWhatItHas)
+{
+    JointNumbers n = numbers();
+    BartonBandis::weaken(n, 1.5);
+    const double peak = n[BartonBandis::peak_displacement];
+    for (const double sign : {1.0, -1.0})
+    {
+        JointMemory m;
+        BartonBandis::mobilise(n, 1e6, sign * 0.7e6, m);
+        EXPECT_GT(m.state, 0.6 * peak);
+        EXPECT_LT(m.state, peak);
+        EXPECT_NEAR(m.slip + sign * 0.7e6 / n[BartonBandis::shear_stiffness], sign * m.state, 1e-12) << "all of it has been slid";
+        EXPECT_NEAR(std::tan(BartonBandis::friction_angle(n, m.state / peak, radians(20.0))) / 1.5, 0.7, 1e-9);
+    }
+    JointMemory worn{.slip = 0.01, .state = 3.0 * peak};
+    BartonBandis::mobilise(n, 1e6, 0.7e6, worn);
+    EXPECT_EQ(worn.state, 3.0 * peak) << "behind its peak it stays where it is";
+    JointMemory failing;
+    BartonBandis::mobilise(n, 1e6, 2e6, failing);
+    EXPECT_EQ(failing.state, peak) << "no farther than to its peak";
+}
+
 TEST(BartonBandis, ScalesWithTheBlockSize)
 {
     BartonBandisInput in = rough();

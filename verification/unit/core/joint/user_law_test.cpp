@@ -1,6 +1,6 @@
 #include "core/joint/user_law.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/core/joint/law_point.h"
-#include "verification/unit/sample_joints.h"
 
 namespace hdem
 {
@@ -8,7 +8,7 @@ namespace
 {
 JointNumbers numbers(double way = 1e-3, double stiffness = 1e10)
 {
-    return UserLaw::numbers({.function = test::weakening_law, .parameters = {way}, .shear_stiffness = 1e9},
+    return UserLaw::numbers({.function = scenes::weakening_law, .parameters = {way}, .shear_stiffness = 1e9},
                             Linear::numbers(stiffness));
 }
 

@@ -86,6 +86,19 @@ TEST(StrengthBound, IsThatOfASlabOnASlope)
     EXPECT_NEAR(with_t.factor, friction + cohesion, 2e-4 * (friction + cohesion));
 }
 
+/// A load that has grown to half of what the case gives pushes with that half.
+TEST(StrengthBound, KnowsLoadsAsTheyActNow)
+{
+    const double angle = std::acos(-1.0) / 9.0, weight = 4.0 * 2700.0 * 9.81, push = 4e4;
+    const double factor = weight * std::cos(angle) * tan_deg(30.0) / (weight * std::sin(angle) + 0.5 * push);
+    const StrengthBound bound = bound_of(slab("friction_angle_deg = 30.0\n", R"([[load]]
+blocks = ["slab"]
+force = [-4e4, 0]
+table = [[0, 0], [2000, 0.5]]
+)"));
+    EXPECT_NEAR(bound.factor, factor, 2e-4 * factor);
+}
+
 /// Two blocks on planes of 50 and 15 degrees: 1.25673 by limit equilibrium. Where the tip of the upper one meets the bend of the ground it stands on the lower plane.
 TEST(StrengthBound, OfAWedgeWhoseTipStandsOnAnotherPlane)
 {

@@ -1,6 +1,6 @@
 #include "core/state/contact_order.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/case_run.h"
-#include "verification/unit/sample_joints.h"
 
 #include <map>
 #include <set>
@@ -111,7 +111,7 @@ TEST(ContactOrder, KeepsHistoriesWhenContactsAreFoundAnew)
 {
     CaseDef scene = scenes::joints(16.0, 16.0, 1.0, 3.0);
     scene.insitu = {.given = true, .surface = 20.0, .ratio = 1.5};
-    scene.joints = {test::sample_joints()[0], test::sample_joints()[1]};
+    scene.joints = {scenes::sample_joints()[0], scenes::sample_joints()[1]};
     scene.joints[1].name = "rough";
     scene.joint_sets[0].joint = "rough";
     test::CaseRun run(scene);

@@ -1,7 +1,7 @@
 #include "core/contact/contact_report.h"
 #include "core/stress/insitu_stress.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/case_run.h"
-#include "verification/unit/sample_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ void expect_nothing_moves(CaseDef scene)
 /// Each law bears what it is drawn with: closures that are no straight line, Barton-Bandis with the displacement that its shear stress asks for.
 TEST(InsituStress, IsHeldByEachJointLaw)
 {
-    for (JointDef joint : test::sample_joints())
+    for (JointDef joint : scenes::sample_joints())
     {
         CaseDef scene = rock({0.0, 60.0, -55.0}, {.stress = StressDef{-8e6, -5e6, 1e6}});
         scene.joints = {joint};

@@ -3,6 +3,7 @@
 #include "core/support/liner_forces.h"
 #include "io/frame_writer.h"
 #include "io/hdf5_reader.h"
+#include "parallel/stages.h"
 #include "verification/unit/case_run.h"
 #include "verification/unit/small_run.h"
 
@@ -158,6 +159,59 @@ TEST(Liners, KeepTheirForcesAsTheyHarden)
     run.advance(2);
     EXPECT_GT(before, 0.0);
     EXPECT_NEAR(run.state().support.liners[0].moment, before, 0.1 * before) << "ten times as stiff";
+}
+/// A lining below a roof that does not move, held by its bond alone.
+CaseDef hanging(double bond_over_weight)
+{
+    LinerDef liner = lining();
+    liner.bond_strength = bond_over_weight * liner.density * 9.81 * liner.thickness;
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "roof", scenes::rectangle({-1.0, 0.0}, {1.0, 1.0}));
+    scenes::add_fixed_block(scene, "stand", scenes::rectangle({3.0, 0.0}, {5.0, 1.0}));
+    scenes::add_block(scene, "stone", scenes::rectangle({3.5, 1.0}, {4.5, 2.0}));
+    scene.liners = {liner};
+    scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 20000}};
+    return scene;
+}
+
+std::vector<StageResult> run_all(CaseRun& run)
+{
+    return run_stages(run.simulation, {});
+}
+
+/// Put on at once the weight would swing to twice itself.
+TEST(Liners, HangByABondThatBearsTheirWeight)
+{
+    CaseRun holds(hanging(1.05)), falls(hanging(0.95));
+    run_all(holds);
+    run_all(falls);
+    EXPECT_EQ(holds.state().support.liners[0].parted, 0.0);
+    EXPECT_NEAR(falls.state().support.liners[0].parted, 2.0, 1e-9);
+    EXPECT_LT(holds.state().support.liners[0].displacement, 1e-3);
+    EXPECT_GT(falls.state().support.liners[0].displacement, 3e-2) << "when the stone is at rest";
+}
+
+TEST(Liners, AreWaitedForWhileTheirPressureGrows)
+{
+    CaseDef scene = hanging(1e3);
+    scene.liners[0].pressure = 2e4;
+    scene.liners[0].pressure_cycles = 3000;
+    scene.liners[0].hardening = {{{0.0, 0.5}, {50000.0, 1.0}}};
+    CaseRun run(scene);
+    const StageResult stage = run_all(run).at(0);
+    EXPECT_TRUE(stage.at_rest);
+    EXPECT_GT(stage.cycles, 3000);
+    EXPECT_THAT(stage.to_come, testing::ElementsAre("liner \"liner\" hardens until cycle 50000")) << "forces stay as it hardens";
+    const double whole = run.model().support.liners[0].mass * 9.81 + 2e4;  // [N/m]
+    EXPECT_NEAR(run.state().support.liners[0].displacement, whole / 1e8, 1e-3 * whole / 1e8);
+}
+
+TEST(Liners, AreWaitedForWhileTheirStrengthFalls)
+{
+    CaseDef scene = hanging(1e3);
+    scene.liners[0].hardening = {{{0.0, 1.0}, {4000.0, 0.5}}};
+    CaseRun run(scene);
+    EXPECT_GT(run_all(run).at(0).cycles, 4000);
 }
 }  // namespace
 }  // namespace hdem

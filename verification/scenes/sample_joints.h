@@ -1,12 +1,12 @@
 #pragma once
 /// One joint of each law with a memory, in the order of JointLaw; the last is that of a shared library.
 
-#include "core/model/case_def.h"
+#include "core/model/joint_def.h"
 
 #include <array>
 #include <cmath>
 
-namespace hdem::test
+namespace hdem::scenes
 {
 /// Friction that falls with slip, tan phi from 0.8 to 0.5; parameters: the way over which it falls [m].
 inline void weakening_law(const hdem_joint_points* p)
@@ -80,4 +80,4 @@ inline std::array<JointDef, 7> sample_joints()
                      .parameters = {1e-3},
                      .function = weakening_law}};
 }
-}  // namespace hdem::test
+}  // namespace hdem::scenes

@@ -1,0 +1,33 @@
+#pragma once
+/// How loads and sides of a case change as the run goes on.
+/// Part of CaseDef (case_def.h): plain structs with defaults; SI units, angles in degrees where the name ends in _deg.
+
+#include "core/types.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// Rows [cycle or time, factor].
+using FactorTable = std::vector<std::array<double, 2>>;
+
+enum class TableColumn
+{
+    cycle,
+    time
+};
+
+/// By what a load or a side is multiplied as the run goes on; at most one of ramp_cycles, ramp_time, table, table_file.
+struct FactorDef
+{
+    std::optional<Vec2> ramp_cycles;  ///< from and until: the factor grows from 0 to 1
+    std::optional<Vec2> ramp_time;    ///< the same [s]
+    FactorTable table;                ///< rows; of table_file once io/ has read it
+    std::string table_file;           ///< CSV with a heading: cycle,factor or time,factor
+    TableColumn table_by = TableColumn::cycle;
+    std::string since;  ///< name of a stage at whose start cycles and times are 0; "": the run's
+};
+}  // namespace hdem

@@ -1,0 +1,154 @@
+/// What cycles need that stays from one to the next: contacts found anew, the work cut into parts, blocks that are left out.
+
+#include "core/boundary/mean_hold.h"
+#include "core/boundary/side_forces.h"
+#include "core/contact/contact_forces.h"
+#include "core/motion/flight.h"
+#include "core/motion/loads.h"
+#include "core/motion/rest.h"
+#include "core/motion/step_check.h"
+#include "core/support/bolt_forces.h"
+#include "parallel/cycle.h"
+#include "parallel/team.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+void CycleRunner::renew_contacts(const Model& model, State& state, int threads)
+{
+    rules_ = find_rules_(model, state);
+    samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads)));
+    with_team(threads,
+              [&](const Team& team)
+              {
+                  const ScopedTime time(samples_of(team).all);
+                  renew_contacts(model, state, team);
+              });
+}
+
+void CycleRunner::renew_contacts(const Model& model, State& state, const Team& team)
+{
+    StageClock clock(samples_of(team).sampled, 1.0);
+    rebuild_.run(model, state, team);
+    team.alone(
+        [&]
+        {
+            prepare(model, state);
+            prepare_sums(state, team.threads());
+        });
+    clock.lap(CycleStage::broad);
+}
+
+bool CycleRunner::is_prepared(const Model& model, const State& state, const StageRules& rules) const
+{
+    return prepared_ && (model.boundaries.empty() || prepared_stage_ == state.stage) && rules.contact.law == rules_.contact.law &&
+           rules.rest.leaves_out == rules_.rest.leaves_out && rules.has_loads == rules_.has_loads &&
+           rules.has_support == rules_.has_support && rules.tractions_change == rules_.tractions_change &&
+           rules.moves_walls == rules_.moves_walls;
+}
+
+void CycleRunner::prepare(const Model& model, const State& state)
+{
+    const Index blocks = state.blocks.size();
+    make_partition(state, rules_.contact.law != ContactLaw::springs, partition_);
+    look_at_blocks(model, state, partition_);
+    for (ContactPart& part : partition_.contacts)
+        part.tally.stale = static_cast<Index>(std::count(state.contacts.stale.begin() + part.range.begin,
+                                                         state.contacts.stale.begin() + part.range.end, std::uint8_t{1}));
+    has_stiff_contacts_ = false;
+    for (ContactPart& part : partition_.contacts)
+    {
+        part.unstable = no_index;
+        part.stiff.clear();
+        part.forget();
+        if (rules_.contact.law != ContactLaw::impulses)
+        {
+            find_stiff_contacts(part.range, model, state.blocks, state.contacts, part.stiff);
+            part.answer = greatest_answer(part.range, model, state.contacts);
+        }
+        has_stiff_contacts_ = has_stiff_contacts_ || !part.stiff.empty();
+    }
+    list_block_contacts(state.contacts, blocks, work_.block_contacts);
+    prepare_forces(model, state);
+    std::vector<Index> loaded = loaded_blocks(model);
+    for (const ReleasedForce& force : state.released)
+        loaded.push_back(force.block);
+    std::ranges::sort(loaded);
+    for (BlockPart& part : partition_.blocks)
+    {
+        find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
+        std::erase_if(part.flying,
+                      [&](Index b)
+                      {
+                          const auto is_among = [b](const std::vector<Index>& list) { return std::ranges::binary_search(list, b); };
+                          return is_among(part.pushed) || is_among(part.bolted) || is_among(loaded);
+                      });
+    }
+    work_.loads.resize(state.contacts.stale.size());
+    work_.pseudo.resize(static_cast<std::size_t>(blocks));
+    sums_for_ = 0;
+    left_out_ = false;
+    has_loads_ = false;
+    prepared_ = true;
+    prepared_stage_ = state.stage;
+    first_evaluation_ = state.cycle;
+}
+
+void CycleRunner::prepare_sums(const State& state, int threads)
+{
+    sums_for_ = threads;
+    sums_run_ = state.contacts.size() >= least_for_sums_;
+    if (!sums_run_)
+        return;
+    std::vector<IndexRange> shares;
+    for (int member = 0; member < threads; ++member)
+    {
+        const IndexRange parts = Team(member, threads).share(static_cast<Index>(partition_.contacts.size()));
+        const Index begin = shares.empty() ? 0 : shares.back().end;
+        shares.push_back({begin, parts.begin < parts.end ? partition_.contacts[parts.end - 1].range.end : begin});
+    }
+    sums_.prepare(shares, state.blocks.size(), work_.block_contacts);
+    for (BlockPart& part : partition_.blocks)
+        part.summed = sums_.others(part.range);
+    part_loads_.resize(static_cast<std::size_t>(threads));
+    for (ContactLoads& loads : part_loads_)
+        loads.resize(largest_part);
+}
+
+void CycleRunner::prepare_forces(const Model& model, const State& state)
+{
+    const auto blocks = static_cast<std::size_t>(state.blocks.size());
+    work_.constant = constant_forces(model, state);
+    work_.held = blocks_held_on_average(model, state);
+    work_.external = work_.constant;
+    work_.bolted.clear();
+    work_.external.resize(rules_.has_loads || rules_.has_support ? blocks : work_.constant.size());
+    const std::vector<Index> bolted = rules_.has_support ? bolted_blocks(model, state) : std::vector<Index>{};
+    const std::vector<Index> pushed = pushed_blocks(model, state);
+    for (BlockPart& part : partition_.blocks)
+    {
+        part.walls.clear();
+        for (Index b = part.range.begin; rules_.moves_walls && b < part.range.end; ++b)
+            if (model.is_wall(b) && state.blocks.present[b] != 0)
+                part.walls.push_back(b);
+        part.pushed = {std::ranges::lower_bound(pushed, part.range.begin), std::ranges::lower_bound(pushed, part.range.end)};
+        part.bolted = {std::ranges::lower_bound(bolted, part.range.begin), std::ranges::lower_bound(bolted, part.range.end)};
+    }
+}
+
+void CycleRunner::leave_out(const State& state, const Team& team)
+{
+    const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
+    const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
+    for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
+        find_active_contacts(partition_.contacts[i].range, state.blocks, state.contacts, partition_.contacts[i].active);
+    for (Index i = block_parts.begin; i < block_parts.end; ++i)
+        find_active_blocks(partition_.blocks[i].range, work_.block_contacts, state.contacts, state.blocks,
+                           partition_.blocks[i].active);
+    const auto misses = [](const auto& part)
+    { return part.active.size() != 1 || part.active[0].begin != part.range.begin || part.active[0].end != part.range.end; };
+    team.barrier(
+        [&] { left_out_ = std::ranges::any_of(partition_.contacts, misses) || std::ranges::any_of(partition_.blocks, misses); });
+}
+}  // namespace hdem
