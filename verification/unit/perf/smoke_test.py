@@ -14,7 +14,7 @@ PERF, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(PERF / "track"))
 import measure    # noqa: E402
 
-STAGES = ("broad_phase", "force_law", "generation", "impulse_sweep", "motion", "narrow_full", "narrow_recycled")
+STAGES = ("broad_phase", "force_law", "generation", "impulse_sweep", "motion", "narrow_full", "narrow_recycled", "state_hash")
 
 
 class Smoke(unittest.TestCase):
