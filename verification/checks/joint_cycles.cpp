@@ -159,7 +159,7 @@ void check_fall(Report& report)
 
 void check_bits(Report& report)
 {
-    const Overrides begun{{"stage", R"([{name = "heading", excavate = ["heading"], relax_cycles = 300, cycles = 600}])"}};
+    const Overrides begun{{"stage", R"([{name = "heading", excavate = ["heading"], relax_cycles = 100, cycles = 200}])"}};
     const std::string
         coulomb = "friction_angle_deg = 30.0, cohesion = 1e5, residual_friction_angle_deg = 25.0, dilation_angle_deg = 10.0";
     const std::array<std::pair<const char*, std::string>, 6> laws{
