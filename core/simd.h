@@ -3,7 +3,7 @@
 ///
 /// Compiled to one AVX or two SSE2 registers (compiler vector extensions); the width is always four, and no operation is fused or reordered, so every
 /// build gives the same bits. Measured against the compiler's own vectorisation of a loop over doubles, which gave up at the
-/// gathers of block motions: see parallel/README.md.
+/// gathers of block motions: see perf/measured.md.
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,7 @@ class CycleRunner
           find_rules_(find_rules)
     {
     }
-    /// From here on the loads of contacts fit no cache: their way through memory costs more than sums that are formed contact by contact (parallel/README.md).
+    /// From here on the loads of contacts fit no cache: their way through memory costs more than sums that are formed contact by contact (perf/measured.md).
     static constexpr Index large_model = 100000;
 
     /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.

@@ -179,7 +179,7 @@ template <typename P>
 }
 
 /// Ask for the memory of contacts that come later: processors see by themselves that ContactLanes follow each other, but too late. Where contacts are in no cache of a
-/// core's own a pass takes up to twice as long without (parallel/README.md).
+/// core's own a pass takes up to twice as long without (perf/measured.md).
 template <typename P>
 [[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, Index i, const PassNeeds& needs)
 {
