@@ -14,10 +14,34 @@
 #include <immintrin.h>
 #endif
 
+/// Some files are compiled for several kinds of processors (core/kernels.h). Each kind has packs of another name: so the linker keeps all functions on packs apart,
+/// and none for a newer processor is called on an older one.
+#if defined(__AVX512F__)
+#define HDEM_LANES lanes_avx512
+#elif defined(__AVX2__)
+#define HDEM_LANES lanes_avx2
+#else
+#define HDEM_LANES lanes_base
+#endif
+
 namespace hdem
 {
 inline constexpr int lanes = 4;
 
+/// A number for each lane, as files that are compiled for other processors hand it on.
+struct alignas(32) LaneSums
+{
+    double v[lanes] = {};
+};
+
+/// In the order of the lanes.
+inline double sum(const LaneSums& a)
+{
+    return ((a.v[0] + a.v[1]) + a.v[2]) + a.v[3];
+}
+
+inline namespace HDEM_LANES
+{
 /// (Aligned in all files alike: a compiler without AVX gives vectors of 32 bytes 16 only, and contact_forces_wide.cpp is compiled with it.)
 struct alignas(32) Mask
 {
@@ -37,7 +61,14 @@ struct alignas(32) Pack
     Pack() = default;
     explicit Pack(V value) : v(value) {}
     Pack(double value) : v{value, value, value, value} {}
+    explicit Pack(const LaneSums& sums) { std::memcpy(&v, sums.v, sizeof v); }
 
+    [[nodiscard]] LaneSums lane_sums() const
+    {
+        LaneSums sums;
+        store(sums.v);
+        return sums;
+    }
     [[nodiscard]] static Pack load(const double* from)
     {
         Pack p;
@@ -276,4 +307,5 @@ inline double abs(double a)
 {
     return std::abs(a);
 }
+}  // namespace HDEM_LANES
 }  // namespace hdem

@@ -1,12 +1,8 @@
 #include "core/contact/block_forces.h"
 
-#include "core/simd.h"
+#include "core/kernels.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstddef>
-#include <cstring>
-#include <limits>
 
 namespace hdem
 {
@@ -30,167 +26,10 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     }
 }
 
-namespace
-{
-/// Weight and external forces of a block.
-Pack weight_of(Index b, const Model& model, const std::vector<std::uint8_t>& present, const std::vector<Triple>& external)
-{
-    const double mass = present[b] != 0 ? model.mass[b] : 0.0;
-    Pack sum(Pack::V{mass * model.gravity.x(), mass * model.gravity.y(), 0.0, 0.0});
-    if (!external.empty())
-        sum += Pack(Pack::V{external[b].x, external[b].y, external[b].w, 0.0});
-    return sum;
-}
-
-using Words = std::int32_t __attribute__((vector_size(16)));
-using Pair = double __attribute__((vector_size(16)));
-
-[[nodiscard]] inline Words words_at(const void* from)
-{
-    Words words;
-    std::memcpy(&words, from, sizeof words);
-    return words;
-}
-
-/// What acts on a block, while its loads are added. In vectors throughout: which joint of a block is in use most nobody can predict, and g++ makes branches of all else.
-template <bool find_joint>
-class LoadSum
-{
-  public:
-    /// No load yet.
-    explicit LoadSum(Pack start)
-        : sum_(start.v),
-          joint_(std::bit_cast<Words>(FloatLanes{BlockForce().mobilised, BlockForce().t_x, BlockForce().t_y, 0.0F})),
-          joint_load_{BlockForce().joint_load, BlockForce().joint_load}
-    {
-    }
-    /// Some have been added.
-    explicit LoadSum(const BlockForce& force)
-        : sum_(Pack::load(&force.x).v),
-          contacts_(words_at(&force.mobilised)),
-          joint_(contacts_ & of_joint),
-          joint_load_{force.joint_load, force.joint_load}
-    {
-    }
-
-    [[gnu::always_inline]] void add(const BlockLoad& load, const JointUse& use)
-    {
-        const Pack::V of_load = Pack::load(&load.x).v;
-        sum_ += of_load;
-        const Words of_use = words_at(&use);  // mobilised, t_x, t_y, contacts
-        contacts_ |= of_use;
-        if constexpr (find_joint)
-        {
-            const Words joint = of_use & of_joint;
-            const Pair force = __builtin_shufflevector(of_load, of_load, 0, 1), squares = force * force;
-            const Pair squared = squares + __builtin_shufflevector(squares, squares, 1, 0);
-            const FloatLanes now = std::bit_cast<FloatLanes>(joint), before = std::bit_cast<FloatLanes>(joint_);
-            // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
-            const Words more = Words(now > before) | (Words(now == before) & std::bit_cast<Words>(squared > joint_load_));
-            const Words taken = __builtin_shufflevector(more, more, 0, 0, 0, 0);
-            joint_ = (joint & taken) | (joint_ & ~taken);
-            joint_load_ = std::bit_cast<Pair>((std::bit_cast<Words>(squared) & taken) |
-                                              (std::bit_cast<Words>(joint_load_) & ~taken));
-        }
-    }
-
-    [[gnu::always_inline]] void store(BlockForce& force) const
-    {
-        Pack(sum_).store(&force.x);
-        const Words found = joint_ | (contacts_ & ~of_joint);
-        std::memcpy(&force.mobilised, &found, sizeof found);
-        force.joint_load = joint_load_[0];
-    }
-
-  private:
-    static constexpr Words of_joint{-1, -1, -1, 0};
-
-    Pack::V sum_;
-    Words contacts_{};  ///< the last of them
-    Words joint_;       ///< mobilised, t_x, t_y: floats
-    Pair joint_load_;   ///< twice the same
-};
-static_assert(offsetof(JointUse, contacts) == 12 && offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
-
-/// A joint's share in use and where it stands: the greatest of such numbers is the joint in use most, of several alike the first. Below 0: no force point. (Floats
-/// that are not below 0 have the order of their bits.)
-[[nodiscard]] inline std::int64_t rank_of(float mobilised, std::uint32_t entry)
-{
-    return (std::int64_t{std::bit_cast<std::int32_t>(mobilised)} << 32) | ~entry;
-}
-[[nodiscard]] inline std::uint32_t entry_of(std::int64_t rank)
-{
-    return ~static_cast<std::uint32_t>(rank);
-}
-[[nodiscard]] inline bool are_alike(std::int64_t a, std::int64_t b)
-{
-    return a >> 32 == b >> 32;
-}
-
-/// Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
-[[gnu::noinline]] std::int64_t rank_of_greatest_load(IndexRange entries, const BlockContacts& list, const ContactLoads& loads,
-                                                     std::int64_t alike)
-{
-    std::int64_t found = -1;
-    double most = -1.0;
-    for (Index e = entries.begin; e < entries.end; ++e)
-    {
-        const auto entry = static_cast<std::uint32_t>(list.entry[e]);
-        const BlockLoad& load = loads.load[entry];
-        const std::int64_t rank = rank_of(loads.use[entry / 2].mobilised, entry);
-        if (const double squared = load.x * load.x + load.y * load.y; are_alike(rank, alike) && squared > most)
-        {
-            most = squared;
-            found = rank;
-        }
-    }
-    return found;
-}
-
-template <bool find_joint>
-void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
-                const std::vector<Triple>& external, Blocks& blocks)
-{
-    for (Index b = range.begin; b < range.end; ++b)
-    {
-        const IndexRange entries{list.begin[b], list.begin[b + 1]};
-        Pack sum = weight_of(b, model, blocks.present, external);
-        BlockForce& force = blocks.force[b];
-        std::uint32_t contacts = 0;
-        std::int64_t most = std::numeric_limits<std::int64_t>::min(), next = most;
-        for (Index e = entries.begin; e < entries.end; ++e)
-        {
-            const auto entry = static_cast<std::uint32_t>(list.entry[e]);
-            const JointUse& use = loads.use[entry / 2];
-            sum += Pack::load(&loads.load[entry].x);
-            contacts |= use.contacts;
-            if constexpr (find_joint)  // without branches: which joint it is nobody can predict
-            {
-                const std::int64_t rank = rank_of(use.mobilised, entry);
-                next = std::max(next, std::min(most, rank));
-                most = std::max(most, rank);
-            }
-        }
-        if (most >= 0 && are_alike(most, next)) [[unlikely]]
-            most = rank_of_greatest_load(entries, list, loads, most);
-        sum.store(&force.x);
-        const JointUse use = most >= 0 ? loads.use[entry_of(most) / 2] : JointUse();
-        force.mobilised = use.mobilised;
-        force.t_x = use.t_x;
-        force.t_y = use.t_y;
-        force.contacts = contacts;
-    }
-}
-
-}  // namespace
-
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, bool find_joint, Blocks& blocks)
 {
-    if (find_joint)
-        sum_forces<true>(range, model, list, loads, external, blocks);
-    else
-        sum_forces<false>(range, model, list, loads, external, blocks);
+    kernels().sum_loads(range, model, list, loads, external, find_joint, blocks);
 }
 
 void RunningSums::prepare(const std::vector<IndexRange>& shares, Index blocks, const BlockContacts& list)
@@ -229,38 +68,17 @@ void RunningSums::begin(IndexRange range, const Model& model, const std::vector<
     for (auto start = std::ranges::lower_bound(starts_, range.begin, {}, &Start::contact);
          start != starts_.end() && start->contact < range.end; ++start)
     {
+        const Triple weight = weight_of(start->block, model, present, external);
         BlockForce force;
-        weight_of(start->block, model, present, external).store(&force.x);
+        force.x = weight.x;
+        force.y = weight.y;
+        force.moment = weight.w;
         sums[start->block] = force;
-    }
-}
-
-template <bool find_joint>
-void RunningSums::add(IndexRange range, const ContactLoads& loads, ContactLoads& kept)
-{
-    const auto last = static_cast<std::uint32_t>(2 * (range.end - loads.first));
-    const Index* const block_of = &block_of_[2 * loads.first];
-    for (auto e = static_cast<std::uint32_t>(2 * (range.begin - loads.first)); e < last; ++e)
-    {
-        const Index block = block_of[e];
-        if (block == no_index) [[unlikely]]
-        {
-            kept.load[2 * loads.first + e] = loads.load[e];
-            kept.use[loads.first + e / 2] = loads.use[e / 2];
-            continue;
-        }
-        BlockForce& force = sums[block];
-        LoadSum<find_joint> sum(force);
-        sum.add(loads.load[e], loads.use[e / 2]);
-        sum.store(force);
     }
 }
 
 void RunningSums::add(IndexRange range, const ContactLoads& loads, bool find_joint, ContactLoads& kept)
 {
-    if (find_joint)
-        add<true>(range, loads, kept);
-    else
-        add<false>(range, loads, kept);
+    kernels().add_loads(range, loads, find_joint, &block_of_[2 * loads.first], sums.data(), kept);
 }
 }  // namespace hdem

@@ -11,6 +11,21 @@ namespace hdem
 /// List the contacts of each block, in their order.
 void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& list);
 
+/// Weight and external forces of a block.
+[[nodiscard, gnu::always_inline]] inline Triple weight_of(Index b, const Model& model, const std::vector<std::uint8_t>& present,
+                                                          const std::vector<Triple>& external)
+{
+    const double mass = present[b] != 0 ? model.mass[b] : 0.0;
+    Triple weight{mass * model.gravity.x(), mass * model.gravity.y(), 0.0};
+    if (!external.empty())
+    {
+        weight.x += external[b].x;
+        weight.y += external[b].y;
+        weight.w += external[b].w;
+    }
+    return weight;
+}
+
 /// What acts on each block of `range`: its weight, `external` forces (none: empty), then the loads of its contacts in their order, Eqs. (7), (8).
 /// Reads: loads. Writes: force of these blocks; which joint is mobilised most only if `find_joint`, see needs_joint.
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
@@ -41,9 +56,6 @@ class RunningSums
     {
         Index contact, block;
     };
-
-    template <bool find_joint>
-    void add(IndexRange range, const ContactLoads& loads, ContactLoads& kept);
 
     std::vector<Start> starts_;    ///< first contacts of blocks, ascending
     std::vector<Index> block_of_;  ///< by entries of BlockContacts; no_index where the load is kept

@@ -1,48 +1,22 @@
 #include "core/contact/contact_forces.h"
 
 #include "core/contact/contact_forces_wide.h"
-#include "core/contact/contact_pass.h"
+#include "core/contact/spring_points.h"
+#include "core/kernels.h"
 
 namespace hdem
 {
-namespace
-{
-template <Joints joints>
-ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                             ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
-{
-    switch (rule.law)
-    {
-    case ContactLaw::springs:
-        return evaluate_packs<ContactLaw::springs, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    case ContactLaw::impulses:
-        return evaluate_packs<ContactLaw::impulses, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    case ContactLaw::by_speed:
-        return evaluate_packs<ContactLaw::by_speed, joints, Pack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    }
-    return {};
-}
-}  // namespace
-
-ContactTally evaluate_by_four(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
-{
-    const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws>
-                              : contacts.has_preload ? evaluate_by_law<Joints::preloaded>
-                                                     : evaluate_by_law<Joints::plain>;
-    return evaluate_all(range, model, rule, blocks, contacts, loads, sums, needs);
-}
-
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
+    const auto by_four = kernels().evaluate_contacts;
     static const bool wide = has_wide_packs();
     if (!wide || contacts.has_memory)
-        return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums, needs);
+        return by_four(range, model, rule, blocks, contacts, loads, sums, needs);
     const Index eights = (range.end - range.begin + lanes - 1) / (2 * lanes);
     const Index middle = range.begin + 2 * lanes * eights;
     const ContactTally most = evaluate_by_eight({range.begin, middle}, model, rule, blocks, contacts, loads, sums, needs);
-    return middle < range.end ? evaluate_by_four({middle, range.end}, model, rule, blocks, contacts, loads, most, needs) : most;
+    return middle < range.end ? by_four({middle, range.end}, model, rule, blocks, contacts, loads, most, needs) : most;
 }
 
 void store_tilt_forces(IndexRange range, const Blocks& blocks, Contacts& contacts)

@@ -41,6 +41,8 @@ ContactTally evaluate_by_eight(IndexRange range, const Model& model, const Regim
 }  // namespace hdem
 
 #else
+#include "core/kernels.h"
+
 namespace hdem
 {
 bool has_wide_packs()
@@ -51,7 +53,7 @@ bool has_wide_packs()
 ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
-    return evaluate_by_four(range, model, rule, blocks, contacts, loads, sums, needs);
+    return kernels().evaluate_contacts(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 }  // namespace hdem
 #endif

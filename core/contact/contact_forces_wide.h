@@ -8,12 +8,7 @@ namespace hdem
 /// Does this processor have what evaluate_by_eight needs, and was it built?
 [[nodiscard]] bool has_wide_packs();
 
-/// evaluate_contacts, four contacts at a time.
-[[nodiscard]] ContactTally evaluate_by_four(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
-                                            Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
-                                            const PassNeeds& needs);
-
-/// The same bits, eight at a time.
+/// The bits of four contacts at a time.
 /// @pre  has_wide_packs(), no contact has a memory, `range` has a multiple of eight contacts (with those that fill the arrays up)
 [[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums,

@@ -61,14 +61,14 @@ struct PassSums
     }
     [[nodiscard]] ContactTally added_to(const ContactTally& before) const
     {
-        return {friction,
-                changes,
+        return {friction.lane_sums(),
+                changes.lane_sums(),
                 before.closed + static_cast<Index>(closed.total()),
                 before.impulses + static_cast<Index>(impulses.total()),
                 before.stale + static_cast<Index>(stale.total()),
                 before.deep + static_cast<Index>(deep.total()),
-                dilation,
-                broken,
+                dilation.lane_sums(),
+                broken.lane_sums(),
                 unrested,
                 least(slack)};
     }

@@ -11,7 +11,7 @@ namespace hdem
 /// Works of ranges of blocks, lane by lane: see ContactTally.
 struct VelocityWorks
 {
-    Pack gravity = 0.0, holding = 0.0, local = 0.0, global = 0.0, changes = 0.0, coasting = 0.0;
+    LaneSums gravity, holding, local, global, changes, coasting;
 
     void add_to(EnergyLedger& ledger) const;
 };

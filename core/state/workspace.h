@@ -48,14 +48,14 @@ struct ContactLoads
 /// of those at rest take part.
 struct ContactTally
 {
-    Pack friction = 0.0;  ///< EnergyLedger::friction [J]
-    Pack changes = 0.0;   ///< EnergyLedger::contact_changes [J]
-    Index closed = 0;     ///< closed points
-    Index impulses = 0;   ///< of these, in the impulse regime
-    Index stale = 0;      ///< contacts whose features are to be searched anew
-    Index deep = 0;       ///< contacts with an overlap above contact.overlap_limit
-    Pack dilation = 0.0;  ///< EnergyLedger::dilation [J]
-    Pack broken = 0.0;    ///< EnergyLedger::bond_breaking [J]
+    LaneSums friction;   ///< EnergyLedger::friction [J]
+    LaneSums changes;    ///< EnergyLedger::contact_changes [J]
+    Index closed = 0;    ///< closed points
+    Index impulses = 0;  ///< of these, in the impulse regime
+    Index stale = 0;     ///< contacts whose features are to be searched anew
+    Index deep = 0;      ///< contacts with an overlap above contact.overlap_limit
+    LaneSums dilation;   ///< EnergyLedger::dilation [J]
+    LaneSums broken;     ///< EnergyLedger::bond_breaking [J]
     /// Some contact was not only pressed by springs since the last cycle: it may have a rest overlap now.
     bool unrested = false;
     /// By how much any incident vertex may still move before features are stale, of contacts whose views were looked at [m].

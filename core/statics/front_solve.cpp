@@ -1,9 +1,13 @@
+// Compiled for several kinds of processors: core/kernels.h.
+#include "core/kernels_here.h"
 #include "core/statics/front.h"
 
 #include <algorithm>
 #include <array>
 
 namespace hdem
+{
+inline namespace HDEM_LANES
 {
 namespace
 {
@@ -79,15 +83,16 @@ void backward_strip(const Strip& strip, Index panels, const double* factor, doub
 }
 }  // namespace
 
-void solve_forward(const FrontShape& shape, const double* factor, double* x)
+void substitute_forward(const FrontShape& shape, const double* factor, double* x)
 {
     for (Index s = 0; s < shape.strips(); ++s)
         forward_strip(shape.strip(s), shape.panels(), factor, x);
 }
 
-void solve_backward(const FrontShape& shape, const double* factor, double* x)
+void substitute_backward(const FrontShape& shape, const double* factor, double* x)
 {
     for (Index s = shape.strips() - 1; s >= 0; --s)
         backward_strip(shape.strip(s), shape.panels(), factor, x);
 }
+}  // namespace HDEM_LANES
 }  // namespace hdem

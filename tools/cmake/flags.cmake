@@ -28,6 +28,7 @@ foreach(extension FMA FMA4 AVX512F)
     endif()
 endforeach()
 unset(CMAKE_REQUIRED_FLAGS)
+string(JOIN " " HDEM_NUMERIC_FLAGS_TEXT ${CMAKE_CXX_FLAGS_${upper_build_type}} ${HDEM_NUMERIC_FLAGS})
 
 set(HDEM_SANITIZE_FLAGS "")
 if(HDEM_SANITIZE STREQUAL "address")

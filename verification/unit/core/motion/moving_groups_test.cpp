@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace hdem
 {
@@ -76,6 +77,32 @@ TEST_P(MovingGroup, ThatIsHeldIsDampedAsEver)
     run_for(run, 0.3);
     EXPECT_LT(run.velocity("upper").norm(), 1e-6);
     EXPECT_LT(run.velocity("lower").norm(), 1e-6);
+}
+
+/// More than 128 blocks that are fast are not looked at in each cycle, and which parts have fast blocks is remembered from cycle to cycle: neither may be seen.
+TEST_P(MovingGroup, OfManyFallsLikeOneAndLikeARunThatIsTakenUpInEachCycle)
+{
+    CaseDef scene = two_on_each_other(5.0, GetParam());
+    for (int i = 0; i < 80; ++i)
+    {
+        const double x = 5.0 + 4.0 * i, y = 5.0 + 0.02 * i;
+        scenes::add_block(scene, "lower " + std::to_string(i), rectangle({x, y}, {x + 3.0, y + 1.0})).material = "rough";
+        scenes::add_block(scene, "upper " + std::to_string(i), rectangle({x + 0.5, y + 1.0}, {x + 2.5, y + 2.0})).material = "rough";
+    }
+    CaseRun run(scene);
+    const double t = run_for(run, 0.2);
+    EXPECT_GT(run.state().cycle, 100);
+    EXPECT_GT(run.state().moving.size(), 128u);
+    for (const char* block : {"lower", "upper", "lower 79", "upper 79"})
+        EXPECT_NEAR(run.displacement(block).norm(), 0.5 * g * t * t, 2e-3 * g * t * t) << block;
+    State state = CaseRun(scene).state();
+    for (std::int64_t i = 0; i < run.state().cycle; ++i)
+    {
+        Simulation taken_up(run.model(), state);
+        taken_up.advance(1);
+        state = taken_up.state();
+    }
+    EXPECT_EQ(state_hash(run.model(), state), run.hash());
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MovingGroup, testing::Values(Method::force, Method::hybrid),
