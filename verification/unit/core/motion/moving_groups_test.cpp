@@ -87,7 +87,8 @@ TEST_P(MovingGroup, OfManyFallsLikeOneAndLikeARunThatIsTakenUpInEachCycle)
     {
         const double x = 5.0 + 4.0 * i, y = 5.0 + 0.02 * i;
         scenes::add_block(scene, "lower " + std::to_string(i), rectangle({x, y}, {x + 3.0, y + 1.0})).material = "rough";
-        scenes::add_block(scene, "upper " + std::to_string(i), rectangle({x + 0.5, y + 1.0}, {x + 2.5, y + 2.0})).material = "rough";
+        scenes::add_block(scene, "upper " + std::to_string(i), rectangle({x + 0.5, y + 1.0}, {x + 2.5, y + 2.0}))
+            .material = "rough";
     }
     CaseRun run(scene);
     const double t = run_for(run, 0.2);
