@@ -28,7 +28,7 @@ std::string conversion_of(const std::string& key, const std::string& name)
     const std::string file = printable(name);
     const std::string stem = printable(name.substr(0, name.size() - ending.size()));
     if (ending == ".dxf")
-        return fmt::format("Make a text file of it: tools/import_dxf.py {} --{} {}.wkt", file,
+        return fmt::format("Make a text file of it: tools/import_dxf.py {} --{} {}.wkt.", file,
                            key == "blocks_file" ? "blocks" : "traces", stem);
     if (ending == ".shp" || ending == ".gpkg" || ending == ".kml" || ending == ".gml" || ending == ".fgb")
         return fmt::format("Make GeoJSON of it: ogr2ogr -f GeoJSON {}.geojson {} (Debian package: gdal-bin).", stem, file);
@@ -154,12 +154,14 @@ class NamedFileReader
         if (const std::string conversion = conversion_of(key, name); !conversion.empty())
             file = {.text = {}, .obstacle = "is of a format that hdem does not read", .remedy = conversion};
         else
+        {
             file = read(name);
+            file.remedy += " A relative name starts at the folder of the case file.";
+        }
         if (file.obstacle.empty())
             return &(read_.files[name] = std::move(file.text));
         problems_.add(key, object, fmt::format("{} = \"{}\"", key.substr(key.find('.') + 1), printable(name)),
-                      fmt::format("{} {}", printable(path_of(name), 200), file.obstacle),
-                      file.remedy + " A relative name starts at the folder of the case file.");
+                      fmt::format("{} {}", printable(path_of(name), 200), file.obstacle), file.remedy);
         return nullptr;
     }
 

@@ -35,6 +35,14 @@ std::string CsvShapes::add(int line, std::string_view row)
     const bool is_first = !any_row_;
     any_row_ = true;
     const std::vector<std::string_view> columns = columns_of(row);
+    if (is_foreign_)
+        return "";
+    if (is_first && (columns[0] == "WKT" || columns[0] == "\"WKT\""))
+    {
+        is_foreign_ = true;
+        return "is the heading of a table with shapes in WKT). Make GeoJSON of the map instead: ogr2ogr -f GeoJSON OUT.geojson "
+               "MAP.";
+    }
     if (columns.size() < 3)
         return fmt::format("the row has {} columns). Write name,x,y.", columns.size());
     Vec2 point;

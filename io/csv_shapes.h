@@ -32,5 +32,6 @@ struct CsvShapes
 
   private:
     bool any_row_ = false;
+    bool is_foreign_ = false;  ///< what is wrong has been said at the first row
 };
 }  // namespace hdem

@@ -63,7 +63,8 @@ class Walker
         else if (!document.is_null())
             visit(document, use);
         if (count_ == 0 && problems.empty())
-            complain("has no feature", "Export lines or polygons.");
+            problems.push_back(
+                {Problem::Severity::error, key_, fmt::format("{}: {}: (has no feature). Export lines or polygons.", file_, what_)});
     }
 
     void complain(const std::string& why, const std::string& remedy)
@@ -129,7 +130,9 @@ class Walker
         const Json& properties = is_feature && feature.contains("properties") && feature["properties"].is_object()
                                      ? feature["properties"]
                                      : none;
-        if (!geometry.is_object() || !geometry.contains("coordinates"))
+        if (text_of(geometry, "type") == "GeometryCollection")
+            complain("is a GeometryCollection", "Take it apart: ogr2ogr -explodecollections -f GeoJSON OUT.geojson MAP.");
+        else if (!geometry.is_object() || !geometry.contains("coordinates"))
             complain("has no coordinates", "Remove it, or export it once more.");
         else
             use(geometry, properties);
@@ -201,7 +204,8 @@ TraceFile read_geojson_traces(const std::string& text, const std::string& file_n
         const Polygon line = walk.points(coordinates);
         const auto twice = std::adjacent_find(line.begin(), line.end());
         if (line.size() < 2 && walk.problems.empty())
-            walk.complain(fmt::format("has {} points, a trace has at least 2", line.size()), "Give its two ends.");
+            walk.complain(fmt::format("has {} point{}, a trace has at least 2", line.size(), line.size() == 1 ? "" : "s"),
+                          "Give its two ends.");
         else if (twice != line.end())
             walk.complain(fmt::format("points {} and {} are the same", twice - line.begin() + 1, twice - line.begin() + 2),
                           "Remove one of them.");

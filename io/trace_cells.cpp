@@ -168,11 +168,9 @@ void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygo
         const std::int32_t source = segments.source(first, second);
         if (length <= (source == no_index ? least : 2.0 * slack) || !contains(domain, middle(geos, stretch)))
             continue;
+        ++result.dead_ends;
         if (source == no_index)
-        {
-            ++result.dead_ends;
             result.trace_dropped += length - least;
-        }
         else
             result.dropped[static_cast<std::size_t>(source)] += length - slack;  // of its free end
     }

@@ -25,7 +25,7 @@ from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E4
 from plot_factor import draw_factor    # noqa: E402
 from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
 from plot_rock import JOINTS, draw_crosses, draw_joints, draw_water_table    # noqa: E402
-from plot_support import draw_bolts, draw_liners    # noqa: E402
+from plot_support import DIAGRAM, draw_bolts, draw_liners    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
@@ -170,24 +170,35 @@ def draw_contacts(axes, blocks, contacts, width_mm):
     return handles
 
 
-def view_of(blocks, options):
-    """x0, y0, x1, y1 [m]"""
+def view_of(blocks, liners, others, options):
+    """x0, y0, x1, y1 [m]: of blocks, outlines, linings with their diagrams, and the places of what else is drawn."""
     if options.window:
         x0, y0, x1, y1 = options.window
         if not (math.isfinite(x1 - x0) and math.isfinite(y1 - y0)) or x0 == x1 or y0 == y1:
             raise ResultError("--window: has no area. Give two opposite corners.")
         return min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
-    points = np.concatenate(blocks["part_polygon"] + [blocks["outline"].reshape(-1, 2)])
+    points = [*blocks["part_polygon"], blocks["outline"], blocks["water_table"], *others]
     margin = 0.02
     if options.excavation:
         if not len(blocks["outline"]):
             raise ResultError("this case has no excavation to look at; leave out --excavation")
-        points, margin = blocks["outline"].reshape(-1, 2), 0.6
-    low, high = points.min(axis=0), points.max(axis=0)
+        points, margin, liners = [blocks["outline"]], 0.6, None
+    low, high = corners(points + ([liners["points"]] if liners else []))
+    if liners:    # before the margin the picture is a little smaller, hence the 1.3
+        lined, off = liners["points"].reshape(-1, 2), 1.3 * DIAGRAM * min(high - low)
+        low, high = corners([(low, high), lined - off, lined + off])
     if not np.all(high - low > 1e-12 * np.maximum(np.abs(low), np.abs(high))):
         raise ResultError("what is to be drawn has no extent: the frame is damaged. Run the case again.")
     margin *= max(high - low)
     return (*(low - margin), *(high + margin))
+
+
+def corners(places):
+    """Lowest and highest x and y of all these points."""
+    points = np.concatenate([np.empty((0, 2)), *(np.reshape(some, (-1, 2)) for some in places)])
+    if not len(points):
+        raise ResultError("this frame holds no blocks, and nothing else that can be drawn")
+    return points.min(axis=0), points.max(axis=0)
 
 
 def figure_for(view, options, has_bar, legend_rows):
@@ -204,8 +215,6 @@ def figure_for(view, options, has_bar, legend_rows):
 def draw_frame(run, options):
     single = options.result.suffix == ".hdf"
     blocks = read_blocks(options.result) if single else run.blocks(options.frame)
-    if not len(blocks["id"]):
-        raise ResultError("this frame holds no blocks")
     over = "--contacts" if options.contacts else "--joints" if options.joints else "--bolts" if options.bolts else "--liners" if options.liners else None
     if over and single:
         raise ResultError(f"{over} needs the run's folder or its results.h5, not a single frame")
@@ -216,7 +225,8 @@ def draw_frame(run, options):
     if options.liners and not run.has_liners(options.frame):
         raise ResultError("--liners: this case has no linings, or the run is of a program that wrote no frames of them")
     liners = run.liners(options.frame) if options.liners else None
-    view = view_of(blocks, options)
+    where = blocks if len(blocks["id"]) or not run else run.blocks(run.frames[0].number)    # all are gone: where they were
+    view = view_of(blocks | {"part_polygon": where["part_polygon"]}, liners, [bolts["points"]] if bolts else [], options)
     field = options.colour in FIELDS
     rows = int(options.colour in ("regime", "material") or (options.colour in MOTION and blocks["detached"].any())) + int(bool(options.contacts)) + int(bool(options.joints or options.crosses)) + 2 * int(options.bolts) + int(bool(options.liners)) + int(len(blocks["water_table"]) > 0)
     figure, axes = figure_for(view, options, field, rows)
@@ -245,7 +255,7 @@ def draw_frame(run, options):
     info = blocks["info"]
     title = options.title if options.title is not None else info["title"]
     frame = run.frame(options.frame) if run else Frame(None, info["cycle"], info["time"], info["stage"])
-    literal(axes.set_title("\n".join(filter(None, [title, moment_of(run, frame)])), loc="left"))
+    literal(axes.set_title("\n".join(filter(None, [title, moment_of(run, frame) + ("" if len(blocks["id"]) else ": no blocks are left")])), loc="left"))
     if handles:
         add_legend(axes, handles, loc="upper left", bbox_to_anchor=(0.0, -0.42 / axes_height(figure, axes)), ncol=2 if len(handles) > 1 else 1,
                    frameon=False, borderaxespad=0.0, handlelength=1.8, columnspacing=1.5)

@@ -89,6 +89,8 @@ def draw_crosses(axes, blocks, view, most=900):
     column, row = np.floor((x - x0) / cell).astype(int), np.floor((y - y0) / cell).astype(int)
     order = np.argsort(-blocks["area"], kind="stable")
     order = order[inside[order]]
+    if not len(order):
+        return []
     _, first = np.unique(np.stack([column[order], row[order]], axis=1), axis=0, return_index=True)
     shown = order[first]
     size = np.maximum(np.abs(greatest[shown]), np.abs(least[shown]))

@@ -7,6 +7,7 @@ from matplotlib.lines import Line2D
 from plot_history import scaled_unit
 
 ORANGE = "#d55e00"
+DIAGRAM = 0.08    # of the picture's shorter side: where the greatest value of linings stands
 
 
 def draw_bolts(axes, bolts):
@@ -33,7 +34,7 @@ def draw_liners(axes, liners, kind, view):
     greatest = float(np.max(np.abs(values), initial=0.0)) or 1.0
     along = lines[:, 1] - lines[:, 0]
     inside = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.maximum(np.linalg.norm(along, axis=1), 1e-30)[:, None]
-    off = lines + inside[:, None, :] * (values / greatest)[:, :, None] * 0.08 * min(view[2] - view[0], view[3] - view[1])
+    off = lines + inside[:, None, :] * (values / greatest)[:, :, None] * DIAGRAM * min(view[2] - view[0], view[3] - view[1])
     axes.add_collection(PolyCollection(np.concatenate([lines, off[:, ::-1]], axis=1), facecolors=ORANGE, alpha=0.35, linewidths=0.0, zorder=3.5))
     axes.add_collection(LineCollection(off, colors=ORANGE, linewidths=0.7, zorder=3.6))
     axes.add_collection(LineCollection(lines, colors="black", linewidths=1.8, capstyle="round", zorder=3.8))

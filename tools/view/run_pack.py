@@ -8,6 +8,7 @@ import numpy as np
 
 from coding import Chunk, groomed
 from contact_rows import QUANTITIES, STEP, ContactRows
+from extent import Extent
 from fields import STORED, all_fields, more_fields, range_of
 from hdem_frames import read_block_arrays, read_bolts, read_contacts, read_liners, read_names
 from hdem_io import ResultError
@@ -26,20 +27,19 @@ def width_reference(values):
 
 
 def greatest_of_liners(liners):
-    """By which the page scales their diagrams: greatest thrust and moment, and the longer side of all of them."""
+    """By which the page scales their diagrams: greatest thrust and moment."""
     def most(*names):
         return max(float(np.max(np.abs(np.nan_to_num(liners[name].astype(float), posinf=0.0, neginf=0.0)), initial=0.0)) for name in names)
 
     greatest = {"thrust": most("thrust"), "moment": most("moment_from", "moment_to")}
-    points = liners["points"].reshape(-1, 2)
-    return {name: float(f"{value:.5g}") for name, value in greatest.items()} | {"size": float(np.max(np.ptp(points, axis=0))) if len(points) else 0.0}
+    return {name: float(f"{value:.5g}") for name, value in greatest.items()}
 
 
 class RunPack:
     def __init__(self, contacts="auto"):
         self.contacts = contacts    # auto, all, ends or none
         self.shapes, self.references, self.rows = Shapes(), References(), ContactRows()
-        self.frames, self.names, self.outlines, self.waters = [], [], [], []
+        self.frames, self.names, self.outlines, self.waters, self.extent = [], [], [], [], Extent()
         self.run = None
         self._fixed_facts, self._poses_at_hand = {}, {}    # the latter: of frames that were read in this update
         self.is_over = False    # known from elsewhere than the files
@@ -69,11 +69,11 @@ class RunPack:
     def _add(self, frame):
         file = self._file("blocks", frame.number)
         blocks = read_block_arrays(file)
-        if not len(blocks["id"]):
-            raise ResultError(f"{file}: holds no blocks")
+        if not len(blocks["id"]) and self.shapes.origin is None:
+            raise ResultError(f"{file}: holds no blocks, and no frame before it does")
         if not self.names:
             self.names = read_names(file)
-        if blocks["id"][-1] >= len(self.names):
+        if len(blocks["id"]) and blocks["id"][-1] >= len(self.names):
             raise ResultError(f"{file}: block {blocks['id'][-1]} is not one of the model's {len(self.names)}: frames are of different runs. Run the case again.")
         slots = self.shapes.slots(blocks)
         reference = self.references.number_for(blocks, slots, self.shapes)
@@ -81,16 +81,21 @@ class RunPack:
                              "detached_distance": float(blocks["info"]["detached_distance"])}
         entry = {"number": frame.number, "cycle": frame.cycle, "time": frame.time, "stage": frame.stage, "begin": int(blocks["info"]["stage_begin_cycle"]),
                  "reference": reference, "outline": self._number_of(self.outlines, blocks["outline"]), "detached": int(np.count_nonzero(blocks["detached"]))}
+        self.extent.add_places(blocks["outline"])
+        self.extent.add_places(blocks["water_table"])
         if len(blocks["water_table"]):
             entry["water"] = self._number_of(self.waters, blocks["water_table"])
         liners = read_liners(lined) if (lined := self._file("liners", frame.number)).exists() else None
         entry["chunk"] = self._block_chunk(blocks, slots, liners)
         if liners is not None:
             entry["liners"] = greatest_of_liners(liners)
+            self.extent.add_linings(liners)
         detached = blocks["detached"].astype(bool)
         entry["ranges"] = {name: range_of(name, values, detached) for name, values in all_fields(blocks).items()}
         if (bolts := self._file("bolts", frame.number)).exists():
-            entry["bolts"] = self._bolts(read_bolts(bolts))
+            found = read_bolts(bolts)
+            entry["bolts"] = self._bolts(found)
+            self.extent.add_bolts(found)
         self._poses_at_hand[frame.number] = self._poses(blocks, slots, reference)
         self.frames.append(entry)
 
@@ -242,4 +247,4 @@ class RunPack:
                  "case": Path(str(made_by.get("case_file", ""))).name, "program": " ".join(filter(None, [made_by.get("hdem_version", ""), made_by.get("git_commit", "")[:10]])),
                  "static": put("s", self.static_chunk()), "rows": put("r", self.contact_row_chunk()), "tables_chunk": put("h", tables_chunk), "tables": tables,
                  "outlines": self.outlines, "waters": self.waters, "frames": frames, "contacts_left_out": self.contacts_left_out()}
-        return facts | self._fixed_facts, parts
+        return facts | self._fixed_facts | self.extent.boxes(self.shapes.origin), parts

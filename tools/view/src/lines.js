@@ -132,7 +132,7 @@ export const LININGS = {
     thrust: { label: "Thrust", unit: "N", of: ["liner_thrust", "liner_thrust"] },
     moment: { label: "Moment", unit: "N m", of: ["liner_moment_from", "liner_moment_to"] },
 };
-const DIAGRAM = 0.12; // of the size of all linings: where the greatest value stands
+export const DIAGRAM = 0.12; // of the size of all linings: where the greatest value stands
 
 // Linings, and off them their diagram: inside where it is compressed, or where its inside is stretched.
 export function liningLines(chunk, name, { greatest, size }, ratio, ink) {

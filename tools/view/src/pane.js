@@ -2,7 +2,7 @@
 import { Camera } from "./camera.js";
 import { CLASSES, FIELDS } from "./fields.js";
 import { colourByClass, colourByValue, rgb, table } from "./colours.js";
-import { blockLines, boltLines, crossLines, forceLines, jointLines, liningLines, outlineLines, waterLines } from "./lines.js";
+import { DIAGRAM, blockLines, boltLines, crossLines, forceLines, jointLines, liningLines, outlineLines, waterLines } from "./lines.js";
 import { Scene } from "./scene.js";
 import { element } from "./dom.js";
 import { boltReference, contactReference, liningReference, stressReference } from "./ranges.js";
@@ -27,19 +27,15 @@ export class Pane {
         });
     }
 
+    // x0, y0, x1, y1 of blocks as they were first seen, and of all that is drawn beside them.
     get bounds() {
-        let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
-        const { run } = this, from = run.references[0];
-        for (let i = 0; i < run.count; ++i) {
-            const x = run.base_x[i] + (from.x[i] || 0), y = run.base_y[i] + (from.y[i] || 0), r = run.radius[i];
-            x0 = Math.min(x0, x - r), (x1 = Math.max(x1, x + r)), (y0 = Math.min(y0, y - r)), (y1 = Math.max(y1, y + r));
-        }
-        const cut = this.vertexBounds();
-        return cut ?? [x0, y0, x1, y1];
+        const { beside, lined } = this.run.facts, off = DIAGRAM * liningReference(this.view.runs, "thrust").size, boxes = [this.blockBounds()];
+        if (beside) boxes.push(beside);
+        if (lined) boxes.push([lined[0] - off, lined[1] - off, lined[2] + off, lined[3] + off]);
+        return [0, 1, 2, 3].map((side) => (side < 2 ? Math.min : Math.max)(...boxes.map((box) => box[side])));
     }
 
-    // As drawn: circles around blocks are larger than the model.
-    vertexBounds() {
+    blockBounds() {
         const { run } = this, box = [Infinity, Infinity, -Infinity, -Infinity];
         let vertex = 0;
         for (let part = 0; part < run.part_size.length; ++part) {
@@ -52,7 +48,7 @@ export class Pane {
                 if (y > box[3]) box[3] = y;
             }
         }
-        return box.every(Number.isFinite) ? box : null;
+        return box;
     }
 
     resize() {

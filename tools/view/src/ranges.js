@@ -29,10 +29,10 @@ export function stressReference(run, number) {
     return Math.max(0, ...framesOf(run, number, "stage").flatMap((frame) => ["stress_1", "stress_3"].flatMap((name) => frame.ranges[name].map(Math.abs))));
 }
 
-// By which the diagram of linings is scaled, the same in all frames of all runs: their greatest value, and their size.
+// By which the diagram of linings is scaled, the same in all frames of all runs: their greatest value, and the longer side of all of them when they were installed.
 export function liningReference(runs, name) {
-    const all = runs.flatMap((run) => run.frames.flatMap((frame) => frame.liners ?? []));
-    return { greatest: Math.max(0, ...all.map((one) => one[name] ?? 0)), size: Math.max(0, ...all.map((one) => one.size)) };
+    const all = runs.flatMap((run) => run.frames.flatMap((frame) => frame.liners ?? [])), boxes = runs.flatMap((run) => (run.facts.lined ? [run.facts.lined] : []));
+    return { greatest: Math.max(0, ...all.map((one) => one[name] ?? 0)), size: Math.max(0, ...boxes.map(([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0))) };
 }
 
 export function boltReference(runs) {

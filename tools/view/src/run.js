@@ -49,6 +49,10 @@ class Frame {
         return out;
     }
 
+    get isEmpty() {
+        return this.chunk.get("flags").length === 0;
+    }
+
     isDetached(block) {
         return (this.flags[block] & FLAG.detached) !== 0;
     }

@@ -97,7 +97,7 @@ export class View {
             if (pane.shown < 0) return;
             const { entry, run } = pane;
             pane.caption.replaceChildren(element("b", { textContent: run.facts.name, hidden: this.panes.length < 2 }),
-                element("span", { textContent: `${entry.stage ? `${entry.stage} · ` : ""}cycle ${entry.cycle.toLocaleString("en").replaceAll(",", "\u202f")} · ${+entry.time.toPrecision(5)} s` }));
+                element("span", { textContent: `${entry.stage ? `${entry.stage} · ` : ""}cycle ${entry.cycle.toLocaleString("en").replaceAll(",", "\u202f")} · ${+entry.time.toPrecision(5)} s${pane.frame.isEmpty ? " · no blocks are left" : ""}` }));
             if (!pane.tip.hidden && pane.pointer) point(pane, this, pane.pointer);
         });
         this.showPinned();

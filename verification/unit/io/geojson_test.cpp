@@ -59,12 +59,14 @@ TEST(GeoJson, SaysWhatIsWrongAndWhere)
     const auto line = [&](const std::string& points) { return trace(R"({"type": "LineString", "coordinates": )" + points + "}"); };
     EXPECT_EQ(line("[[0, 0], [1, 1]]"), "") << "a bare geometry will do";
     EXPECT_THAT(trace("{\n\"type\": \n"), HasSubstr("t.geojson:3: traces: (not valid JSON)"));
-    EXPECT_THAT(line("[[0, 0]]"), HasSubstr("t.geojson: traces: feature 1 (has 1 points, a trace has at least 2)"));
+    EXPECT_THAT(line("[[0, 0]]"), HasSubstr("t.geojson: traces: feature 1 (has 1 point, a trace has at least 2)"));
     EXPECT_THAT(line("[[0, 0], [\"1\", 1]]"), HasSubstr("point 2 is not [x, y]"));
     EXPECT_THAT(line("[[0, 0], [1e9, 1]]"), HasSubstr("point 2 is farther than"));
     EXPECT_THAT(line("[[0, 0], [1, 1], [1, 1]]"), HasSubstr("points 2 and 3 are the same"));
     EXPECT_THAT(trace(R"({"type": "Point", "coordinates": [1, 2]})"), HasSubstr("is a Point, not a LineString"));
-    EXPECT_THAT(trace(R"({"type": "FeatureCollection", "features": []})"), HasSubstr("has no feature"));
+    EXPECT_THAT(trace(R"({"type": "FeatureCollection", "features": []})"), HasSubstr("t.geojson: traces: (has no feature)"));
+    EXPECT_THAT(trace(R"({"type": "GeometryCollection", "geometries": [{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}]})"),
+                HasSubstr("ogr2ogr -explodecollections"));
     EXPECT_THAT(trace("[1, 2]"), HasSubstr("has no coordinates"));
     const auto block = [](const std::string& rings, const std::string& fixed)
     {

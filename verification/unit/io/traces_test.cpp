@@ -74,6 +74,10 @@ TEST(TraceFile, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(problem("LINESTRING(0 0, 1 1) x"), HasSubstr("follows the line"));
     EXPECT_THAT(problem("# nothing\n"), HasSubstr("the file has no trace"));
     EXPECT_THAT(problem("a,1,2\na,3", "t.csv"), HasSubstr("t.csv:2: trace: line (the row has 2 columns). Write name,x,y."));
+    const TraceFile of_gdal = read("WKT,set\n\"LINESTRING (0 3,5 4,11 5)\",a\n\"LINESTRING (4 -1,5 9)\",b\n", "t.csv");
+    ASSERT_THAT(of_gdal.problems, SizeIs(1));
+    EXPECT_THAT(of_gdal.problems[0].text,
+                HasSubstr("t.csv:1: trace: line (is the heading of a table with shapes in WKT). Make GeoJSON"));
     EXPECT_THAT(problem("a,1,2\na,3,x", "t.csv"), HasSubstr("got \"x\""));
     EXPECT_THAT(problem("a,1,2\nb,3,4\nb,5,6", "t.csv"), HasSubstr("t.csv:1: trace: line (has 1 point"));
 }

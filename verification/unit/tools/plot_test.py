@@ -126,6 +126,21 @@ class SmallRun(unittest.TestCase):
             self.assertNotIn("Traceback", said)
 
 
+class Surroundings(unittest.TestCase):
+    def test_picture_fits_linings_and_water_beside_the_blocks(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_plot_test_") as scratch:
+            run = hdem_io.open_run(small_case.run(HDEM, Path(scratch), small_case.BESIDE))
+            for arguments, box in (([], (-1.0, -5.0, 9.0, 2.0)), (["--liners", "moment"], (-1.0, -5.0, 9.0, 12.0))):
+                figure = plot.draw_frame(run, plot.parse([str(run.folder), *arguments]))
+                (x0, x1), (y0, y1) = figure.axes[0].get_xlim(), figure.axes[0].get_ylim()
+                self.assertTrue(x0 < box[0] and y0 < box[1] and x1 > box[2] and y1 > box[3], (arguments, x0, y0, x1, y1))
+                self.assertTrue(x0 > box[0] - 3.0 and y0 > box[1] - 3.0 and x1 < box[2] + 3.0 and y1 < box[3] + 3.0, (arguments, x0, y0, x1, y1))
+                diagrams = [c.get_paths() for c in figure.axes[0].collections if isinstance(c, plot.PolyCollection) and c.get_alpha()]
+                for path in sum(diagrams, []):
+                    self.assertTrue(np.all((path.vertices > (x0, y0)) & (path.vertices < (x1, y1))), "the diagram of the lining is cut off")
+                plot.plt.close(figure)
+
+
 class InterruptedRun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -220,4 +235,4 @@ class ColourRange(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

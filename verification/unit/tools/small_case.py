@@ -94,6 +94,18 @@ quantities = ["pore_pressure"]
 every = 10
 """
 
+# The same with a lining that stands far above the blocks and a water table below them.
+BESIDE = CASE + """
+[water]
+table = [[-1, -4.0], [9, -5.0]]
+[[liner]]
+name = "coat"
+path = [[9, 12], [9, 0], [9, -1]]
+thickness = 0.1
+modulus = 1e10
+normal_stiffness = 1e8
+"""
+
 
 def run(hdem, scratch, text=CASE):
     """Its results, in a folder below `scratch`."""

@@ -163,6 +163,27 @@ const steps = {
         if (await has("#lining")) await press(page, "l");
         await picture(page, "without");
     },
+    async extent(browser, said) {
+        const page = await open(browser, said);
+        await settled(page);
+        Object.assign(said, await page.evaluate(() => {
+            const [pane] = window.hdem.view.panes, [ox, oy] = pane.run.facts.origin, there = ([x0, y0, x1, y1]) => [x0 + ox, y0 + oy, x1 + ox, y1 + oy];
+            return { box: there(pane.box), seen: there(pane.camera.view) };
+        }));
+    },
+    async emptied(browser, said) {
+        const page = await open(browser, said);
+        await page.selectOption("#field", "none");
+        await press(page, "e", "o");
+        said.last = await state(page);
+        await picture(page, "emptied_last");
+        said.first = await press(page, "Home");
+        await picture(page, "emptied_first");
+        await page.mouse.click(...(await placeOf(page, "ball")));
+        await page.waitForFunction(() => window.hdem.view.panes[0].pinned >= 0);
+        await press(page, "c", "s", "j", "b"); // nothing of an empty frame can be drawn, and nothing fails
+        said.pinned = await press(page, "End");
+    },
     async compare(browser, said) {
         const page = await open(browser, said);
         await settled(page);

@@ -202,9 +202,7 @@ class SmallPages(Browser):
 
     def test_linings_have_their_diagram(self):
         """A ring of 3 m radius, without bending: thrust is a circle inside it, by 0.12 of its size; moments are nothing beside those of other cases."""
-        corners = "".join(f"\n[[block]]\nname = \"c{i}\"\npolygon = [[{x}, {y}], [{x + 0.3}, {y}], [{x + 0.3}, {y + 0.3}], [{x}, {y + 0.3}]]\nfixed = true\n" for i, (x, y) in
-                          enumerate(((-3.5, -3.5), (-3.5, 3.2))))    # so that the picture has all of it
-        ring = (CASES / "support/ring.toml").read_text(encoding="utf-8").replace("[gravity]", corners + "\n[gravity]", 1)
+        ring = (CASES / "support/ring.toml").read_text(encoding="utf-8")
         said = self.browse("support", self.page_of(self.run_of("ring", ring), name="ring"))
         scale, drawn, line, without = said["drawn"]["scale"], *(self.picture(name) for name in ("drawn", "line", "without"))
         self.assertAlmostEqual(float(re.search(r"thrust up to (\d+) kN", said["drawn"]["legend"])[1]), 600.0, delta=3.0)    # pressure times radius
@@ -218,6 +216,25 @@ class SmallPages(Browser):
         away = np.hypot(columns - columns.mean(), rows - rows.mean()) / scale
         self.assertAlmostEqual(away.min(), 3.0 - 0.12 * 6.0, delta=0.05)
         self.assertTrue(2.8 < away.max() < 3.0, away.max())    # the last of it is under the ring
+
+    def test_picture_fits_what_is_beside_blocks(self):
+        """A lining and water that reach farther than the blocks: all of it is seen, and the picture is no larger than it needs."""
+        said = self.browse("extent", self.page_of(self.run_of("beside", small_case.BESIDE), name="beside"))
+        off = 0.12 * 13.0    # the diagram of the lining stands off it
+        wanted = [-1.0, -5.0, 9.0 + off, 12.0 + off]
+        np.testing.assert_allclose(said["box"], wanted, atol=0.02)
+        x0, y0, x1, y1 = said["seen"]
+        self.assertTrue(x0 < said["box"][0] and y0 < said["box"][1] and x1 > said["box"][2] and y1 > said["box"][3], said["seen"])
+
+    def test_frame_without_blocks_says_so(self):
+        gone = small_text().replace("[output]", '[[stage]]\nname = "all goes"\ncycles = 50\nexcavate = ["ground", "l", "ball"]\n[output]', 1)
+        said = self.browse("emptied", self.page_of(self.run_of("gone", gone), name="gone"))
+        self.assertIn("no blocks are left", said["last"]["caption"])
+        self.assertNotIn("no blocks are left", said["first"]["caption"])
+        self.assertIn("has been removed", said["pinned"]["block"])
+        last, first = self.picture("emptied_last"), self.picture("emptied_first")
+        self.assertEqual(count(last, STONE), 0)
+        self.assertAlmostEqual(covered(first, STONE, GROUND) / said["first"]["scale"]**2, 15.0, delta=0.03)
 
     def test_water_table_is_drawn(self):
         dam = (CASES / "water/dam.toml").read_text(encoding="utf-8").replace('until = "converged"\nmax_cycles = 100000', "cycles = 10")

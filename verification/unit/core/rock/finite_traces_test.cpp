@@ -60,6 +60,7 @@ TEST(FiniteTraces, CutTogetherWithThroughGoingSets)
         EXPECT_EQ(rock.sets[0].dead_ends, 0.0) << "a through-going joint has none";
         EXPECT_GT(rock.sets[1].dead_ends, 0.0);
         EXPECT_LT(rock.sets[1].dead_ends, 0.6 * rock.sets[1].length);
+        EXPECT_GT(rock.dead_ends, 0) << "they are counted, as those of a file are";
         EXPECT_TRUE(identical(rock, rock_of(text)));
     }
 }
