@@ -4,6 +4,7 @@
 #include "core/rock/block_overlap.h"
 #include "core/rock/problem_text.h"
 
+#include <cmath>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -15,10 +16,23 @@ namespace
 /// Explicit blocks may overlap by this share of the smaller one's area: coordinates are typed with a few digits.
 constexpr double accepted_overlap = 1e-6;
 
+/// Sine of the turn at a vertex that belongs to a straight side: coordinates are typed with a few digits.
+constexpr double straight_turn = 1e-6;
+
+/// Vertices on a straight side go, as maps have them where neighbours meet: a contact bears along one edge of each block, so that a side in two pieces would bear
+/// along the longer one only.
+void drop_straight_vertices(Polygon& polygon)
+{
+    for (std::size_t i = polygon.size(); i-- > 0 && polygon.size() > 3;)
+        if (std::abs(turn(polygon, i)) <= straight_turn)
+            polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
 RockBlock explicit_block(const BlockDef& def)
 {
     CutPolygon whole{def.polygon, {}};
     make_anticlockwise(whole.vertices);
+    drop_straight_vertices(whole.vertices);
     whole.edges.assign(whole.vertices.size(), {edge_plain, no_index});
     RockBlock block;
     block.name = def.name;

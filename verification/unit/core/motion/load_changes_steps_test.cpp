@@ -1,4 +1,5 @@
 #include "core/motion/rest.h"
+#include "core/motion/step_control.h"
 #include "core/stage/load_changes.h"
 #include "parallel/stages.h"
 #include "verification/unit/core/boundary/sides.h"
@@ -85,6 +86,31 @@ TEST(LoadChanges, AreFollowedByStepsThatAreStable)
             EXPECT_GT(least, 0.1 * run.model().time_step);
             EXPECT_LT(ledger_residual(run), method == Method::force ? 1e-6 : 1e-4);
         }
+}
+/// While a load changes, contacts change and nobody looks at the step that they bear: what was looked at before is forgotten.
+TEST(LoadChanges, LeaveNothingKnownOfStableSteps)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.stages = {{.name = "settle", .until_converged = true, .max_cycles = 20'000},
+                    {.name = "push", .until_converged = true, .max_cycles = 20'000}};
+    scene.loads = {{.blocks = {"block"}, .acceleration = {8.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 300.0), .since = "push"}}};
+    CaseRun run(scene);
+    const auto varies = [&] { return resolve_rules(run.model(), run.state()).step.varies; };
+    const auto known = [&] { return run.state().blocks.stable_step[run.slot("block")]; };
+    run.advance(500);
+    ASSERT_TRUE(varies());
+    EXPECT_GT(known(), 0.0);
+    run.simulation.begin_stage(1);
+    run.advance(200);
+    ASSERT_FALSE(varies());
+    EXPECT_EQ(known(), 0.0);
+    run.advance(110);
+    ASSERT_TRUE(varies());
+    const State& state = run.state();
+    BlockContacts list;
+    list_block_contacts(state.contacts, state.blocks.size(), list);
+    const double now = stable_step_of(run.slot("block"), run.model(), list, state.contacts, state.blocks);
+    EXPECT_NEAR(known(), now, 1e-6 * now);
 }
 }  // namespace
 }  // namespace hdem

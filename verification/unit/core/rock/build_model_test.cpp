@@ -50,6 +50,25 @@ TEST(BuildModel, GivesMassAndInertiaOfTheShapes)
     EXPECT_NEAR(model.radius[at("triangle")], Vec2(2.0, -2.0 / 3.0).norm(), 1e-12);
 }
 
+/// As maps have them, with a vertex wherever a neighbour has a corner.
+TEST(BuildModel, MakesOneSideOfPiecesInOneLine)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "lower", {{0, 0}, {4, 0}, {4, 1}, {3, 1}, {1.5, 1}, {0, 1}});
+    scenes::add_block(scene, "upper", {{0, 1}, {2, 1}, {4, 1}, {4, 2}, {0, 2}});
+    scenes::add_block(scene, "hook", {{10, 0}, {12, 0}, {12, 1}, {11, 1}, {11, 2}, {10, 2}, {10, 1}});
+    for (const double angle : {0.0, 23.0, 90.0})
+        for (const CaseDef& seen : {scenes::turned(scene, angle), scenes::mirrored(scenes::turned(scene, angle))})
+        {
+            CaseRun run(seen);
+            EXPECT_EQ(run.model().shapes.parts(), 4);
+            EXPECT_EQ(run.model().shapes.vertex.size(), 16U);
+            run.advance();
+            ASSERT_EQ(run.state().contacts.size(), 1);
+            EXPECT_NEAR(report_contact(run.state(), 0).bearing_length, 4.0, 1e-12) << angle;
+        }
+}
+
 TEST(BuildModel, KeepsNamesAndTheUsersOrderAlongTheCurve)
 {
     CaseDef scene = scenes::grid(8, 8);
