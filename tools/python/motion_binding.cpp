@@ -144,7 +144,7 @@ void bind_motion(RunType& type)
     type.def_property_readonly(
         "forces", look(forces),
         "Sum of what acted on each block in the last cycle, its weight too, (n, 2) [N] per metre of thickness, copy. A "
-        "result: to push a block give the case a [[load]].");
+        "result: to push a block assign applied_forces, or give the case a [[load]].");
     type.def_property_readonly("moments", look(moments_on_blocks), "Likewise about the centroid, (n,) [N m], copy.");
     type.def_property_readonly(
         "stresses", look(stresses),

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._applied import applied_forces, apply_forces
 from ._case import Case, require_case, whole
 from ._toml import to_toml, toml_value
 
-ASSIGNED = ("positions", "velocities", "rotations", "angular_velocities")
+ASSIGNED = ("positions", "velocities", "rotations", "angular_velocities", "applied_forces")
+RESULTS = ("forces", "moments", "stresses", "displacements", "turns")
 REGIMES = ("open", "stick", "slip", "impulse")    # by the number in contacts()["regime"]
 
 
@@ -100,6 +102,14 @@ class Simulation(_core.Run):
         """
         return super().contacts(also_open)
 
+    def write_checkpoint(self, folder: str | os.PathLike[str]) -> None:
+        """Write FOLDER/checkpoint.h5; the one that was there becomes checkpoint.previous.h5. `hdem run --restart` goes on from it."""
+        super().write_checkpoint(os.fspath(folder))
+
+    def write_frame(self, file: str | os.PathLike[str], kind: str = "blocks") -> None:
+        """One picture of the present state for `hdem plot` and ParaView, as hdf5_format.md has it. kind: blocks, contacts, bolts or liners."""
+        super().write_frame(os.fspath(file), kind)
+
     @property
     def summary(self) -> dict[str, Any]:
         """summary.json, once all stages have run into a folder; else an empty dict."""
@@ -133,6 +143,28 @@ class Simulation(_core.Run):
         case["stage"][number].setdefault("set", []).append(f"{key} = {toml_value(value, key)}")
         self._take_case(to_toml(case), self.case_overrides)
 
+    @property
+    def applied_forces(self) -> Any:
+        """What the user puts on each block's centroid, (n, 2) [N] per metre of thickness, beside weights, contacts and loads of the case. Zero at first.
+
+        Reading gives a copy. What is assigned, between two calls of run(), acts from the next cycle on until other forces are assigned. It is written
+        into the case, as a [[load]] for each row that changes: checkpoints keep it, and `hdem run` of case_text has it at the same cycles. For forces
+        that change with time give the case a [[load]] with a table, or assign every hundred cycles or so, not in each one.
+        """
+        return applied_forces(self.case, self.names)
+
+    @applied_forces.setter
+    def applied_forces(self, values: Any) -> None:
+        names, case = self.names, self.case
+        if values.shape != (len(names), 2):
+            raise ValueError(f"applied_forces: an array of shape ({len(names)}, 2) is needed, one row a block")
+        for number in np.flatnonzero(~np.all(np.isfinite(values), axis=1)):
+            raise ValueError(f"applied_forces: the number of block \"{names[number]}\" is not finite")
+        for number in np.flatnonzero(np.any(values != 0.0, axis=1) & ~self.present):
+            raise ValueError(f"applied_forces: block \"{names[number]}\" is removed: nothing can act on it. Give it 0.")
+        if apply_forces(case, names, values, self.cycle):
+            self._take_case(to_toml(case), self.case_overrides)
+
     def end_stage(self) -> None:
         """The running stage ends with the present cycle; run() goes on with the next one."""
         case = self.case
@@ -151,6 +183,8 @@ class Simulation(_core.Run):
 
     def __setattr__(self, name: str, value: Any) -> None:
         """A misspelt name would be a new attribute that does nothing. Classes of your own may have more."""
+        if name in RESULTS:
+            raise AttributeError(f"{name}: what cycles have made of the run, to be read only. To push a block assign applied_forces, or give the case a [[load]].")
         if type(self) is Simulation and not name.startswith("_") and not hasattr(Simulation, name):
             raise AttributeError(f"a Simulation has no {name!r}. What can be assigned: {', '.join(ASSIGNED)}.")
         super().__setattr__(name, numbers(name, value) if name in ASSIGNED else value)

@@ -26,8 +26,7 @@ import commands    # noqa: E402
 import links    # noqa: E402
 
 # What a test cannot run: these and no others.
-NOT_RUN = {("installation", "installs packages and builds"), ("installation", "builds, and takes minutes"), ("installation", "builds a package and installs it"), ("studies", "needs SLURM"), ("gallery", "it runs this page"),
-           ("python", "where the module is depends on how it was built")}
+NOT_RUN = {("installation", "installs packages and builds"), ("installation", "builds, and takes minutes"), ("installation", "builds a package and installs it"), ("studies", "needs SLURM"), ("gallery", "it runs this page")}
 LONGEST = 60000    # bytes of all pictures but those of the README's size
 KNOWN_LARGE = {"cavern.png", "cavern_supported.png", "slope.png", "bolted.png"}
 
@@ -63,6 +62,17 @@ class Pages(unittest.TestCase):
 
     def test_what_is_not_run_is_known(self):
         self.assertEqual({(page.stem, block.reason) for page in pages() for block in blocks(page) if block.reason}, NOT_RUN)
+
+    def test_what_installation_exports_is_enough(self):
+        """A reader has nothing else: with it the program is found, and by Debian's Python what the pages import."""
+        lines = re.findall(r"^export .*$", (GUIDE / "docs/installation.md").read_text(encoding="utf-8").split("## As a Debian package")[0], re.MULTILINE)
+        self.assertEqual(len(lines), 2)
+        script = "\n".join(lines).replace("$PWD/build/release", str(HDEM.parent.parent)) + "\nhdem --version >/dev/null && exec /usr/bin/python3 -c 'import hdem_io; print(hdem_io.__file__)"
+        has_module = (HDEM.parent.parent / "python").is_dir()
+        plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "HDEM")}
+        done = subprocess.run(["bash", "-euc", script + ("; import hdem'" if has_module else "'")], cwd=ROOT, env=plain, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(Path(done.stdout.strip()).parent, TOOLS)
 
     def test_every_block_of_commands_is_found(self):
         for page in pages():

@@ -225,6 +225,63 @@ def test_fixed_blocks_refuse_to_be_moved(name, row):
         simulation.forces = 0.0
 
 
+def test_applied_forces_push_and_stand_in_the_case(tmp_path):
+    """A block on a floor: 0.9 of its weight against a friction of tan 30, then nothing, then a lift by twice its weight."""
+    case = pile(contact={"method": "hybrid"}, block=pile()["block"][:2], stage=[{"name": "first", "cycles": 2000}, {"name": "second", "cycles": 800}], damping={"preset": "default"}, time={"step": 1e-4})
+    simulation = hdem.Simulation(hdem.Case(case), threads=1)
+    simulation.run(cycles=1000)
+    weight, friction = 2500.0 * 9.81, 9.81 * np.tan(np.radians(30.0))
+    forces, rate = np.zeros((2, 2)), 0.9 * 9.81 - friction
+    for force, cycles, velocity in (([0.9 * weight, 0.0], 1000, [0.1 * rate, 0.0]), ([0.0, 0.0], 400, [0.1 * rate - 0.04 * friction, 0.0]), ([0.0, 2.0 * weight], 300, [0.1 * rate - 0.04 * friction, 0.03 * 9.81])):
+        forces[1] = force
+        simulation.applied_forces = forces
+        np.testing.assert_array_equal(simulation.applied_forces, forces)
+        simulation.run(cycles=cycles)
+        np.testing.assert_allclose(simulation.velocities[1], velocity, atol=2e-4)
+    energies = simulation.energies
+    assert abs(energies["residual"]) < 1e-9 * energies["load_work"]
+    simulation.write_checkpoint(tmp_path / "stored")
+    again = hdem.Simulation.from_checkpoint(tmp_path / "stored/checkpoint.h5")
+    np.testing.assert_array_equal(again.applied_forces, forces)
+    for one in (simulation, again):
+        one.run()
+    assert simulation.state_hash == again.state_hash
+    file = tmp_path / "pushed.toml"
+    file.write_text(simulation.case_text)
+    assert program_hash(tmp_path, file)["state_hash"] == simulation.state_hash
+
+
+def test_applied_forces_wake_what_rests():
+    """Blocks that have come to rest are left out of cycles until something acts on them."""
+    simulation = hdem.Simulation(hdem.Case(pile(stage=[{"until": "converged", "max_cycles": 100000}, {"until": "converged", "max_cycles": 20000}], damping={"preset": "default"})), threads=1)
+    simulation.run(stages=1)
+    simulation.run(cycles=400)
+    forces = np.zeros((4, 2))
+    forces[3] = [1e5, 0.0]    # four times the weight of the highest one
+    simulation.applied_forces = forces
+    simulation.run(cycles=400)
+    assert simulation.displacements[3, 0] > 0.01
+    assert np.all(np.abs(simulation.displacements[:3]) < 0.01)
+
+
+@pytest.mark.parametrize("values,said", [(np.zeros((3, 2)), "shape"), (np.full((4, 2), np.nan), "not finite"), ("a", "numbers"), (np.zeros(4), "shape")])
+def test_applied_forces_that_are_none_are_refused(values, said):
+    simulation = hdem.Simulation(hdem.Case(pile()), threads=1)
+    with pytest.raises((TypeError, ValueError), match=said):
+        simulation.applied_forces = values
+    with pytest.raises(AttributeError, match="applied_forces"):
+        simulation.forces = np.zeros((4, 2))
+
+
+def test_removed_blocks_take_no_applied_force():
+    simulation = hdem.Simulation(hdem.Case(pile(stage=[{"cycles": 10}, {"cycles": 10, "excavate": ["high"]}])), threads=1)
+    simulation.run()
+    forces = np.zeros((4, 2))
+    forces[3, 0] = 1.0
+    with pytest.raises(ValueError, match='"high" is removed'):
+        simulation.applied_forces = forces
+
+
 def test_views_show_the_state_and_hold_it():
     simulation = hdem.Simulation(hdem.Case(pile()), threads=1)
     simulation.run(cycles=5)
@@ -511,7 +568,7 @@ def test_checkpoints_go_both_ways(tmp_path, tunnel):
     assert again.summary["state_hash"] == tunnel["state_hash"]
     with pytest.raises(hdem.CaseError, match="none.h5"):
         hdem.Simulation.from_checkpoint(tmp_path / "none.h5")
-    simulation.write_frame(str(tmp_path / "one.hdf"))
+    simulation.write_frame(tmp_path / "one.hdf")
     simulation.write_frame(str(tmp_path / "two.hdf"), kind="contacts")
     assert (tmp_path / "one.hdf").stat().st_size > 1000 and (tmp_path / "two.hdf").stat().st_size > 1000
 
