@@ -14,8 +14,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 namespace hdem::verification
 {
@@ -80,15 +83,27 @@ Outcome run_check(const Check& check)
     return outcome;
 }
 
-/// Checks share nothing, so each thread takes the next one.
-std::vector<Outcome> run_checks(const std::vector<Check>& checks, unsigned jobs)
+/// Checks share nothing, so each thread takes the next one. `tell` is called for each in their order, as soon as it is done and those before it are told: a long run that is
+/// broken off has shown what it had found.
+template <typename Tell>
+std::vector<Outcome> run_checks(const std::vector<Check>& checks, unsigned jobs, const Tell& tell)
 {
     std::vector<Outcome> outcomes(checks.size());
+    std::vector<std::uint8_t> is_done(checks.size());
+    std::size_t told = 0;
+    std::mutex telling;
     std::atomic<std::size_t> next{0};
     const auto work = [&]
     {
         for (std::size_t i = next++; i < checks.size(); i = next++)
-            outcomes[i] = run_check(checks[i]);
+        {
+            Outcome outcome = run_check(checks[i]);
+            const std::scoped_lock lock(telling);
+            outcomes[i] = std::move(outcome);
+            is_done[i] = 1;
+            for (; told < checks.size() && is_done[told] != 0; ++told)
+                tell(checks[told], outcomes[told]);
+        }
     };
     std::vector<std::jthread> threads;
     for (unsigned i = 1; i < jobs; ++i)
@@ -123,6 +138,7 @@ void print_table(const Check& check, const Outcome& outcome, const Options& opti
     if (options.commands)
         for (const std::string& command : outcome.report.commands())
             fmt::print("  {}\n", command);
+    std::fflush(stdout);
 }
 
 nlohmann::json json_number(double value)
@@ -187,7 +203,6 @@ int report_all(const std::vector<Check>& checks, const std::vector<Outcome>& out
     int missed = 0;
     for (std::size_t i = 0; i < checks.size(); ++i)
     {
-        print_table(checks[i], outcomes[i], options);
         for (const Row& row : outcomes[i].report.rows())
         {
             met += row.verdict == Verdict::pass ? 1 : 0;
@@ -245,7 +260,10 @@ int verify(int argc, char** argv)
         return exit_done;
     }
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    return report_all(checks, run_checks(checks, options.jobs > 0 ? options.jobs : cores), options);
+    const std::vector<Outcome> outcomes = run_checks(checks, options.jobs > 0 ? options.jobs : cores,
+                                                     [&](const Check& check, const Outcome& outcome)
+                                                     { print_table(check, outcome, options); });
+    return report_all(checks, outcomes, options);
 }
 }  // namespace
 }  // namespace hdem::verification

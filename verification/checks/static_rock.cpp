@@ -1,5 +1,6 @@
 /// Rock around a tunnel by static solutions: what collapses is said to, what stands stands, whichever way the rock is turned.
 
+#include "core/contact/contact_report.h"
 #include "core/limit/strength_bound.h"
 #include "core/motion/equilibrium.h"
 #include "core/rock/build_model.h"
@@ -50,8 +51,15 @@ const std::array<RockCase, 5> standing = {{{1, {25.0, 75.0, -55.0}, 10.0, 0.0},
                                            {3, {30.0, 80.0, -50.0}, 25.0, 1e4, 7e9},
                                            {2, {25.0, 75.0, -55.0}, 35.0, 1e5, 5e7}}};
 
+/// Nothing falls here: what falls hits the floor, and where it comes to lie hangs on its way.
+const std::array<RockCase, 5> quiet = {{{8, {25.0, 75.0, -55.0}, 35.0, 1e5, 2e9},
+                                        {3, {30.0, 80.0, -50.0}, 35.0, 1e5},
+                                        {10, {25.0, 75.0, -55.0}, 30.0, 1e5},
+                                        {11, {50.0, -80.0, -30.0}, 12.0, 1e5},
+                                        {1, {15.0, 65.0, -65.0}, 35.0, 1e5, 5e7}}};
+
 constexpr double collapse_share = 0.1;  // of the free blocks lost: as StaticRule::most_loose
-constexpr std::int64_t slow_removal = 5000, cycles_after = 20'000;
+constexpr std::int64_t slow_removal = 5000, slowest_removal = 100'000, cycles_after = 20'000;
 
 Polygon outline(const RockBlock& block)
 {
@@ -103,6 +111,8 @@ struct Outcome
     double share_lost = 0.0;     ///< of the free blocks
     double share_moved = 0.0;    ///< by more than a centimetre: those that collapse are still on their way
     double mean = 0.0;           ///< displacement next to the tunnel [m]
+    /// Of the blocks next to it, by name: displacement [m] and mean stress [Pa].
+    std::map<std::string, std::pair<Vec2, Eigen::Matrix2d>> next_to_tunnel;
 };
 
 Outcome run(const CaseDef& def)
@@ -122,6 +132,11 @@ Outcome run(const CaseDef& def)
         }
     for (const Index b : found.detached)
         outcome.lost.insert(simulation.model().name[b]);
+    const std::vector<MeanStress> stress = mean_stresses(simulation.model(), simulation.state());
+    for (const Index b : simulation.state().next_to_excavation)
+        if (blocks.is_free(b))
+            outcome.next_to_tunnel[simulation.model().name[b]] = {
+                blocks.displacement(b), (Eigen::Matrix2d() << stress[b].xx, stress[b].xy, stress[b].xy, stress[b].yy).finished()};
     outcome.share_lost = static_cast<double>(found.detached.size()) / free;
     outcome.share_moved = static_cast<double>(moved) / free;
     return outcome;
@@ -134,6 +149,23 @@ Outcome run_slowly(CaseDef def)
         stage.solver = RestSolver::dynamics;
     def.stages.back().relax_cycles = slow_removal;
     return run(def);
+}
+
+/// Mean difference over the mean, of displacements and stresses next to the tunnel; `found` stands as it was placed.
+std::pair<double, double> differences(const Outcome& found, const rest::Placement& placement, const Outcome& reference)
+{
+    Eigen::Matrix2d axes;
+    axes << placement.turned({1.0, 0.0}), placement.turned({0.0, 1.0});
+    double ways = 0.0, way_differences = 0.0, stresses = 0.0, stress_differences = 0.0;
+    for (const auto& [name, there] : reference.next_to_tunnel)
+    {
+        const auto& [way, stress] = found.next_to_tunnel.at(name);
+        ways += there.first.norm();
+        way_differences += (placement.turned_back(way) - there.first).norm();
+        stresses += there.second.norm();
+        stress_differences += (axes.transpose() * stress * axes - there.second).norm();
+    }
+    return {way_differences / ways, stress_differences / stresses};
 }
 
 /// Strength over the least that balances all blocks, at most: below 1 there is no equilibrium of all of them.
@@ -160,7 +192,7 @@ void in_all_ways(const CaseDef& def, const std::string& name, const Judge& judge
         {
             CaseDef placed = rest::placed(def, placement);
             placed.contact.method = method;
-            judge(placed, fmt::format("{}; {}, {}: ", name, placement.name(), name_of(method)));
+            judge(placed, placement, fmt::format("{}; {}, {}: ", name, placement.name(), name_of(method)));
         }
 }
 
@@ -176,7 +208,7 @@ void check_collapse(Report& report)
                        at_most());
         def.stages.back().max_cycles = cycles_after;
         in_all_ways(def, rock.name(),
-                    [&](const CaseDef& placed, const std::string& as)
+                    [&](const CaseDef& placed, const rest::Placement&, const std::string& as)
                     {
                         const Outcome found = run(placed);
                         const bool is_seen = found.statics.outcome == "no_equilibrium";
@@ -200,7 +232,7 @@ void check_standing(Report& report)
         const Outcome slow = run_slowly(def);
         report.require({rock.name() + ": share lost by slow cycles", "stands", 0.02, slow.share_lost}, at_most());
         in_all_ways(def, rock.name(),
-                    [&](const CaseDef& placed, const std::string& as)
+                    [&](const CaseDef& placed, const rest::Placement&, const std::string& as)
                     {
                         const Outcome found = run(placed);
                         const bool is_balanced = found.statics.outcome == "balanced";
@@ -212,12 +244,39 @@ void check_standing(Report& report)
                     });
     }
 }
+/// The forces of the tunnel's rock are taken off slowly in both. The reference stands as drawn and begins from the same balance under gravity.
+void check_against_slow(Report& report)
+{
+    for (const RockCase& rock : quiet)
+    {
+        CaseDef def = written_out(rock);
+        def.stages.back().relax_cycles = slow_removal;
+        CaseDef slow_def = def;
+        slow_def.stages.back().solver = RestSolver::dynamics;
+        slow_def.stages.back().relax_cycles = slowest_removal;
+        const Outcome slow = run(slow_def);
+        report.require({rock.name() + ": blocks lost by slow cycles", "none", 0.0, static_cast<double>(slow.lost.size())},
+                       absolute(0.0));
+        in_all_ways(
+            def, rock.name(),
+            [&](const CaseDef& placed, const rest::Placement& placement, const std::string& as)
+            {
+                const Outcome found = run(placed);
+                const auto [ways, stresses] = differences(found, placement, slow);
+                report.require({as + "blocks lost", "slow cycles", 0.0, static_cast<double>(found.lost.size())}, absolute(0.0));
+                report.require({as + "displacement next to the tunnel, mean difference", "slow cycles", 0.02, ways}, at_most());
+                report.require({as + "stress next to the tunnel, mean difference", "slow cycles", 0.02, stresses}, at_most());
+            });
+    }
+}
 }  // namespace
 
 std::vector<Check> static_rock_checks()
 {
     return {
         {"statics.collapse", "tunnels that collapse, by static solutions (some minutes)", check_collapse, Check::Length::is_long},
-        {"statics.stands", "tunnels that stand, likewise", check_standing, Check::Length::is_long}};
+        {"statics.stands", "tunnels that stand, likewise", check_standing, Check::Length::is_long},
+        {"statics.slow", "standing rock by static solutions beside slow cycles (a minute)", check_against_slow,
+         Check::Length::is_long}};
 }
 }  // namespace hdem::verification

@@ -1,6 +1,7 @@
 #include "verification/rest/run.h"
 
 #include "core/contact/contact_report.h"
+#include "core/motion/equilibrium.h"
 #include "core/state/state_hash.h"
 #include "io/load_case.h"
 #include "parallel/stages.h"
@@ -58,8 +59,10 @@ void describe_blocks(const Scene& scene, const Placement& placement, const Simul
         outcome.rotation.push_back(placement.sense() * m.angle);
         const Vec2 force = placement.turned_back({f.x, f.y});
         outcome.net.emplace_back(force.x(), force.y(), placement.sense() * f.moment);
-        outcome.bodies.push_back(moved(body_of(scene.def.blocks[i].polygon, density_of(scene, i), scene.is_fixed(i)),
-                                       outcome.way.back(), outcome.rotation.back()));
+        // One that has left the model is held where it is, and says so in the warnings: nothing is asked of its balance.
+        const bool is_held = scene.is_fixed(i) || has_left(slot, model, blocks);
+        outcome.bodies.push_back(moved(body_of(scene.def.blocks[i].polygon, density_of(scene, i), is_held), outcome.way.back(),
+                                       outcome.rotation.back()));
     }
 }
 

@@ -129,5 +129,16 @@ class Page(unittest.TestCase):
         self.assertFalse((self.folder / "none.html").exists())
 
 
+class LongRun(unittest.TestCase):
+    def test_what_is_done_is_shown_while_others_still_run(self):
+        with subprocess.Popen([VERIFY, "closed_form.A1", "recycling.tunnel", "--jobs", "1"], stdout=subprocess.PIPE, text=True) as run:
+            try:
+                shown = [run.stdout.readline() for _ in range(3)]
+                self.assertIsNone(run.poll())
+            finally:
+                run.kill()
+        self.assertIn("closed_form.A1:", "".join(shown))
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
