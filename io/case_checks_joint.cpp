@@ -171,8 +171,6 @@ class JointCheck : public CaseCheck
             return;
         if (joint_.law == JointLaw::library)
             add("law", "of a shared library cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
-        if (joint_.tension.value_or(0.0) > 0.0)
-            add("tension", "cannot be computed by impulses", "Use method \"force\" or \"hybrid\" in all stages.");
         for (const char* key : {"greatest_closure", "normal_exponent", "rock_strength"})
             if (has(key))
                 add(key, "cannot be computed by impulses, which know no stiffness",

@@ -203,9 +203,11 @@ SectionSpec joint_section()
         "What acts where two blocks touch. [joint.default] must exist; the others replace it for a joint set (its key `joint`) or "
         "for a pair of materials (`materials`). Equations, memory and sources of each `law`: core/joint. Blocks that meet after "
         "the start "
-        "have residual friction and neither cohesion, tension nor roughness. With the impulse method joints bear no `tension`, "
-        "have linear normal springs, and of laws with roughness the basic friction alone; under the hybrid one a joint with "
-        "cohesion or tension keeps its springs until it breaks.",
+        "have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint bears all "
+        "that "
+        "it does by springs, and breaks when an impulse reaches its strength; other laws have their basic friction alone. Impulses "
+        "know no stiffness, so curved normal springs are refused. Under the hybrid method a joint with cohesion or tension keeps "
+        "its springs until it breaks.",
         {with_assign(field<&JointDef::law>(
                          {.name = "law",
                           .effect = "Strength and dilation. Keys of other laws are refused. A file: a shared library with a law of "

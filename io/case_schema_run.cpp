@@ -166,13 +166,17 @@ SectionSpec stage_section()
                                           "of normal spring stay. Broken points stay broken.",
                                 .example = "[\"joint.default.friction_angle_deg = 25\"]",
                                 .default_note = "nothing changes"}),
-         field<&StageDef::set_cycles>({.name = "set_cycles",
-                                       .effect = "With set: friction, cohesion and tension come to their new values evenly over so "
-                                                 "many cycles, angles by their tangents. "
-                                                 "0: at once. A stage with until ends after that. Stiffness and density change at "
-                                                 "once: set them in a stage of their own.",
-                                       .example = "5000",
-                                       .range = {.low = 0, .high = 1e9}}),
+         field<&StageDef::set_cycles>(
+             {.name = "set_cycles",
+              .effect = "With set: friction, cohesion and tension come to their new values evenly over so "
+                        "many cycles, angles by their tangents. "
+                        "0: at once. A stage with until ends after that. Other numbers change at once: set "
+                        "them in a stage of their own. Contacts keep their forces where a stiffness changes, "
+                        "so that a slow change would end in the same forces. Weight grows slowly by a "
+                        "[[load]] with an acceleration. Roughness and dilation open a joint by the slip that "
+                        "it has had already.",
+              .example = "5000",
+              .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::set_table>({.name = "set_table",
                                       .effect = "Instead of set_cycles: rows [cycle, share], counted from the start of the stage. "
                                                 "The share of the change is linear between rows and constant before the first. "

@@ -2,6 +2,7 @@
 
 #include "core/support/bolt_link.h"
 #include "core/support/liner_forces.h"
+#include "core/support/liner_rest.h"
 #include "io/atomic_file.h"
 
 #include <fmt/format.h>
@@ -110,6 +111,7 @@ std::vector<LinerSummary> summarise_liners(const Model& model, const State& stat
                 .parted = r.parted,
                 .stored = r.stored,
                 .spent = r.spent,
+                .is_off = has_come_off(liner, r, state.blocks),
                 .is_far = r.displacement >
                           std::sqrt(12.0 * liner.bending_stiffness / liner.axial_stiffness),  // of a rectangle: its height
                 .segments = {}};

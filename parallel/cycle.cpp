@@ -13,11 +13,19 @@
 #include "parallel/team.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace hdem
 {
 namespace
 {
+/// Share of critical damping of bolts on blocks that have no local damping, where rest is looked for. Local damping alpha takes of a swing what alpha / pi of the critical
+/// one does.
+double damping_of_bolts(const DampingRule& rule)
+{
+    return rule.settling > 0.0 ? rule.local * std::numbers::inv_pi : 0.0;
+}
+
 /// Below this many contacts a team loses more by waiting than it gains.
 constexpr Index least_contacts_a_thread = 256;
 constexpr std::int64_t timed_every = 16;
@@ -140,7 +148,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
                     take_loads(model, state);
                 if (rules_.has_support)
                 {
-                    pull_bolts(model, state, work_.bolted);
+                    pull_bolts(model, state, damping_of_bolts(rules_.damping), work_.bolted);
                     press_liners(model, state, liner_solvers_, work_.bolted);
                     add_bolt_forces(work_.bolted, work_.external);
                 }

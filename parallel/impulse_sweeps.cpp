@@ -99,6 +99,7 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
     {
         ContactPart& part = partition.contacts[i];
         add_correction_springs(part.range, blocks, state.contacts, work.pseudo, part.ledger);
+        count_from_zero(part.impulses);
         add_impulse_work(model, part.impulses, blocks, part.ledger);
         store_impulses(model, blocks, part.impulses, state.contacts);  // Eqs. (29), (30)
     }

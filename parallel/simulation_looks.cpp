@@ -10,6 +10,7 @@
 #include "core/stress/drawn_joints.h"
 #include "core/support/bolt_forces.h"
 #include "core/support/bolt_springs.h"
+#include "core/support/liner_rest.h"
 #include "parallel/simulation.h"
 #include "parallel/state_check.h"
 
@@ -129,6 +130,8 @@ bool Simulation::check_rest()
     if (state_.quiet_since < 0.0)
         state_.quiet_since = state_.time;
     if (resolve_rules(model_, state_).moves_walls && !servos_press(model_, state_))
+        return false;
+    if (liners_move(model_, state_, convergence.mean_speed))
         return false;
     const bool must_last = std::ranges::find(convergence.criteria, "every_block") != convergence.criteria.end();
     return !must_last || state_.time - state_.quiet_since >= convergence.hold_time;

@@ -24,17 +24,15 @@ using OverlapCourse = BasicOverlapCourse<double>;
 ///
 ///   u", u, u'  overlaps at t - dt, t, t + dt      u+ = max(u, 0)
 ///
-/// A force works over (u' - u") / 2 in a step (energy_ledger.h), so this one changes the springs' energy from K_N L u"+ u+ / 2 to K_N L u+ u'+ / 2 and
-/// nothing else. Whole forces take K_N L |u"| u / 2 from the blocks as a spring takes hold up to a cycle late, and as it lets go late as much comes
-/// from nowhere: up to (omega dt)^2 / 4 of their energy each. Needles that lay on each other undamped rattled so by themselves, and six that fell gained up to
-/// half of the energy of the fall; now 0.7 % at most in 364 scenes at the same step.
+/// Why: a spring that closes amid a cycle acts up to a cycle late, and lets go up to a cycle late. With whole forces blocks lose K_N L |u"| u / 2 as it closes and
+/// gain as much as it opens, up to (omega dt)^2 / 4 of the energy. A force works over (u' - u") / 2 in a step (energy_ledger.h), so with this share the energy of
+/// the springs goes from K_N L u"+ u+ / 2 to K_N L u+ u'+ / 2, and nothing is lost or made. Figures: core/tried.md.
 ///
-/// Exact for a point by itself and for the two of a face. What other forces do is known from the last cycle only, and counts on the side that loses energy: as a
-/// spring closes, what they press together; as it opens, twice what they pull apart. (With all of it 4 of 184 scenes gained 1 to 2 %; with nothing, 7 up to 5 %;
-/// with nothing and 1.2 times the answer none, but twice the energy was lost.) Where the answer is more than the overlap, what presses counts too: else
-/// nothing could rest there.
+/// Exact for one point, and for the two points of a face. Other forces are estimated from the last cycle, biased so that the scheme dissipates: as a spring
+/// closes, what presses counts; as it opens, twice what pulls. Where the answer is more than the overlap what presses counts too; nothing could rest there
+/// otherwise.
 ///
-/// Not in the paper, whose figures of bounces by springs have the late hold: see Closing in regime.h.
+/// Not in the paper: see Closing in regime.h.
 /// @see verification/unit/core/contact/closing_test.cpp
 template <typename R>
 [[nodiscard]] inline R closing_share(const BasicOverlapCourse<R>& u)
@@ -64,7 +62,7 @@ template <typename P>
     return max(square(touch.point[0]), square(touch.point[1])) > P(speed * speed);
 }
 
-/// What closing asks of a touch, with overlaps as they press [m, m/s]. (By itself: where a whole touch is copied or handed on, g++ keeps it in memory wherever it is used.)
+/// What closing asks of a touch, with overlaps as they press [m, m/s]. (A struct of its own: a whole touch that is handed on stays in memory, not in registers.)
 template <typename P>
 struct ClosingTouch
 {
@@ -79,7 +77,7 @@ struct ClosingTouch
     return 4.0 * dt * dt;
 }
 
-/// Contacts that may close or open within a cycle: with a point that is fast enough to go as far as it overlaps, or gapes, in two cycles.
+/// Contacts that may close or open within a cycle: one of their points goes as far as it overlaps, or gapes, in two cycles.
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline MaskOf<P> may_close_or_open(const ClosingTouch<P>& touch, P ways)
 {

@@ -178,18 +178,18 @@ template <typename P>
     store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, &loads.use[i - loads.first]);
 }
 
-/// Ask for the memory of contacts that come later: processors see by themselves that ContactLanes follow each other, but too late. Where contacts are in no cache of a
-/// core's own a pass takes up to twice as long without (perf/measured.md).
+/// Ask for the memory of contacts that come later. Processors foresee that ContactLanes follow each other, but too late: without this a pass over contacts that no
+/// cache of a core holds takes up to twice as long (perf/measured.md).
 template <typename P>
 [[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, Index i, const PassNeeds& needs)
 {
     constexpr std::size_t always = offsetof(ContactLanes, moved_limit), group = sizeof(ContactLanes);
-    // From memory they come faster by way of the second cache: few lines can be on their way to the first one at a time.
+    // From memory they come faster into the second cache: few lines at a time can be on their way to the first one.
     constexpr Index near = 16, far = 32, beyond_caches = 100'000;
     const auto all = static_cast<Index>(contacts.stale.size());
     const bool is_far = all > beyond_caches;
     const Index at = std::min(i + (is_far ? far : near), all - P::width);
-    // (Not by a function for both: g++ takes one that only fetches for one without effect, and drops it.)
+    // (Not by one function for both: g++ drops a function that only fetches.)
     const char* const lane = reinterpret_cast<const char*>(&contacts.lane[at / lanes]);
     for (std::size_t g = 0; g < P::width / lanes * group; g += group)
     {

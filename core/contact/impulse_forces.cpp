@@ -3,6 +3,7 @@
 #include "core/contact/force_law.h"
 #include "core/contact/impulse_kick.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hdem
@@ -37,14 +38,15 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
 
 namespace
 {
-/// Slip at the joint's strength breaks it.
+/// A joint that slips, or is pulled, at its strength breaks.
 void break_at_strength(const Model& model, const ImpulsePoint& p, Contacts& contacts)
 {
     const Index law = contacts.law[p.contact];
     if (!model.joints.has_memory(law) || !model.joints.rows[law].is_bonded)
         return;
     constexpr double nearly = 1.0 - 1e-12;
-    if (std::abs(p.impulse_shear) < nearly * (p.impulse_normal * p.friction + p.cohesive_impulse))
+    const bool is_torn = p.pull > 0.0 && p.impulse_normal <= -nearly * p.pull;
+    if (!is_torn && std::abs(p.impulse_shear) < nearly * shear_limit(p, p.impulse_normal))
         return;
     MemoryLanes::Point& memory = contacts.memory_lane[p.contact / lanes].point[p.end];
     if (memory.broken[p.contact % lanes] < 0.5)
@@ -60,7 +62,7 @@ void store_impulses(const Model& model, const Blocks& blocks, const std::vector<
         break_at_strength(model, p, contacts);
         contacts.normal_force(p.end, p.contact) = p.impulse_normal / dt;
         contacts.shear_force(p.end, p.contact) = p.impulse_shear / dt;
-        const double kept = remaining_force(p.impulse_normal / dt, p.load_velocity, p.restitution, p.approach,
+        const double kept = remaining_force(std::max(p.impulse_normal, 0.0) / dt, p.load_velocity, p.restitution, p.approach,
                                             p.spring_force + p.mass_normal * p.load_velocity / dt);
         contacts.rest_overlap(p.end, p.contact) = first_rest_overlap(p.pressed, kept, p.stiffness);
     }

@@ -4,6 +4,8 @@
 #include "core/state/blocks.h"
 #include "core/state/workspace.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 /// Velocity of inc relative to ref at the point: along t, and along m (approaching > 0).
@@ -22,6 +24,12 @@ template <typename A, typename B>
 [[nodiscard]] inline PointVelocity relative_velocity(const ImpulsePoint& p, const BlockMotion& ref, const BlockMotion& inc)
 {
     return relative_velocity(p, inc.vx - ref.vx, inc.vy - ref.vy, ref, inc);
+}
+
+/// Greatest shear impulse that a point can bear [N s].
+[[nodiscard]] inline double shear_limit(const ImpulsePoint& point, double normal)
+{
+    return std::max(normal * point.friction + point.cohesive_impulse, 0.0);
 }
 
 /// Impulse (j_t, j_m) on inc and its opposite on ref, Eqs. (17), (18).

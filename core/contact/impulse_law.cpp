@@ -3,6 +3,7 @@
 #include "core/contact/impulse_kick.h"
 #include "core/contact/regime.h"
 #include "core/detection/edge_touch.h"
+#include "core/joint/impulse_strength.h"
 
 #include <algorithm>
 #include <array>
@@ -12,19 +13,25 @@ namespace hdem
 {
 namespace
 {
-/// Friction and cohesion under impulses; a broken point has residual ones.
-struct Grip
-{
-    double friction, cohesion;
-};
-
-Grip grip_of(const Model& model, const Contacts& contacts, Index contact, int end)
+ImpulseStrength strength_of(const Model& model, const Contacts& contacts, Index contact, int end)
 {
     const Index law = contacts.law[contact];
-    const CoulombSlip& joint = model.joints.laws[law];
-    if (model.joints.has_memory(law) && contacts.memory(end, contact).broken > 0.5)
-        return {model.joints.rows[law].residual_friction, model.joints.rows[law].residual_cohesion};
-    return {joint.friction_coefficient, joint.cohesion};
+    const CoulombSlip& slip = model.joints.laws[law];
+    if (!model.joints.has_memory(law))
+        return {slip.friction_coefficient, slip.cohesion, 0.0};
+    return impulse_strength(slip, model.joints.rows[law], contacts.memory(end, contact));
+}
+
+/// By which slip has opened a dilatant joint in the last cycle [m].
+double opened(const Model& model, const Contacts& contacts, Index contact, int end, double slide)
+{
+    const Index law = contacts.law[contact];
+    if (!model.joints.has_memory(law))
+        return 0.0;
+    JointMemory memory = contacts.memory(end, contact);
+    const double now = dilation_by_slip(model.joints.rows[law], memory);
+    memory.slip += slide;
+    return std::max(now - dilation_by_slip(model.joints.rows[law], memory), 0.0);
 }
 
 ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
@@ -54,21 +61,28 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
                         std::numeric_limits<double>::max());
     p.approach = at.v_m;
     p.restitution = joint.restitution;
-    const Grip grip = grip_of(model, contacts, contact, end);
+    const ImpulseStrength grip = strength_of(model, contacts, contact, end);
     p.friction = grip.friction;
-    p.cohesive_impulse = grip.cohesion * point_length(touch.length, contacts.length_floor(contact)) * dt;
-    const double preload = contacts.preload(end, contact) + contacts.opening(end, contact);
+    const double length = point_length(touch.length, contacts.length_floor(contact));
+    const double cohesive = grip.cohesion * length * dt;
+    p.pull = grip.tension * length * dt;
+    const double left = cohesive - grip.friction * p.pull;
+    p.cohesive_impulse = left > -1e-12 * cohesive ? std::max(left, 0.0) : left;  // c = T tan(phi) up to round-off
+    const double preload = contacts.preload(end, contact);
     p.overlap = at.overlap;
-    p.pressed = at.overlap + preload;
-    p.stiffness = joint.normal_stiffness * point_length(touch.length, contacts.length_floor(contact));
+    p.pressed = at.overlap + preload + contacts.opening(end, contact);
+    p.stiffness = joint.normal_stiffness * length;
     p.weight_velocity = model.gravity.norm() * dt;
     const double rest = contacts.rest_overlap(end, contact);
     p.spring_force = p.stiffness * (p.pressed - rest);
     const double size = std::min(model.size(p.ref), model.size(p.inc));
-    const double most = std::max(at.v_m, 0.0) * blocks.step.last + model.contact.correction_rate * size * blocks.step.next;
-    p.excess_overlap = std::min(rest - preload - model.contact.allowed_overlap, most);
-    p.impulse_normal = contacts.normal_force(end, contact) * dt;
-    p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * dt, p.impulse_normal * p.friction + p.cohesive_impulse);
+    const double most = std::max(at.v_m, 0.0) * blocks.step.last +
+                        opened(model, contacts, contact, end, at.v_t * blocks.step.last) +
+                        model.contact.correction_rate * size * blocks.step.next;
+    p.excess_overlap = std::min(rest - std::max(preload, 0.0) - model.contact.allowed_overlap,
+                                most);  // what is pulled is not pushed apart
+    p.impulse_normal = std::max(contacts.normal_force(end, contact) * dt + p.pull, 0.0);
+    p.impulse_shear = slip_limited(contacts.shear_force(end, contact) * dt, shear_limit(p, p.impulse_normal));
     return p;
 }
 
@@ -119,8 +133,14 @@ double solve_shear(ImpulsePoint& p, Blocks& blocks)
 {
     const double v_t = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).t;
     const double last = p.impulse_shear;
-    p.impulse_shear = slip_limited(last - p.mass_shear * v_t, p.impulse_normal * p.friction + p.cohesive_impulse);
+    p.impulse_shear = slip_limited(last - p.mass_shear * v_t, shear_limit(p, p.impulse_normal));
     return push(p, p.impulse_shear - last, 0.0, blocks);
+}
+
+/// J [N s]
+double pressing(const ImpulsePoint& p)
+{
+    return p.impulse_normal - p.pull;
 }
 
 /// Impulses times the velocities that they have still to take away [J]. With a share s of the impulses applied it is b - s c; what is left to be
@@ -131,7 +151,7 @@ double demand(const std::vector<ImpulsePoint>& points, const Blocks& blocks)
     for (const ImpulsePoint& p : points)
     {
         const PointVelocity v = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
-        sum += p.impulse_normal * (v.m - p.target) - p.impulse_shear * v.t;
+        sum += pressing(p) * (v.m - p.target) - p.impulse_shear * v.t;
     }
     return sum;
 }
@@ -144,7 +164,7 @@ double weight_demand(const std::vector<ImpulsePoint>& points)
 {
     double sum = 0.0;
     for (const ImpulsePoint& p : points)
-        sum += (p.impulse_normal + std::abs(p.impulse_shear)) * p.weight_velocity;
+        sum += (std::abs(pressing(p)) + std::abs(p.impulse_shear)) * p.weight_velocity;
     return sum;
 }
 
@@ -209,7 +229,7 @@ double rounded_demand(const std::vector<ImpulsePoint>& points)
     double sum = 0.0;
     for (const ImpulsePoint& p : points)
         if (p.mass_normal > 0.0)
-            sum += rounding * (p.impulse_normal * p.impulse_normal + p.impulse_shear * p.impulse_shear) / p.mass_normal;
+            sum += rounding * (pressing(p) * pressing(p) + p.impulse_shear * p.impulse_shear) / p.mass_normal;
     return sum;
 }
 }  // namespace
@@ -221,7 +241,7 @@ double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool
         before += demand(*points, blocks);
     for (auto* points : lists)
         for (ImpulsePoint& p : *points)
-            loss += push(p, p.impulse_shear, -p.impulse_normal, blocks);
+            loss += push(p, p.impulse_shear, -pressing(p), blocks);
     for (const auto* points : lists)
     {
         after += demand(*points, blocks);
@@ -233,9 +253,9 @@ double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool
     for (auto* points : lists)
         for (ImpulsePoint& p : *points)
         {
-            loss += push(p, (share - 1.0) * p.impulse_shear, (1.0 - share) * p.impulse_normal, blocks);
+            loss += push(p, (share - 1.0) * p.impulse_shear, (1.0 - share) * pressing(p), blocks);
             p.impulse_shear *= share;
-            p.impulse_normal *= share;
+            p.impulse_normal = p.pull + share * pressing(p);
         }
     return loss;
 }
@@ -266,5 +286,14 @@ double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks)
         loss += solve_shear(p, blocks);
     }
     return loss;
+}
+
+void count_from_zero(std::vector<ImpulsePoint>& points)
+{
+    for (ImpulsePoint& p : points)
+    {
+        p.impulse_normal -= p.pull;
+        p.cohesive_impulse += p.friction * p.pull;
+    }
 }
 }  // namespace hdem

@@ -292,7 +292,9 @@ IslandProblem InteriorPoint::solve(double goal)
 
 IslandProblem solve_all_at_once(const IslandProblem& problem, double goal)
 {
-    IslandProblem best = InteriorPoint(problem).solve(goal);
+    // A joint that bears more tension than its cohesion allows for has no whole cone of friction.
+    const bool has_cones = std::ranges::none_of(problem.points, [](const ImpulsePoint& p) { return p.cohesive_impulse < 0.0; });
+    IslandProblem best = has_cones ? InteriorPoint(problem).solve(goal) : problem;
     double least = best.error();
     double milestone = least;
     IslandProblem next = problem;

@@ -17,12 +17,6 @@ namespace hdem
 /// whichever is greater; 0: a sweep would not change the point's impulses.
 [[nodiscard]] double law_error(const ImpulsePoint& point, const PointVelocity& velocity);
 
-/// Greatest shear impulse that a point can bear [N s].
-[[nodiscard]] inline double shear_limit(const ImpulsePoint& point, double normal)
-{
-    return normal * point.friction + point.cohesive_impulse;
-}
-
 /// Points that share blocks, and their blocks.
 struct IslandProblem
 {

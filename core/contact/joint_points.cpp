@@ -83,6 +83,14 @@ Memory load(const MemoryLanes::Point& m)
 /// Forces of a point that nothing moves may differ by so much of their size: round-off.
 constexpr double round_off = 1e-13;
 
+/// Impulses know no stress normal to the joint: of dilation they give what follows from slip alone.
+Mask dilating_by_slip(const RowLanes& rows, Mask held)
+{
+    for (int i = 0; i < lanes; ++i)
+        held.v[i] = rows.kind[i] == kind_of<CoulombResidual>() ? held.v[i] : 0;
+    return held;
+}
+
 /// What remains of the state before: lanes that this cycle changes are stored, the others stay as they were.
 template <bool has_all_lanes>
 [[gnu::always_inline]] inline void put(Mask changed, ContactLanes::Lane& lane, Pack value)
@@ -154,6 +162,8 @@ template <typename React>
     }
     // What a joint slides by impulses is slip too.
     after.slip = select(held, before.slip - slide, after.slip);
+    if (any(held))
+        after.opening = select(dilating_by_slip(rows, held), CoulombResidual::opening(rows.numbers, after), after.opening);
     const Mask changed = spring | held;
     const Pack opening = select(changed, after.opening, before.opening);
     put<false>(changed, m.slip, after.slip);

@@ -85,6 +85,21 @@ struct CoulombResidual
         return (way[0] + way[1]) + (way[2] + way[3]);
     }
 
+    /// tan psi: of a joint that is as drawn, or broke where it was drawn.
+    template <typename R>
+    [[nodiscard]] static R dilation_now(const BasicJointNumbers<R>& n, const BasicJointMemory<R>& m)
+    {
+        const R half = 0.5;
+        return select((m.broken < half) | (m.state > half), n[dilation], R(0.0));
+    }
+
+    /// w
+    template <typename R>
+    [[nodiscard]] static R opening(const BasicJointNumbers<R>& n, const BasicJointMemory<R>& m)
+    {
+        return dilation_now(n, m) * min(magnitude(m.slip), n[dilation_limit]);
+    }
+
     [[nodiscard]] static double peak_strength(const JointNumbers& n, double stress)
     {
         return max(n[cohesion] + stress * n[friction], 0.0);
@@ -120,7 +135,7 @@ struct CoulombResidual
     {
         const R zero = 0.0, one = 1.0, half = 0.5, k = n[shear_stiffness], limit = n[dilation_limit];
         const auto intact = m.broken < half;
-        const R d = select(intact | (m.state > half), n[dilation], zero);
+        const R d = dilation_now(n, m);
         const R w = d * min(magnitude(m.slip), limit);
         const R trial = step.last_shear - k * step.slide, sign = direction_of(trial);
 

@@ -49,7 +49,7 @@ void add_points(const Model& model, const State& state, const std::vector<Index>
         const bool is_closed = contacts.regime[k][contact] != static_cast<std::uint8_t>(Regime::open);
         if (!is_closed && (touch.length <= 0.0 || p.overlap < -floor))
             continue;
-        ForcePoint point{.block = {ref, inc}};
+        ForcePoint point{.block = {ref, inc}, .is_open = !is_closed};
         for (int side = 0; side < 2; ++side)
         {
             const Index block = point.block[side];
@@ -88,6 +88,19 @@ std::vector<ForcePoint> force_points(const Model& model, const State& state, con
     for (const auto& [numbers, contact] : order)
         add_points(model, state, kept, corners_bear, contact, points);
     return points;
+}
+
+double open_share_of_cohesion(const Model& model, const State& state, const std::vector<Index>& users)
+{
+    const auto is_one = [&](Index block) { return std::ranges::count(users, model.user_number[block]) > 0; };
+    double all = 0.0, open = 0.0;
+    for (const ForcePoint& point : force_points(model, state, {}, true))
+        if (is_one(point.block[0]) != is_one(point.block[1]))
+        {
+            all += point.strength.cohesion;
+            open += point.is_open ? point.strength.cohesion : 0.0;
+        }
+    return all > 0.0 ? open / all : 0.0;
 }
 
 std::vector<Triple> loads_to_balance(const Model& model, const State& state)

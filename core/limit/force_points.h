@@ -32,6 +32,7 @@ struct ForcePoint
     std::array<std::array<double, 3>, 2> normal;  ///< on each block: force and moment over radius of N = 1
     std::array<std::array<double, 3>, 2> shear;
     PointStrength strength;
+    bool is_open = false;                   ///< by less than the least contact length: it bears nothing now
     std::array<int, 3> column{-1, -1, -1};  ///< of the program that it is part of
 };
 
@@ -40,6 +41,10 @@ struct ForcePoint
 /// @param corners_bear  contacts no longer than the length floor count too
 [[nodiscard]] std::vector<ForcePoint> force_points(const Model& model, const State& state, const std::vector<Index>& kept,
                                                    bool corners_bear);
+
+/// Share of the cohesion of these blocks on all others that is that of open points: limit analysis counts it, and what is open does not have it [-].
+/// @param users  the user's numbers
+[[nodiscard]] double open_share_of_cohesion(const Model& model, const State& state, const std::vector<Index>& users);
 
 /// Weight, loads as they act now, and tractions on each block: forces, and the moment over the block's radius [N].
 [[nodiscard]] std::vector<Triple> loads_to_balance(const Model& model, const State& state);

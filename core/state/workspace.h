@@ -92,9 +92,10 @@ struct ImpulsePoint
     double stiffness = 0.0;         ///< K_N L of the point, for the spring that follows [N/m]
     double spring_force = 0.0;      ///< with which its spring would have begun before this cycle [N]
     double friction = 0.0;          ///< tan phi [-]
-    double cohesive_impulse = 0.0;  ///< c L dt [N s]
+    double cohesive_impulse = 0.0;  ///< c L dt, less tan(phi) times `pull` while the impulses are counted from it [N s]
+    double pull = 0.0;              ///< T L dt, the greatest pull that the joint bears [N s]
     double excess_overlap = 0.0;    ///< to be corrected; negative: what the correction of others may press together [m]
-    double impulse_normal = 0.0;    ///< J >= 0 [N s]
+    double impulse_normal = 0.0;    ///< J + pull >= 0 from collect_impulse_points on, J from count_from_zero on [N s]
     double impulse_shear = 0.0;     ///< [N s]
     double correction = 0.0;        ///< pseudo impulse of the position correction [N s]
 };
@@ -113,6 +114,7 @@ struct BlockPush
     Triple force;          ///< [N], moment about the centroid [N m]
     Triple velocity;       ///< [m/s], [rad/s]
     double reserve = 0.0;  ///< strength of the bolt not in use [N]
+    bool damps = false;    ///< it takes energy, and is no force of the bolt
 };
 
 struct Workspace

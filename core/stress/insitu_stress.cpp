@@ -15,9 +15,13 @@ namespace hdem
 {
 StressDef stress_at(const InsituField& field, double y)
 {
-    const double way = y - field.reference;
-    if (field.ends_at_reference && way > 0.0)
+    constexpr double same_height =
+        1e-3;  // [m] the ground and the rock's upper side are typed with a few digits, and the horizontal part may end there with a jump
+    double way = y - field.reference;
+    if (field.ends_at_reference && way > same_height)
         return {};
+    if (field.ends_at_reference)
+        way = std::min(way, 0.0);
     return {field.stress.xx + field.gradient.xx * way, field.stress.yy + field.gradient.yy * way,
             field.stress.xy + field.gradient.xy * way};
 }

@@ -12,7 +12,7 @@ namespace hdem
 /// sigma(y) of [insitu] at a height, tension positive [Pa].
 ///
 ///   sigma = stress + gradient (y - reference)
-///   sigma_yy = rho g (y - surface),  sigma_xx = ratio sigma_yy - ratio_offset,  0 above the surface
+///   sigma_yy = rho g (y - surface),  sigma_xx = ratio sigma_yy - ratio_offset,  0 above the surface (a millimetre above it is the surface still)
 ///
 /// @param y  in the model's local coordinates [m]
 [[nodiscard]] StressDef stress_at(const InsituField& field, double y);

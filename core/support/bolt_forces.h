@@ -26,7 +26,15 @@ namespace hdem
 bool install_bolts(const Model& model, State& state);
 
 /// Their forces in this cycle, in the order of the bolts, with the velocities before the step; what slips, yields and ruptures.
-void pull_bolts(const Model& model, State& state, std::vector<BlockPush>& pushes);
+///
+/// A block on a bolt that touches others by impulses has no other damping of its swinging along the bolt. There the links are damped by
+///
+///   c = 2 damping (K m / n)^1/2        K stiffness of the link   m collision mass of its two blocks along it   n links at the block that has most
+///
+/// times the speed at which its ends part. Both blocks get opposite forces, so that momentum is kept: blocks that slide or fall together are not held. With the
+/// damping the bolt pulls no less than 0 and no more than its strength. What it takes is booked as local damping.
+/// @param damping  share of the critical one; 0: none
+void pull_bolts(const Model& model, State& state, double damping, std::vector<BlockPush>& pushes);
 
 /// Before loads are added: forget the forces of the last cycle.
 void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external);

@@ -35,6 +35,19 @@ struct LinerMemory
     return static_cast<Index>(1 + 6 * liner.nodes.size() + numbers * liner.segments.size());
 }
 
+/// Displacements and velocities of its nodes, to look at.
+struct LinerNodes
+{
+    std::span<const double> moved, velocity;
+};
+
+[[nodiscard]] inline LinerNodes liner_nodes_of(const Liner& liner, const std::vector<double>& history)
+{
+    const double* at = history.data() + liner.history;
+    const std::size_t n = 3 * liner.nodes.size();
+    return {{at + 1, n}, {at + 1 + n, n}};
+}
+
 [[nodiscard]] inline LinerMemory liner_memory(const Liner& liner, std::vector<double>& history)
 {
     double* at = history.data() + liner.history;

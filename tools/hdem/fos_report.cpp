@@ -1,5 +1,6 @@
 #include "tools/hdem/fos_report.h"
 
+#include "core/limit/force_points.h"
 #include "core/stage/rules.h"
 #include "core/support/bolt_strength.h"
 #include "io/atomic_file.h"
@@ -166,6 +167,13 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             "crushed here; rock can. Cut a notch where a tip stands on another plane (hdem plot shows it), or count on the lower "
             "number.",
             *outcome.without_corners));
+    if (const Trial* const first = f.first_failure();
+        first != nullptr && outcome.bound.end == StrengthBound::End::found && first->factor < 0.95 * outcome.bound.factor)
+        if (const double open = open_share_of_cohesion(reference.model, reference.state, first->failing); open > 0.01)
+            warnings.push_back(fmt::format(
+                "{:.0f} % of the cohesion of what fails lies where its joints are open before the trials, as in rock that settled "
+                "unevenly. The bound of limit analysis ({:.4f}) counts it, the factor does not.",
+                100.0 * open, outcome.bound.factor));
     std::vector<std::string> endless;
     for (const Bolt& bolt : reference.model.support.bolts)
         if (bears_any_force(bolt))

@@ -94,7 +94,12 @@ void print_liners(Log& log, const std::vector<LinerSummary>& liners)
         else
             log.line(fmt::format("  {:<16} not installed", l.name));
     for (const LinerSummary& l : liners)
-        if (l.is_far)
+        if (l.is_off)
+            log.line(
+                fmt::format("warning: liner \"{}\" has come off the rock along all of its length, and falls. The end of a stage is "
+                            "that of the rock without it.",
+                            l.name));
+        else if (l.is_far)
             log.line(fmt::format(
                 "warning: liner \"{}\" has moved by {:.3g} m, more than its thickness: its forces hold for small displacements. "
                 "It has failed, or the rock behind it has.",

@@ -76,7 +76,7 @@ std::vector<BlockBalance> balances(const Model& model, State state)
             all[contact.first].joints -= on_second;
         }
     std::vector<BlockPush> pushes;
-    pull_bolts(model, state, pushes);
+    pull_bolts(model, state, 0.0, pushes);
     for (const BlockPush& push : pushes)
         all[push.block].bolts += Vec2(push.force.x, push.force.y);
     return all;

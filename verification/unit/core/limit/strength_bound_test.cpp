@@ -1,3 +1,4 @@
+#include "core/limit/force_points.h"
 #include "core/limit/linear_program.h"
 #include "core/limit/strength_bound.h"
 #include "io/case_reader.h"
@@ -139,6 +140,44 @@ TEST(StrengthBound, WithoutCornersIsThatOfFaces)
     run.advance(3000);
     const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
     EXPECT_EQ(strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole).factor, whole.factor);
+}
+
+/// The middle of three pads is a tenth of a millimetre lower: a quarter of the slab lies over it.
+TEST(ForcePoints, KnowWhatCohesionIsThatOfOpenJoints)
+{
+    const std::string pads = R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+friction_angle_deg = 30.0
+cohesion = 1e5
+[contact]
+method = "force"
+[[block]]
+name = "left"
+polygon = [[-1, -1], [1.5, -1], [1.5, 0], [-1, 0]]
+fixed = true
+[[block]]
+name = "low"
+polygon = [[1.5, -1], [2.5, -1], [2.5, -0.0001], [1.5, -0.0001]]
+fixed = true
+[[block]]
+name = "right"
+polygon = [[2.5, -1], [5, -1], [5, 0], [2.5, 0]]
+fixed = true
+[[block]]
+name = "slab"
+polygon = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[stage]]
+cycles = 1000
+)";
+    test::CaseRun run(read_case_text(pads, "case.toml").def);
+    run.advance(1000);
+    const std::vector<Index> slab{run.model().user_number[run.slot("slab")]};
+    EXPECT_NEAR(open_share_of_cohesion(run.model(), run.state(), slab), 0.25, 1e-9);
+    EXPECT_EQ(open_share_of_cohesion(run.model(), run.state(), {}), 0.0);
 }
 
 TEST(StrengthBound, LoadsCount)

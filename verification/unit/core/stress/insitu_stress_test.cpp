@@ -114,6 +114,19 @@ TEST(InsituStress, LeavesRockUnderTheGroundWhereItIsDrawn)
     expect_nothing_moves(scene);
 }
 
+/// A ground whose height is typed with fewer digits than the rock's upper side: the horizontal part does not end below that side.
+TEST(InsituStress, EndsAtTheGroundUpToAMillimetre)
+{
+    for (const double below : {0.0, 1e-5, 9e-4})
+    {
+        CaseDef scene = rock({25.0, -55.0, 90.0}, {.surface = 14.0 - below, .ratio = 1.5, .ratio_offset = 1e6});
+        scene.gravity = {0.0, -9.81};
+        scene.domain.fixed = {"left", "right", "bottom"};
+        const CaseRun run(scene);
+        EXPECT_LT(summarise_insitu(run.model(), run.state()).unbalance, 1e-12 + 10.0 * below) << below;
+    }
+}
+
 /// Between joints of almost the same dip lie slivers: a side beside the tip of one bends by their angle, and the flat one of its two pieces bears, not the longer one.
 TEST(InsituStress, IsBorneBesideTheTipsOfSlivers)
 {

@@ -4,11 +4,15 @@
 #include "io/case_reader.h"
 #include "io/frame_writer.h"
 #include "io/hdf5_reader.h"
+#include "parallel/stages.h"
 #include "parallel/strength_trial.h"
 #include "verification/unit/case_run.h"
 #include "verification/unit/small_run.h"
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
+
+#include <numbers>
 
 namespace hdem
 {
@@ -64,6 +68,34 @@ TEST(Bolts, KeepMomentumAndTheEnergyLedger)
     }
 }
 
+/// Let go between two walls that do not press it: impulses leave the block no damping of its own.
+TEST(Bolts, SwingsOfABlockByImpulsesDieAway)
+{
+    for (const double angle : {0.0, 23.0})
+    {
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "left", scenes::rectangle({-1, -1}, {0, 2}));
+        scenes::add_fixed_block(scene, "right", scenes::rectangle({1, -1}, {2, 2}));
+        scenes::add_fixed_block(scene, "roof", scenes::rectangle({0, 3}, {1, 4}));
+        scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+        scene.contact.method = Method::impulse;
+        scene = scenes::turned(scene, angle);
+        const Eigen::Rotation2D<double> turn(angle * std::numbers::pi / 180.0);
+        scene.bolts = {{.name = "bolt", .kind = BoltKind::anchored, .from = turn * Vec2(0.5, 3.5), .to = turn * Vec2(0.5, 0.5)}};
+        scene.bolts[0].area = 1e-4;
+        scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 300'000}};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+        const std::vector<StageResult> results = run_stages(simulation, {});
+        EXPECT_TRUE(results[0].at_rest) << angle;
+        const double weight = 2700.0 * 9.81;
+        EXPECT_NEAR(simulation.state().support.bolts[0].force, weight, 1e-3 * weight);
+        const EnergyLedger& ledger = simulation.state().ledger;
+        EXPECT_GT(ledger.local_damping, 0.0);
+        EXPECT_LT(std::abs(relative_residual(ledger, stored_energy(simulation.model(), simulation.state()))), 1e-6);
+    }
+}
+
 TEST(Bolts, HaveNoForceWhenInstalledButTheirPretension)
 {
     CaseDef scene = flying_pair(bolt_of(BoltKind::anchored));
@@ -80,7 +112,7 @@ TEST(Bolts, HaveNoForceWhenInstalledButTheirPretension)
     EXPECT_DOUBLE_EQ(run.state().support.bolts[0].force, 250.0);
     State state = run.state();
     std::vector<BlockPush> pushes;
-    pull_bolts(run.model(), state, pushes);
+    pull_bolts(run.model(), state, 0.0, pushes);
     EXPECT_NEAR(state.support.bolts[0].force, 250.0, 1e-6);
     ASSERT_EQ(pushes.size(), 2u);
     EXPECT_NEAR(std::hypot(pushes[0].force.x, pushes[0].force.y), 250.0, 1e-6);

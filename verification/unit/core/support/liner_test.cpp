@@ -1,6 +1,7 @@
 #include "core/support/bolt_link.h"
 #include "core/support/liner_beam.h"
 #include "core/support/liner_forces.h"
+#include "core/support/liner_rest.h"
 #include "io/frame_writer.h"
 #include "io/hdf5_reader.h"
 #include "parallel/stages.h"
@@ -189,6 +190,37 @@ TEST(Liners, HangByABondThatBearsTheirWeight)
     EXPECT_NEAR(falls.state().support.liners[0].parted, 2.0, 1e-9);
     EXPECT_LT(holds.state().support.liners[0].displacement, 1e-3);
     EXPECT_GT(falls.state().support.liners[0].displacement, 3e-2) << "when the stone is at rest";
+}
+
+/// An arc that begins at a corner leaves a piece of round-off before it.
+TEST(Liners, HaveNoBeamOfRoundOff)
+{
+    CaseDef scene = hanging(1e3);
+    scene.liners[0].path = {{1.0, 0.0}, {1.0 - 1e-14, 0.0}, {-1.0, 0.0}, {-1.0, 1e-15}};
+    CaseRun run(scene);
+    for (const LinerSegment& segment : run.model().support.liners[0].segments)
+        EXPECT_GT(segment.length, 0.01);
+    run_all(run);
+    const double sag = run.model().support.liners[0].mass * 9.81 / 1e8;
+    EXPECT_NEAR(run.state().support.liners[0].displacement, sag, 1e-3 * sag);
+}
+
+/// A stage that seeks rest waits for one that still hangs on the rock, not for one that falls.
+TEST(Liners, AreWaitedForWhileTheyMove)
+{
+    CaseRun holds(hanging(1.05)), falls(hanging(0.95));
+    const double speed = 1e-7;
+    const auto is_off = [](const CaseRun& run)
+    { return has_come_off(run.model().support.liners[0], run.state().support.liners[0], run.state().blocks); };
+    holds.simulation.begin_stage(0);
+    holds.advance(300);
+    EXPECT_TRUE(liners_move(holds.model(), holds.state(), speed)) << "its weight grows";
+    run_all(holds);
+    EXPECT_FALSE(liners_move(holds.model(), holds.state(), speed));
+    EXPECT_FALSE(is_off(holds));
+    run_all(falls);
+    EXPECT_TRUE(is_off(falls));
+    EXPECT_FALSE(liners_move(falls.model(), falls.state(), speed));
 }
 
 TEST(Liners, AreWaitedForWhileTheirPressureGrows)

@@ -1,0 +1,22 @@
+#pragma once
+/// What impulses ask of a joint: how much it bears, and how far its slip has opened it.
+
+#include "core/joint/coulomb_slip.h"
+#include "core/joint/joint_row.h"
+
+namespace hdem
+{
+/// Strength of a point under impulses, which know no stiffness: |tau| <= c + sigma tan(phi), sigma >= -T.
+struct ImpulseStrength
+{
+    double friction = 0.0;  ///< tan phi [-]
+    double cohesion = 0.0;  ///< c [Pa]
+    double tension = 0.0;   ///< T [Pa]
+};
+
+/// Of a point with this memory: a broken one has its residual strength. Laws with roughness have their basic friction.
+[[nodiscard]] ImpulseStrength impulse_strength(const CoulombSlip& slip, const JointRow& row, const JointMemory& memory);
+
+/// By how much slip has opened the joint, where that follows from the slip alone (coulomb); else 0 [m].
+[[nodiscard]] double dilation_by_slip(const JointRow& row, const JointMemory& memory);
+}  // namespace hdem

@@ -1,0 +1,98 @@
+/// Joints with tension and dilation under impulses.
+
+#include "core/energy_ledger.h"
+#include "verification/unit/core/boundary/sides.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+
+constexpr double g = 9.81, weight = 2700.0 * g;
+
+/// A block of 1 m below a roof.
+CaseDef hung(double tension, double residual = 0.0)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "roof", scenes::rectangle({-1, 1}, {2, 2}));
+    scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+    scene.contact.method = Method::impulse;
+    scene.joints[0].cohesion = 1e6;
+    scene.joints[0].tension = tension;
+    scene.joints[0].residual_tension = residual;
+    return scene;
+}
+
+TEST(JointImpulses, BearTensionThatIsThereFromTheStart)
+{
+    CaseDef scene = hung(50e3);
+    scene.insitu = {.given = true, .stress = StressDef{}, .gradient = {0.0, weight, 0.0}};
+    CaseRun run(scene);
+    run.advance(5000);
+    EXPECT_LT(run.displacement("block").norm(), 1e-12);
+    EXPECT_NEAR(run.forces_between("roof", "block").x(), -weight, 1e-9 * weight);
+}
+
+TEST(JointImpulses, BearTension)
+{
+    for (const double angle : {0.0, 23.0, 90.0})
+        for (const CaseDef& scene : {hung(50e3), hung(1.01 * weight)})
+        {
+            CaseRun run(scenes::mirrored(scenes::turned(scene, angle)));
+            run.advance(5000);
+            EXPECT_LT(run.displacement("block").norm(), 1e-9) << angle;
+            EXPECT_NEAR(run.forces_between("roof", "block").x(), -weight, 1e-6 * weight) << angle;
+        }
+    CaseRun falls(hung(0.99 * weight));
+    falls.advance(5000);
+    const double time = falls.state().time;
+    EXPECT_NEAR(falls.displacement("block").y(), -0.5 * g * time * time, 0.01 * g * time * time);
+}
+
+/// Pulled with 30 kN for a moment. Residual tension acts up to half of the skin.
+TEST(JointImpulses, AreLeftWithResidualTensionOnceTorn)
+{
+    const auto moved = [](double residual)
+    {
+        CaseDef scene = hung(50e3, residual);
+        scene.loads = {{.blocks = {"block"}, .force = {0.0, -30e3}, .interval = {.from_cycle = 100, .until_cycle = 400}}};
+        CaseRun run(scene);
+        run.advance(10'000);
+        EXPECT_LT(test::ledger_residual(run), 1e-6);
+        return run.displacement("block").norm();
+    };
+    EXPECT_GT(moved(0.9 * weight), 0.5);
+    EXPECT_LT(moved(1.3 * weight), 0.1);
+}
+
+/// The joint opens by tan psi times its slip, up to the limit, and a block that is pushed over it keeps its speed but for friction.
+TEST(JointImpulses, DilateByTheirSlip)
+{
+    CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+    scene.contact.method = Method::impulse;
+    scene.joints[0].friction_angle_deg = 30.0;
+    scene.joints[0].dilation_angle_deg = 10.0;
+    scene.joints[0].dilation_limit = 0.02;
+    scene.blocks.back().velocity = {0.5, 0.0};
+    for (const double angle : {0.0, 23.0})
+    {
+        CaseRun run(scenes::turned(scene, angle));
+        const Eigen::Rotation2D<double> back(-angle * std::numbers::pi / 180.0);
+        const auto moved = [&] { return Vec2(back * run.displacement("block")); };
+        while (moved().x() < 0.01 && run.state().cycle < 10'000)
+            run.advance();
+        const double rise = 0.5 * std::tan(std::numbers::pi / 18.0) * run.state().blocks.step.last;  // in a cycle
+        EXPECT_NEAR(moved().y(), std::tan(std::numbers::pi / 18.0) * moved().x(), 2.0 * rise);
+        run.advance(10'000);
+        EXPECT_NEAR(moved().y(), std::tan(std::numbers::pi / 18.0) * 0.02, 1e-5);
+        EXPECT_NEAR(moved().x(), 0.25 / (2.0 * g * std::tan(std::numbers::pi / 6.0)), 0.01 * 0.022);
+    }
+}
+}  // namespace
+}  // namespace hdem
