@@ -129,12 +129,15 @@ class CheckedFile:
                 dataset.read(h5py.h5s.ALL, h5py.h5s.ALL, values)
             return values
 
-    def texts(self, path, count=ANY):
+    def texts(self, path, count=ANY, most=None):
+        """A list of texts, of at most this many bytes in all."""
         dataset = self._object(path, h5py.h5d.DatasetID, "dataset")
         with self._reading(path):
             stored_type, shape = dataset.get_type(), self._shape(path, dataset.get_space(), (count,))
             self._check_text(path, stored_type)
             self._check_storage(path, dataset, shape, stored_type.get_size())
+            if most is not None and shape[0] * stored_type.get_size() > most:
+                self.fail(path, f"{shape[0]} texts of {stored_type.get_size()} bytes: too large, hdem writes at most {most} bytes")
             values = np.empty(shape, f"S{stored_type.get_size()}")
             if values.size:
                 dataset.read(h5py.h5s.ALL, h5py.h5s.ALL, values, stored_type)

@@ -33,6 +33,7 @@ Frame = namedtuple("Frame", "number cycle time stage")
 PROVENANCE = {"hdem_version": "text", "git_commit": "text", "git_dirty": "u1", "compiler": "text", "flags": "text", "build_type": "text", "cpu": "text",
               "hostname": "text", "threads": "i8", "seed": "u8", "begin": "text", "end": "text", "case_file": "text", "case_sha256": "text"}
 PROVENANCE_LISTS = ("overrides", "command_line", "environment")
+MOST_PROVENANCE = 1 << 26    # bytes: a case file has at most 16 000 000
 ENERGIES = ("kinetic_energy", "unbalanced_force_ratio", "greatest_speed", "residual")    # all others may be missing in older files
 LATEST = 1e15    # s, thirty million years
 LARGEST_SUMMARY = 1 << 26    # bytes
@@ -195,10 +196,9 @@ class Run:
         """Program, machine, case and command as a dict; case_text is the whole case file."""
         with self._results() as results:
             found = results.attributes("provenance", PROVENANCE)
-            found.update({name: results.texts(f"provenance/{name}") for name in PROVENANCE_LISTS})
-            if results.has("provenance/restarts"):
-                found["restarts"] = results.texts("provenance/restarts")
-            found["case_text"] = "".join(results.texts("provenance/case_text"))
+            lists = [*PROVENANCE_LISTS, "case_text", *(["restarts"] if results.has("provenance/restarts") else [])]
+            found.update({name: results.texts(f"provenance/{name}", most=MOST_PROVENANCE) for name in lists})
+            found["case_text"] = "".join(found["case_text"])
             return found
 
 

@@ -93,6 +93,14 @@ class DamagedFiles(unittest.TestCase):
         file = self.changed(FRAME, self.replaced("hdem/names", (3,), "S2000000000", chunks=(1,)))
         self.refused(lambda: hdem_io.read_blocks(file), "hdem/names", "too large")
 
+    def test_texts_that_pack_well_take_no_memory(self):
+        file = self.changed("results.h5", self.replaced("provenance/case_text", (1 << 20,), "S1564", chunks=(128,), compression=1,
+                                                        data=np.zeros(1 << 20, "S1564")))
+        reads = f"import sys; sys.path.insert(0, {str(TOOLS)!r}); import hdem_io; hdem_io.open_run({str(file)!r}).provenance()"
+        done = subprocess.run([sys.executable, "-c", reads], capture_output=True, text=True, check=False,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30)))
+        self.assertRegex(done.stderr.splitlines()[-1], "ResultError: .*case_text: .*too large")
+
     def test_chunk_that_claims_more_than_the_file_is_not_asked_for(self):
         file = self.folder / FRAME
         with h5py.File(file) as opened:
