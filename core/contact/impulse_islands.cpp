@@ -15,9 +15,11 @@ namespace hdem
 {
 namespace
 {
-/// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves.
-constexpr double noticeable = 1e-3;
-constexpr double solved = 1e-5;
+/// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves of that.
+constexpr double left_by_sweeps = 1e-3;
+constexpr double solved = 1e-2;
+/// The same where rest is looked for, as a share of what a block at rest may be out of balance by: more, and the stage would wait for what nobody solves.
+constexpr double left_at_rest = 0.3;
 /// Of the overlap to be taken back, and of the one that is allowed.
 constexpr double noticeable_overlap = 1e-2;
 /// Of the greatest velocity: what rounding leaves to a block of a millionth of the mass of those that press it.
@@ -31,11 +33,18 @@ constexpr double worth = 3.0;
 /// What a larger cluster gets, times the sweeps of a cycle.
 constexpr int more_sweeps = 10;
 
-double velocity_scale(const ImpulsePoint& p, const Blocks& blocks)
+double noticeable(const Model& model, ExactIslands which)
+{
+    return which == ExactIslands::small ? std::min(left_by_sweeps, left_at_rest * model.convergence.block_unbalanced_ratio)
+                                        : left_by_sweeps;
+}
+
+/// Least error of a velocity at the point that counts [m/s].
+double velocity_limit(double share, const ImpulsePoint& p, const Blocks& blocks)
 {
     const auto speed = [](const BlockMotion& m) { return std::abs(m.vx) + std::abs(m.vy); };
-    return p.load_velocity + std::max(0.0, p.approach) +
-           rounding / noticeable * (speed(blocks.motion[p.ref]) + speed(blocks.motion[p.inc]));
+    return share * (p.load_velocity + std::max(0.0, p.approach)) +
+           rounding * (speed(blocks.motion[p.ref]) + speed(blocks.motion[p.inc]));
 }
 
 double correction_scale(const Model& model, const Steps& step, const ImpulsePoint& p)
@@ -80,18 +89,18 @@ MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& bloc
     return range;
 }
 
-bool are_unsolved(const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
                   const std::vector<Triple>& pseudo)
 {
-    double scale = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
+    double limit = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
     for (const ImpulsePoint& p : points)
     {
-        scale = std::max(scale, velocity_scale(p, blocks));
+        limit = std::max(limit, velocity_limit(noticeable(model, which), p, blocks));
         error = std::max(error, impulse_error(p, blocks));
         pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
         pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
     }
-    return error > noticeable * scale || pseudo_error > noticeable_overlap * pseudo_scale;
+    return error > limit || pseudo_error > noticeable_overlap * pseudo_scale;
 }
 
 Index IslandFinder::root(Index block)
@@ -224,13 +233,13 @@ std::vector<Cluster> cut(const Model& model, const Island& island, const Blocks&
 
 /// More sweeps over a cluster, until they have left as little as needs no solution.
 /// @return as of sweep_impulses [J]
-double sweep_more(const Model& model, Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
+double sweep_more(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
 {
     double loss = 0.0;
     std::vector<ImpulsePoint> points;
     for (const ImpulsePoint* p : cluster.points)
         points.push_back(*p);
-    for (int round = 0; round < more_sweeps && are_unsolved(model, points, blocks, pseudo); ++round)
+    for (int round = 0; round < more_sweeps && are_unsolved(model, which, points, blocks, pseudo); ++round)
         for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         {
             loss += sweep_impulses(points, blocks);
@@ -242,19 +251,19 @@ double sweep_more(const Model& model, Blocks& blocks, std::vector<Triple>& pseud
 }
 
 /// @return as of sweep_impulses [J]
-double solve_velocities(Blocks& blocks, const Cluster& cluster)
+double solve_velocities(double share, Blocks& blocks, const Cluster& cluster)
 {
-    double scale = 0.0, error = 0.0;
+    double limit = 0.0, error = 0.0;
     for (const ImpulsePoint* p : cluster.points)
     {
-        scale = std::max(scale, velocity_scale(*p, blocks));
+        limit = std::max(limit, velocity_limit(share, *p, blocks));
         error = std::max(error, impulse_error(*p, blocks));
     }
-    if (error <= std::max(noticeable * scale, worth * cluster.outside))
+    if (error <= std::max(limit, worth * cluster.outside))
         return 0.0;
     const auto velocity = [&](Index b) { return Triple{blocks.motion[b].vx, blocks.motion[b].vy, blocks.motion[b].w}; };
     const IslandCopy copy(cluster.points, blocks, velocity, [](const ImpulsePoint& p) { return p; });
-    const IslandProblem found = solve_all_at_once(copy.problem, std::max(solved * scale, 0.01 * cluster.outside));
+    const IslandProblem found = solve_all_at_once(copy.problem, std::max(solved * limit, 0.01 * cluster.outside));
     double loss = 0.0;
     for (std::size_t i = 0; i < cluster.points.size(); ++i)
     {
@@ -304,10 +313,10 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
         if (cluster.points.size() > small_cluster)
         {
             if (!suits_sweeps)
-                island.loss += sweep_more(model, blocks, pseudo, cluster);
+                island.loss += sweep_more(model, which, blocks, pseudo, cluster);
             continue;
         }
-        island.loss += solve_velocities(blocks, cluster);
+        island.loss += solve_velocities(noticeable(model, which), blocks, cluster);
         solve_correction(model, blocks, pseudo, cluster);
     }
 }
