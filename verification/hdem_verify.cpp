@@ -223,7 +223,8 @@ int verify(int argc, char** argv)
     CLI::App app("hdem_verify: published numbers and textbook answers beside hdem's own", "hdem_verify");
     Options options;
     app.add_option("CASE", options.names,
-                   "Checks to run: a name of --list, a group (paper, closed_form, robust, rest), or short; all by default");
+                   "Checks to run: a name of --list, a group, which is what stands before the point of a name, or short: those "
+                   "that take less than twenty seconds; all by default");
     app.add_option("--json", options.json_file, "Write all rows to this file");
     app.add_option("--curves", options.curves_file, "Write the figures' curves to this file");
     app.add_option("--jobs", options.jobs, "Checks at a time; default: one a core")->check(CLI::Range(1, 1024));
