@@ -8,6 +8,20 @@
 
 namespace hdem
 {
+namespace
+{
+/// The same of what impulses take: loads of a block at rest are known by them [J].
+double one_step_push(const State& state, const Contact& contact)
+{
+    const auto mobility = [&](Index block) { return state.blocks.inertia[block].inverse_mass_x; };
+    double squares = 0.0;
+    for (const PointHistory& point : contact.point)
+        squares += point.normal_force * point.normal_force + point.shear_force * point.shear_force;
+    const double dt = state.blocks.step.last;
+    return 0.5 * squares * dt * dt * (mobility(contact.ref) + mobility(contact.inc));
+}
+}  // namespace
+
 StoredEnergy stored_energy(const Model& model, const State& state)
 {
     StoredEnergy stored;
@@ -23,7 +37,11 @@ StoredEnergy stored_energy(const Model& model, const State& state)
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
         if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
+        {
+            if (state.contacts.normal_force(0, i) != 0.0 || state.contacts.normal_force(1, i) != 0.0)
+                stored.one_step_fall += one_step_push(state, state.contacts.get(i));
             continue;
+        }
         const Contact contact = state.contacts.get(i);
         const SpringEnergy springs = spring_energy(model, state.blocks, contact);
         held += held_energy(model, contact);

@@ -2,6 +2,7 @@
 
 #include "core/contact/force_law.h"
 #include "core/contact/impulse_kick.h"
+#include "core/joint/all_laws.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,15 +39,30 @@ void add_impulse_work(const Model& model, const std::vector<ImpulsePoint>& point
 
 namespace
 {
-/// A joint that slips, or is pulled, at its strength breaks.
-void break_at_strength(const Model& model, const ImpulsePoint& p, Contacts& contacts)
+bool can_break(const JointRow& row)
+{
+    return row.is_bonded || row.kind == kind_of<CoulombResidual>();
+}
+
+/// Does the point move at its strength, along the joint or away from it? Impulses know no stiffness: they may load one point of a joint up to its strength and another one
+/// hardly. Such a point holds what it bears, and gives way only where the others cannot hold the rest.
+bool gives_way(const ImpulsePoint& p, const Blocks& blocks)
+{
+    constexpr double nearly = 1.0 - 1e-12;
+    constexpr double noticeable = 0.03;  // of the velocity that the impulse at its strength gives: more than sweeps leave
+    const PointVelocity v = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]);
+    const bool is_pulled = p.pull > 0.0 && p.impulse_normal <= -nearly * p.pull;
+    if (is_pulled && -v.m * p.mass_normal > noticeable * p.pull)
+        return true;
+    const double limit = shear_limit(p, p.impulse_normal);
+    return std::abs(p.impulse_shear) >= nearly * limit && std::abs(v.t) * p.mass_shear > noticeable * limit;
+}
+
+/// A joint whose strength is overcome breaks.
+void break_at_strength(const Model& model, const Blocks& blocks, const ImpulsePoint& p, Contacts& contacts)
 {
     const Index law = contacts.law[p.contact];
-    if (!model.joints.has_memory(law) || !model.joints.rows[law].is_bonded)
-        return;
-    constexpr double nearly = 1.0 - 1e-12;
-    const bool is_torn = p.pull > 0.0 && p.impulse_normal <= -nearly * p.pull;
-    if (!is_torn && std::abs(p.impulse_shear) < nearly * shear_limit(p, p.impulse_normal))
+    if (!model.joints.has_memory(law) || !can_break(model.joints.rows[law]) || !gives_way(p, blocks))
         return;
     MemoryLanes::Point& memory = contacts.memory_lane[p.contact / lanes].point[p.end];
     if (memory.broken[p.contact % lanes] < 0.5)
@@ -59,7 +75,7 @@ void store_impulses(const Model& model, const Blocks& blocks, const std::vector<
     const double dt = blocks.step.kick();
     for (const ImpulsePoint& p : points)
     {
-        break_at_strength(model, p, contacts);
+        break_at_strength(model, blocks, p, contacts);
         contacts.normal_force(p.end, p.contact) = p.impulse_normal / dt;
         contacts.shear_force(p.end, p.contact) = p.impulse_shear / dt;
         const double kept = remaining_force(std::max(p.impulse_normal, 0.0) / dt, p.load_velocity, p.restitution, p.approach,

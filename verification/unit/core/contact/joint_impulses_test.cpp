@@ -55,6 +55,80 @@ TEST(JointImpulses, BearTension)
     EXPECT_NEAR(falls.displacement("block").y(), -0.5 * g * time * time, 0.01 * g * time * time);
 }
 
+/// A slab on a slope: sweeps load one of its two points up to its strength before the other one.
+TEST(JointImpulses, HoldAsLongAsAllOfTheJointDoes)
+{
+    struct Slope
+    {
+        double dip, friction, turn;
+    };
+    for (const auto& [dip, friction, turn] : {Slope{25.0, 0.0, 0.0}, Slope{45.0, 20.0, 0.0}, Slope{45.0, 20.0, 61.0}})
+    {
+        const double b = dip * std::numbers::pi / 180.0, tan_phi = std::tan(friction * std::numbers::pi / 180.0);
+        const auto moved = [&](double factor)
+        {
+            CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+            scene.gravity = {g * std::sin(b), -g * std::cos(b)};
+            scene.contact.method = Method::impulse;
+            scene.joints[0].friction_angle_deg = friction;
+            scene.joints[0].cohesion = factor * weight * (std::sin(b) - std::cos(b) * tan_phi);
+            scene.joints[0].residual_friction_angle_deg = friction;
+            CaseRun run(scenes::turned(scene, turn));
+            run.advance(3000);
+            return run.displacement("block").norm();
+        };
+        EXPECT_LT(moved(1.01), 1e-5) << dip;
+        EXPECT_GT(moved(0.99), 1e-3) << dip;
+    }
+}
+
+/// Below two roof blocks, of which one has hardly a share.
+TEST(JointImpulses, HangOnTwoJointsAsLongAsBothTogetherHold)
+{
+    const auto moved = [](double tension)
+    {
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "left", scenes::rectangle({-1, 1}, {0.13, 2}));
+        scenes::add_fixed_block(scene, "right", scenes::rectangle({0.13, 1}, {2, 2}));
+        scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+        scene.contact.method = Method::impulse;
+        scene.joints[0].cohesion = 1e6;
+        scene.joints[0].tension = tension;
+        CaseRun run(scene);
+        run.advance(3000);
+        return run.displacement("block").norm();
+    };
+    EXPECT_LT(moved(1.03 * weight), 1e-6);
+    EXPECT_GT(moved(0.97 * weight), 1e-3);
+}
+
+/// With residual friction alone there is no bond, and slip leaves less friction all the same.
+TEST(JointImpulses, SlideWithResidualFriction)
+{
+    CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+    const double b = 36.0 * std::numbers::pi / 180.0, residual = 25.0 * std::numbers::pi / 180.0;
+    scene.gravity = {g * std::sin(b), -g * std::cos(b)};
+    scene.contact.method = Method::impulse;
+    scene.joints[0].friction_angle_deg = 35.0;
+    scene.joints[0].residual_friction_angle_deg = 25.0;
+    CaseRun run(scene);
+    run.advance(3000);
+    const double time = run.state().time;
+    const double way = 0.5 * g * (std::sin(b) - std::cos(b) * std::tan(residual)) * time * time;
+    EXPECT_NEAR(run.displacement("block").norm(), way, 0.01 * way);
+}
+
+/// Nothing moves, so that all energies are round-off; what the impulses take in each cycle is the scale.
+TEST(JointImpulses, LeaveNoResidualWhereALoadHangs)
+{
+    CaseDef scene = hung(50e3);
+    scene.gravity = {0.0, 0.0};
+    scene.loads = {{.blocks = {"block"}, .acceleration = {0.0, -g}}};
+    CaseRun run(scene);
+    run.advance(2000);
+    EXPECT_LT(test::ledger_residual(run), 1e-6);
+}
+
 /// Pulled with 30 kN for a moment. Residual tension acts up to half of the skin.
 TEST(JointImpulses, AreLeftWithResidualTensionOnceTorn)
 {
