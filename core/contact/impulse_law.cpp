@@ -22,7 +22,7 @@ ImpulseStrength strength_of(const Model& model, const Contacts& contacts, Index 
     return impulse_strength(slip, model.joints.rows[law], contacts.memory(end, contact));
 }
 
-/// By which slip has opened a dilatant joint in the last cycle [m].
+/// By which slip has opened a dilatant joint in the last cycle; below 0 where it has closed it [m].
 double opened(const Model& model, const Contacts& contacts, Index contact, int end, double slide)
 {
     const Index law = contacts.law[contact];
@@ -31,7 +31,7 @@ double opened(const Model& model, const Contacts& contacts, Index contact, int e
     JointMemory memory = contacts.memory(end, contact);
     const double now = dilation_by_slip(model.joints.rows[law], memory);
     memory.slip += slide;
-    return std::max(now - dilation_by_slip(model.joints.rows[law], memory), 0.0);
+    return now - dilation_by_slip(model.joints.rows[law], memory);
 }
 
 ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks& blocks, const Contacts& contacts,
@@ -76,9 +76,11 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     const double rest = contacts.rest_overlap(end, contact);
     p.spring_force = p.stiffness * (p.pressed - rest);
     const double size = std::min(model.size(p.ref), model.size(p.inc));
-    const double most = std::max(at.v_m, 0.0) * blocks.step.last +
-                        opened(model, contacts, contact, end, at.v_t * blocks.step.last) +
+    const double parting = opened(model, contacts, contact, end, at.v_t * blocks.step.last);
+    const double most = std::max(at.v_m, 0.0) * blocks.step.last + std::max(parting, 0.0) +
                         model.contact.correction_rate * size * blocks.step.next;
+    // Blocks follow a joint that closes, and stay in touch.
+    p.target = parting < 0.0 ? std::max(0.5 * model.contact.allowed_overlap - p.pressed, 0.0) / blocks.step.next : 0.0;
     p.excess_overlap = std::min(rest - std::max(preload, 0.0) - model.contact.allowed_overlap,
                                 most);  // what is pulled is not pushed apart
     p.impulse_normal = std::max(contacts.normal_force(end, contact) * dt + p.pull, 0.0);
@@ -210,11 +212,12 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
         const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
         const double pressed = std::max(0.0, v_m - p.approach);
         p.load_velocity = std::max(p.weight_velocity, pressed);
-        if (p.approach <= 0.0)
+        const double impact = p.approach - p.target;
+        if (impact <= 0.0)
             continue;
-        const bool bounces = p.approach > least_bounce(p);
-        p.target = std::min(0.0, pressed - (bounces ? p.restitution * p.approach : 0.0));
-        if (p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
+        if (impact > least_bounce(p))
+            p.target += std::min(0.0, pressed - p.restitution * impact);
+        if (p.target < 0.0 && p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;
     }
 }

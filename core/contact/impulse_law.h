@@ -19,6 +19,8 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 ///   target = min(0, -R v_m + max(0, v_m* - v_m))  if approaching (v_m > 0), else 0     after [Lee2025] Eq. (15)
 ///   excess overlap += u (-target) / v_m           if the point has closed in the last cycle (0 < u <= v_m dt)
 ///
+/// Where slip closes a dilatant joint, velocities count from that at which the blocks follow it.
+///
 /// R applies once, to the velocity v_m that the blocks have before this cycle's forces. Differs from the paper in two points:
 /// - Forces act after the impact: what they press together is no part of the impact, and is not thrown back. R applied to v_m* would throw a resting block
 ///   up by R g dt in each cycle. Forces that part the blocks are left out, else needles gain energy.

@@ -1,6 +1,7 @@
 /// Joints with tension and dilation under impulses.
 
 #include "core/energy_ledger.h"
+#include "io/case_reader.h"
 #include "verification/unit/core/boundary/sides.h"
 
 #include <Eigen/Geometry>
@@ -167,6 +168,55 @@ TEST(JointImpulses, DilateByTheirSlip)
         EXPECT_NEAR(moved().y(), std::tan(std::numbers::pi / 18.0) * 0.02, 1e-5);
         EXPECT_NEAR(moved().x(), 0.25 / (2.0 * g * std::tan(std::numbers::pi / 6.0)), 0.01 * 0.022);
     }
+}
+
+/// 1 mm forth and back. The block follows the joint as that closes, and keeps its weight on it.
+TEST(JointImpulses, CloseOnTheWayBack)
+{
+    const std::string text = R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e10
+friction_angle_deg = 35.0
+dilation_angle_deg = 12.0
+[contact]
+method = "impulse"
+[[block]]
+name = "base"
+polygon = [[-4, -1], [4, -1], [4, 0], [-4, 0]]
+fixed = true
+[[block]]
+name = "block"
+polygon = [[-0.5, 0], [0.5, 0], [0.5, 0.5], [-0.5, 0.5]]
+fixed = ["x", "rotation"]
+[[load]]
+blocks = ["block"]
+velocity_x = 0.01
+until_time = 0.1
+[[load]]
+blocks = ["block"]
+velocity_x = -0.01
+from_time = 0.1
+until_time = 0.2
+[[stage]]
+duration = 0.3
+)";
+    CaseRun run(read_case_text(text, "case.toml").def);
+    const double base = 0.5 * weight;
+    const auto advance_to = [&](double time)
+    {
+        while (run.state().time < time)
+            run.advance();
+    };
+    advance_to(0.1);
+    EXPECT_NEAR(run.displacement("block").y(), std::tan(12.0 * std::numbers::pi / 180.0) * 1e-3, 3e-6);
+    advance_to(0.15);
+    EXPECT_NEAR(run.forces_between("base", "block").x(), base, 1e-3 * base);
+    advance_to(0.25);
+    EXPECT_NEAR(run.displacement("block").y(), 0.0, 3e-6);
+    EXPECT_LT(test::ledger_residual(run), 1e-6);
 }
 }  // namespace
 }  // namespace hdem
