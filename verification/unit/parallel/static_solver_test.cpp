@@ -189,7 +189,7 @@ TEST(StaticSolver, WeakJointsComeToRest)
 {
     const StaticRun rock(scenes::three_joint_sets(1.0, 15.0, 1000.0));
     EXPECT_EQ(rock.outcome.kind, Kind::balanced);
-    EXPECT_LT(rock.outcome.iterations, 100);
+    EXPECT_LT(rock.outcome.iterations, 200);  // of all parts of the weight
 }
 
 /// All lengths, and the cohesion with them: pressures and overlaps then grow as lengths do.
