@@ -13,7 +13,7 @@ struct StoredEnergy
     double elastic_normal = 0.0;
     double elastic_shear = 0.0;
     double pending = 0.0;        ///< of elastic_normal, see SpringEnergy
-    double one_step_fall = 0.0;  ///< kinetic energy that gravity gives the free blocks in one step, for scale
+    double one_step_fall = 0.0;  ///< kinetic energy that gravity, and what impulses take, give in one step, for scale
     [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
 };
 

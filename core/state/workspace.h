@@ -83,7 +83,7 @@ struct ImpulsePoint
     double mass_shear = 0.0;
     double coupling = 0.0;          ///< with the other point of its contact, kept by the first of the two [1/kg]
     double approach = 0.0;          ///< approach velocity before this cycle; negative: the blocks part [m/s]
-    double target = 0.0;            ///< approach velocity that the impulse must leave, <= 0 [m/s]
+    double target = 0.0;            ///< approach velocity that the impulse must leave [m/s]
     double weight_velocity = 0.0;   ///< what weight adds to it in a cycle [m/s]
     double load_velocity = 0.0;     ///< what this cycle's forces add to it, and no less than weight does [m/s]
     double restitution = 0.0;       ///< R of Eq. (15) [-]
