@@ -131,7 +131,7 @@ bool Simulation::check_rest()
         state_.quiet_since = state_.time;
     if (resolve_rules(model_, state_).moves_walls && !servos_press(model_, state_))
         return false;
-    if (liners_move(model_, state_, convergence.mean_speed))
+    if (!moving_liners(model_, state_).empty())
         return false;
     const bool must_last = std::ranges::find(convergence.criteria, "every_block") != convergence.criteria.end();
     return !must_last || state_.time - state_.quiet_since >= convergence.hold_time;

@@ -10,6 +10,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 namespace hdem
 {
 namespace
@@ -205,22 +207,76 @@ TEST(Liners, HaveNoBeamOfRoundOff)
     EXPECT_NEAR(run.state().support.liners[0].displacement, sag, 1e-3 * sag);
 }
 
+LinerMotion motion_of(const CaseRun& run)
+{
+    return rest_of_liner(run.model(), run.state(), 0).motion;
+}
+
 /// A stage that seeks rest waits for one that still hangs on the rock, not for one that falls.
 TEST(Liners, AreWaitedForWhileTheyMove)
 {
     CaseRun holds(hanging(1.05)), falls(hanging(0.95));
-    const double speed = 1e-7;
-    const auto is_off = [](const CaseRun& run)
-    { return has_come_off(run.model().support.liners[0], run.state().support.liners[0], run.state().blocks); };
     holds.simulation.begin_stage(0);
-    holds.advance(300);
-    EXPECT_TRUE(liners_move(holds.model(), holds.state(), speed)) << "its weight grows";
+    EXPECT_EQ(motion_of(holds), LinerMotion::rests) << "it has no weight yet";
     run_all(holds);
-    EXPECT_FALSE(liners_move(holds.model(), holds.state(), speed));
-    EXPECT_FALSE(is_off(holds));
+    EXPECT_EQ(motion_of(holds), LinerMotion::rests);
     run_all(falls);
-    EXPECT_TRUE(is_off(falls));
-    EXPECT_FALSE(liners_move(falls.model(), falls.state(), speed));
+    EXPECT_EQ(motion_of(falls), LinerMotion::has_come_off);
+    EXPECT_TRUE(moving_liners(falls.model(), falls.state()).empty());
+}
+
+/// A ring in rock that does not move, under a pressure that parts it from the rock all around.
+CaseDef ring_under_pressure(double strength_over_thrust)
+{
+    constexpr int sides = 24;
+    constexpr double radius = 2.0, pressure = 2e5;
+    CaseDef scene = hanging(1e3);
+    scene.gravity = {0.0, 0.0};
+    LinerDef& liner = scene.liners[0];
+    liner.path.clear();
+    const auto corner = [&](int i, double r)
+    {
+        const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
+        return Vec2(r * std::cos(angle), r * std::sin(angle));
+    };
+    for (int i = 0; i < sides; ++i)
+    {
+        scenes::add_fixed_block(scene, "r" + std::to_string(i),
+                                {corner(i, radius), corner(i, 1.5 * radius), corner(i + 1, 1.5 * radius), corner(i + 1, radius)});
+        liner.path.push_back(corner(i, radius));
+    }
+    liner.path.push_back(liner.path.front());
+    for (BlockDef& block : scene.blocks)
+        if (block.name == "roof" || block.name == "stand" || block.name == "stone")
+            for (Vec2& point : block.polygon)
+                point.x() += 10.0;
+    liner.thickness = 0.1;
+    liner.modulus = 1e10;
+    liner.segment = 1.0;
+    liner.bond_strength = 0.0;
+    liner.shear_stiffness = 0.0;
+    liner.pressure = pressure;
+    liner.pressure_cycles = 1000;
+    liner.compressive_strength = strength_over_thrust * pressure * radius / liner.thickness;
+    return scene;
+}
+
+TEST(Liners, HaveNotComeOffWhereTheyBearAsARing)
+{
+    CaseRun run(ring_under_pressure(2.0));
+    EXPECT_TRUE(run_all(run).at(0).at_rest);
+    const LinerRecord& record = run.state().support.liners[0];
+    EXPECT_NEAR(record.parted, 24 * 4.0 * std::sin(std::numbers::pi / 24), 1e-6) << "all around";
+    EXPECT_NEAR(record.thrust, 2e5 * 2.0, 0.02 * 2e5 * 2.0);
+    EXPECT_EQ(motion_of(run), LinerMotion::rests);
+}
+
+TEST(Liners, AreNotAtRestWhileTheyCollapse)
+{
+    CaseRun run(ring_under_pressure(0.8));
+    EXPECT_FALSE(run_all(run).at(0).at_rest);
+    EXPECT_EQ(motion_of(run), LinerMotion::moves);
+    EXPECT_NEAR(rest_of_liner(run.model(), run.state(), 0).unbalanced, 0.2, 0.05);
 }
 
 TEST(Liners, AreWaitedForWhileTheirPressureGrows)
