@@ -2,6 +2,7 @@
 
 #include "core/model/liner_growth.h"
 #include "core/support/bolt_link.h"
+#include "core/support/liner_damping.h"
 #include "core/support/liner_load.h"
 
 #include <algorithm>
@@ -30,6 +31,23 @@ void harden(const Liner& liner, double factor, const LinerMemory& memory)
             own.turned[end] = seen(shape.of(1 + end, first, second), own.turned[end]);
     }
     *memory.factor = factor;
+}
+
+/// @param before  velocities of the nodes in the last cycle
+void slow_down(const std::vector<double>& before, double damping, const LinerMemory& memory)
+{
+    const auto share_kept = [&](double power, double change, double speed)
+    { return power < 0.0 ? std::max(1.0 - damping * change / speed, 0.0) : 1.0; };
+    for (std::size_t at = 0; at < before.size(); at += 3)
+    {
+        double* v = &memory.velocity[at];
+        const Vec2 speed(v[0], v[1]), change = speed - Vec2(before[at], before[at + 1]);
+        const double kept = share_kept(change.dot(speed), change.norm(), speed.norm());
+        v[0] *= kept;
+        v[1] *= kept;
+        const double turned = v[2] - before[at + 2];
+        v[2] *= share_kept(turned * v[2], std::abs(turned), std::abs(v[2]));
+    }
 }
 
 /// Book what flowed in the cycle, and press on the rock.
@@ -158,6 +176,12 @@ bool install_liners(const Model& model, State& state)
 
 void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::vector<BlockPush>& pushes)
 {
+    press_liners(model, state, solvers, 0.0, pushes);
+}
+
+void press_liners(const Model& model, State& state, LinerSolvers& solvers, double damping, std::vector<BlockPush>& pushes)
+{
+    std::vector<double> before;
     for (std::size_t i = 0; i < model.support.liners.size(); ++i)
     {
         const Liner& liner = model.support.liners[i];
@@ -168,7 +192,11 @@ void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::
         const LinerLoad load = load_of(liner, record, memory, model, state);
         harden(liner, load.factor, memory);
         LinerSolver& solver = solvers.of(model, i);
+        if (damping > 0.0)
+            before.assign(memory.velocity.begin(), memory.velocity.end());
         solver.solve(load, memory);
+        if (damping > 0.0)
+            slow_down(before, damping, memory);
         Booking(liner, load, memory, state.blocks, record, pushes).run(solver);
     }
 }

@@ -8,6 +8,7 @@ namespace hdem
 namespace
 {
 constexpr double balanced = 1e-3;  ///< below this share of its loads a lining is in balance
+constexpr double falling = 0.1;    ///< share of its loads that moves it as a whole
 
 bool is_parted(const Liner& liner, const LinerRecord& record, const Blocks& blocks)
 {
@@ -45,7 +46,8 @@ LinerRest rest_of_liner(const Model& model, const State& state, std::size_t i)
     const LinerBalance now = LinerSolver(liner).balance(last_load(liner, record, memory, model, state), memory);
     if (!(now.unbalanced > balanced))
         return {LinerMotion::rests, now.unbalanced};
-    const bool is_off = is_parted(liner, record, state.blocks) && !now.is_at_strength;
+    // A ring that swings is parted all around too, but what acts on it as a whole is little.
+    const bool is_off = is_parted(liner, record, state.blocks) && now.whole > falling && !now.is_at_strength;
     return {is_off ? LinerMotion::has_come_off : LinerMotion::moves, now.unbalanced};
 }
 

@@ -37,6 +37,7 @@ struct LinerLoad
 struct LinerBalance
 {
     double unbalanced = 0.0;  ///< greatest net force of a node, of the mean load of the nodes: their weight, pressure and ties [-]
+    double whole = 0.0;       ///< net force of all nodes together, of the sum of weight and pressure [-]
     bool is_at_strength = false;  ///< in compression, tension or bending, somewhere
 };
 

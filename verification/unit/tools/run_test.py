@@ -248,6 +248,9 @@ class Linings(unittest.TestCase):
             self.assertIn(run.returncode, (0, 4), run.stderr)
             return json.loads((out / "summary.json").read_text())["warnings"], run.stdout + (out / "run.log").read_text()
 
+    def test_one_that_bears_is_not_warned_of(self):
+        self.assertEqual(self.warnings("bond_strength = 1e6")[0], [])
+
     def test_one_that_falls_is_in_the_summary(self):
         warnings, _ = self.warnings("bond_strength = 0.0")
         self.assertIn('liner "coat" has come off the rock', warnings[0])

@@ -225,6 +225,38 @@ TEST(Liners, AreWaitedForWhileTheyMove)
     EXPECT_TRUE(moving_liners(falls.model(), falls.state()).empty());
 }
 
+/// A lining of which a part stands out beyond the rock, once that has been taken away behind it: a beam on springs with a load on what stands out.
+TEST(Liners, AreWaitedForWhileTheySwing)
+{
+    constexpr double k = 2e10, length = 1.2, modulus = 2e10, thickness = 0.2;
+    LinerDef liner = lining();
+    liner.path = {{2.0, 0.0}, {-2.0, 0.0}};
+    liner.thickness = thickness;
+    liner.modulus = modulus;
+    liner.segment = 0.05;
+    liner.normal_stiffness = k;
+    liner.bond_strength = 1e9;
+    CaseDef scene = hanging(1.0);
+    scene.blocks[0].polygon = scenes::rectangle({-4.0, 0.0}, {0.8, 1.0});
+    scene.blocks[1].polygon = scenes::rectangle({10.0, 0.0}, {18.0, 1.0});
+    scene.blocks[2].polygon = scenes::rectangle({12.0, 1.0}, {16.0, 5.0});
+    scenes::add_fixed_block(scene, "bench", scenes::rectangle({0.8, 0.0}, {4.0, 1.0}));
+    scene.liners = {liner};
+    scene.stages.push_back({.name = "dig", .until_converged = true, .max_cycles = 20000, .excavate = {"bench"}});
+    for (const Method method : {Method::impulse, Method::force, Method::hybrid})
+    {
+        scene.contact.method = method;
+        CaseRun run(scene);
+        EXPECT_TRUE(run_all(run).at(1).at_rest);
+        const double q = run.model().support.liners[0].mass * 9.81, bending = modulus * std::pow(thickness, 3) / 12.0;
+        const double b = std::pow(k / (4.0 * bending), 0.25), p = q * length, m = 0.5 * q * length * length;
+        const double root = 2.0 * b * (p + m * b) / k + q / k, turned = 2.0 * b * b * (p + 2.0 * m * b) / k;
+        const double tip = root + turned * length + q * std::pow(length, 4) / (8.0 * bending);
+        EXPECT_NEAR(run.state().support.liners[0].displacement, tip, 0.015 * tip);
+        EXPECT_NEAR(run.state().support.liners[0].moment, m, 0.03 * m) << "a little more behind the root";
+    }
+}
+
 /// A ring in rock that does not move, under a pressure that parts it from the rock all around.
 CaseDef ring_under_pressure(double strength_over_thrust)
 {
@@ -277,6 +309,29 @@ TEST(Liners, AreNotAtRestWhileTheyCollapse)
     EXPECT_FALSE(run_all(run).at(0).at_rest);
     EXPECT_EQ(motion_of(run), LinerMotion::moves);
     EXPECT_NEAR(rest_of_liner(run.model(), run.state(), 0).unbalanced, 0.2, 0.05);
+}
+
+/// A wide ring swings slowly.
+TEST(Liners, ComeToRestWhateverTheirPeriod)
+{
+    CaseDef scene = ring_under_pressure(2.0);
+    for (BlockDef& block : scene.blocks)
+        for (Vec2& point : block.polygon)
+            point *= 12.5;
+    for (Vec2& point : scene.liners[0].path)
+        point *= 12.5;
+    scene.liners[0].segment = 10.0;
+    scene.liners[0].compressive_strength = 1e9;
+    for (const Method method : {Method::impulse, Method::force})
+    {
+        scene.contact.method = method;
+        CaseRun run(scene);
+        const StageResult stage = run_all(run).at(0);
+        EXPECT_TRUE(stage.at_rest);
+        EXPECT_LT(stage.cycles, 4000) << "without damping 8000";
+        const double thrust = 2e5 * 25.0 * std::cos(std::numbers::pi / 24);
+        EXPECT_NEAR(run.state().support.liners[0].thrust, thrust, 2e-3 * thrust);
+    }
 }
 
 TEST(Liners, AreWaitedForWhileTheirPressureGrows)
