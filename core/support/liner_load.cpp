@@ -33,4 +33,18 @@ LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemo
     }
     return load;
 }
+
+LinerLoad last_load(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model,
+                    const State& state)
+{
+    LinerLoad load = load_of(liner, record, memory, model, state);
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+        for (int end = 0; load.gone[s] == 0 && end < 2; ++end)
+        {
+            const LinerSegment& segment = liner.segments[s];
+            const BlockMotion& m = state.blocks.motion[segment.block];
+            load.rock[2 * s + end] -= load.step * (Vec2(m.vx, m.vy) + m.w * turned_left(turned_with(m, segment.arm[end])));
+        }
+    return load;
+}
 }  // namespace hdem

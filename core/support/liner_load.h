@@ -14,4 +14,8 @@ namespace hdem
 /// In this cycle.
 [[nodiscard]] LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model,
                                 const State& state);
+
+/// The same with the rock where it was in the cycle before: it has moved on since.
+[[nodiscard]] LinerLoad last_load(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model,
+                                  const State& state);
 }  // namespace hdem

@@ -1,6 +1,5 @@
 #include "core/support/liner_rest.h"
 
-#include "core/support/bolt_link.h"
 #include "core/support/liner_load.h"
 
 namespace hdem
@@ -17,21 +16,6 @@ bool is_parted(const Liner& liner, const LinerRecord& record, const Blocks& bloc
         if (segment.block != no_index && blocks.present[segment.block] != 0)
             length += segment.length;
     return record.parted >= length * (1.0 - 1e-9);
-}
-
-/// The load of the cycle that is over: the rock has moved on since.
-LinerLoad last_load(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model,
-                    const State& state)
-{
-    LinerLoad load = load_of(liner, record, memory, model, state);
-    for (std::size_t s = 0; s < liner.segments.size(); ++s)
-        for (int end = 0; load.gone[s] == 0 && end < 2; ++end)
-        {
-            const LinerSegment& segment = liner.segments[s];
-            const BlockMotion& m = state.blocks.motion[segment.block];
-            load.rock[2 * s + end] -= load.step * (Vec2(m.vx, m.vy) + m.w * turned_left(turned_with(m, segment.arm[end])));
-        }
-    return load;
 }
 }  // namespace
 

@@ -311,6 +311,38 @@ TEST(Liners, AreNotAtRestWhileTheyCollapse)
     EXPECT_NEAR(rest_of_liner(run.model(), run.state(), 0).unbalanced, 0.2, 0.05);
 }
 
+/// A block with smooth sides that hangs on a lining, between two that do not move.
+TEST(Liners, CarryBlocksByImpulsesToRest)
+{
+    LinerDef liner = lining();
+    liner.path = {{3.6, 0.0}, {-3.6, 0.0}};
+    liner.thickness = 0.15;
+    liner.modulus = 2e10;
+    liner.segment = 0.3;
+    liner.normal_stiffness = 1e9;
+    liner.bond_strength = 1e9;
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "left", scenes::rectangle({-4.0, 0.0}, {-0.8, 4.0}));
+    scenes::add_block(scene, "middle", scenes::rectangle({-0.8, 0.0}, {0.8, 1.6}));
+    scenes::add_fixed_block(scene, "right", scenes::rectangle({0.8, 0.0}, {4.0, 4.0}));
+    scene.joints[0].friction_angle_deg = 0.0;
+    scene.gravity = {0.0, 0.0};
+    scene.loads = {{.blocks = {"*"}, .acceleration = {0.0, -9.81}, .factor = {.ramp_cycles = Vec2(0.0, 1000.0)}}};
+    scene.liners = {liner};
+    scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 10000}};
+    double moved[2];
+    for (int by_impulses = 0; by_impulses < 2; ++by_impulses)
+    {
+        scene.contact.method = by_impulses == 1 ? Method::impulse : Method::force;
+        CaseRun run(scene);
+        EXPECT_TRUE(run_all(run).at(0).at_rest);
+        moved[by_impulses] = run.state().support.liners[0].displacement;
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-4);
+    }
+    EXPECT_GT(moved[0], 1e-5);
+    EXPECT_NEAR(moved[1], moved[0], 0.01 * moved[0]);
+}
+
 /// A wide ring swings slowly.
 TEST(Liners, ComeToRestWhateverTheirPeriod)
 {
