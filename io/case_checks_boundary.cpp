@@ -1,4 +1,5 @@
 #include "core/model/boundary.h"
+#include "core/stage/rules.h"
 #include "io/case_check.h"
 #include "io/case_checks.h"
 
@@ -23,6 +24,7 @@ class BoundaryCheck : public CaseCheck
             const std::string object = fmt::format("boundary \"{}\"", printable(boundary.name));
             check_side(boundary, path, object);
             check_kind(boundary, path, object);
+            check_method(boundary, path, object);
             check_stages(boundary, path, object);
             check_changes(boundary, path, object);
             check_twice(i, path, object);
@@ -85,6 +87,25 @@ class BoundaryCheck : public CaseCheck
         if (boundary.is_insitu && !def_.insitu.given && !problems_.has("insitu"))
             problems_.add(path + ".stress", object, "stress = \"insitu\"", "there is no [insitu]",
                           "Give [insitu], or stress = [compression, shear].");
+    }
+
+    /// A servo is steered by the stiffness of its contacts, and impulses have none.
+    void check_method(const BoundaryDef& boundary, const std::string& path, const std::string& object)
+    {
+        if (boundary.kind != BoundaryKind::servo || problems_.has(path + ".kind"))
+            return;
+        Method method = def_.contact.method;
+        for (const StageDef& stage : def_.stages)
+        {
+            method = stage.method.value_or(method);
+            const bool acts = boundary.stages.empty() || std::ranges::count(boundary.stages, stage.name) > 0;
+            if (acts && is_by_impulses(method))
+                return problems_.add(
+                    path + ".kind", object, "kind = \"servo\"",
+                    fmt::format("stage \"{}\" has method = \"impulse\", and impulses have no stiffness to steer a wall by",
+                                printable(stage.name)),
+                    "Use method \"hybrid\" or \"force\" there, or kind = \"stress\".");
+        }
     }
 
     /// Only what is given by a number can grow.

@@ -144,6 +144,10 @@ class JointCheck : public CaseCheck
                 add("dilation_angle_deg",
                     fmt::format("is greater than the residual friction angle, {}: slip would make energy", residual),
                     "Give no more than that.");
+            if (has("dilation_limit") && !has("dilation_angle_deg") && !problems_.has(path_ + "dilation_limit") &&
+                !problems_.has(path_ + "dilation_angle_deg"))
+                problems_.add(path_ + "dilation_limit", object_, fmt::format("dilation_limit = {}", *joint_.dilation_limit),
+                              "belongs to dilation_angle_deg, which is not given", "Give dilation_angle_deg, or remove this key.");
             if (joint_.tension.value_or(0.0) * tangent(friction) > joint_.cohesion * (1.0 + 1e-9))
                 add("tension",
                     fmt::format("is greater than cohesion / tan(friction) = {:.6g} Pa", joint_.cohesion / tangent(friction)),
@@ -157,6 +161,11 @@ class JointCheck : public CaseCheck
             add("residual_friction_angle_deg", "is no less than friction_angle_deg and asperity_angle_deg together", "Give less.");
         if ((joint_.law == JointLaw::plesha || joint_.law == JointLaw::saeb_amadei) && friction + joint_.asperity_angle_deg >= 90.0)
             add("asperity_angle_deg", "and friction_angle_deg are 90 degrees or more together", "Give less.");
+        if (joint_.law == JointLaw::plesha && joint_.asperity_angle_deg > friction)
+            problems_.warn(
+                path_ + "asperity_angle_deg", object_, fmt::format("asperity_angle_deg = {}", joint_.asperity_angle_deg),
+                fmt::format("is above friction_angle_deg = {}: the joint has no strength where it slips back down", friction),
+                "Give no more than the friction angle, or a greater friction_angle_deg.");
         if (joint_.law == JointLaw::continuously_yielding && joint_.mobilised_angle_deg < friction)
             add("mobilised_angle_deg", "is less than friction_angle_deg", "Give no less than that.");
         if (joint_.law == JointLaw::barton_bandis && has("residual_friction_angle_deg") && residual <= 0.0)

@@ -101,8 +101,29 @@ class StageJoints
         }
     }
 
+    /// A value that the stage sets is named; else what it sets is wrong only together with what stands elsewhere, and the stage's key is the place.
+    void take_over_case(std::size_t stage, const std::vector<Problem>& found, const std::vector<std::string>& changes)
+    {
+        for (const Problem& problem : found)
+        {
+            const std::vector<Problem> located = source_.located(std::vector<Problem>{problem});
+            const auto is_of = [&](const std::string& change) { return located[0].text.starts_with("--set " + change + ":"); };
+            if (std::ranges::any_of(changes, is_of))
+            {
+                take_over(stage, located);
+                continue;
+            }
+            Problem of_stage = problem;
+            of_stage.key = fmt::format("stage[{}].set", stage);
+            of_stage.text = fmt::format("stage \"{}\": set = \"{}\": then {}", printable(def_.stages[stage].name),
+                                        fmt::join(changes, "\", \""), problem.text);
+            take_over(stage, source_.located(std::vector<Problem>{of_stage}));
+        }
+    }
+
     void read(std::size_t stage)
     {
+        std::vector<std::string> changes;
         for (const std::string& text : def_.stages[stage].set)
         {
             const bool is_joint = text.starts_with("joint."), is_material = text.starts_with("material.");
@@ -123,12 +144,13 @@ class StageJoints
                 return fail(stage, text, "no joint has this name", "Name one of [joint.NAME].");
             if (is_material && std::ranges::find(def_.materials, name, &MaterialDef::name) == def_.materials.end())
                 return fail(stage, text, "no material has this name", "Name one of [material.NAME].");
+            changes.push_back(printable(change.key) + "=" + printable(change.value));
             take_over(stage, apply_overrides(document_, {&change, 1}, source_));
         }
         CaseDef again;
         CaseProblems problems;
         read_again_(document_, again, problems);
-        take_over(stage, source_.located(problems.errors()));
+        take_over_case(stage, problems.errors(), changes);
         if (located_.empty())
             take_joints(stage, again.joints);
         if (located_.empty())

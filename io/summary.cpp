@@ -101,6 +101,7 @@ std::vector<LinerSummary> summarise_liners(const Model& model, const State& stat
     {
         const Liner& liner = model.support.liners[i];
         const LinerRecord& r = state.support.liners[i];
+        const LinerRest rest = rest_of_liner(model, state, i);
         LinerSummary& made = liners.emplace_back();
         made = {.name = liner.name,
                 .installed = r.installed != 0,
@@ -111,7 +112,9 @@ std::vector<LinerSummary> summarise_liners(const Model& model, const State& stat
                 .parted = r.parted,
                 .stored = r.stored,
                 .spent = r.spent,
-                .is_off = has_come_off(liner, r, state.blocks),
+                .unbalanced = rest.unbalanced,
+                .is_off = rest.motion == LinerMotion::has_come_off,
+                .moves = rest.motion == LinerMotion::moves,
                 .is_far = r.displacement >
                           std::sqrt(12.0 * liner.bending_stiffness / liner.axial_stiffness),  // of a rectangle: its height
                 .segments = {}};

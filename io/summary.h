@@ -93,7 +93,9 @@ struct LinerSummary
     double parted = 0.0;        ///< length that has come off the rock [m]
     double stored = 0.0;        ///< [J]
     double spent = 0.0;         ///< [J]
-    bool is_off = false;        ///< it has come off the rock along all of its length
+    double unbalanced = 0.0;    ///< share of its loads that is not borne [-]
+    bool is_off = false;        ///< it has come off the rock along all of its length, and falls
+    bool moves = false;         ///< it hangs on the rock or bears, and is not in balance
     bool is_far = false;        ///< it has moved by more than its thickness: its theory takes displacements as small
     std::vector<LinerPiece> segments;
 };

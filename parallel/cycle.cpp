@@ -8,7 +8,7 @@
 #include "core/motion/rest.h"
 #include "core/state/block_sorting.h"
 #include "core/support/bolt_forces.h"
-#include "core/support/liner_forces.h"
+#include "core/support/liner_damping.h"
 #include "parallel/step_update.h"
 #include "parallel/team.h"
 
@@ -24,6 +24,12 @@ namespace
 double damping_of_bolts(const DampingRule& rule)
 {
     return rule.settling > 0.0 ? rule.local * std::numbers::inv_pi : 0.0;
+}
+
+/// Linings have none elsewhere.
+double damping_of_liners(const DampingRule& rule)
+{
+    return rule.settling > 0.0 ? rule.local : 0.0;
 }
 
 /// Below this many contacts a team loses more by waiting than it gains.
@@ -149,7 +155,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
                 if (rules_.has_support)
                 {
                     pull_bolts(model, state, damping_of_bolts(rules_.damping), work_.bolted);
-                    press_liners(model, state, liner_solvers_, work_.bolted);
+                    press_liners(model, state, liner_solvers_, damping_of_liners(rules_.damping), work_.bolted);
                     add_bolt_forces(work_.bolted, work_.external);
                 }
             });

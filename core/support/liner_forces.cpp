@@ -2,44 +2,18 @@
 
 #include "core/model/liner_growth.h"
 #include "core/support/bolt_link.h"
-#include "core/support/liner_solver.h"
+#include "core/support/liner_damping.h"
+#include "core/support/liner_load.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 namespace hdem
 {
 namespace
 {
-Vec2 place_of_rock(const LinerSegment& segment, int end, const Blocks& blocks)
-{
-    const BlockMotion& m = blocks.motion[segment.block];
-    return Vec2(m.x, m.y) + turned_with(m, segment.arm[end]);
-}
-
-LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model, const State& state)
-{
-    const std::int64_t age = state.cycle - record.since;
-    LinerLoad load{.step = state.blocks.step.last,
-                   .factor = hardening_at(liner, age),
-                   .pressure = liner.pressure * grown_share(liner.pressure_cycles, age),
-                   .gravity = model.gravity * grown_share(liner_weight_cycles, age),
-                   .rock = {},
-                   .gone = {}};
-    for (std::size_t s = 0; s < liner.segments.size(); ++s)
-    {
-        const LinerSegment& segment = liner.segments[s];
-        const bool gone = segment.block == no_index || state.blocks.present[segment.block] == 0;
-        load.gone.push_back(gone ? 1 : 0);
-        for (int end = 0; end < 2; ++end)
-        {
-            const double* then = memory.segment[s].place[end];
-            load.rock.push_back(gone ? Vec2(0.0, 0.0) : Vec2(place_of_rock(segment, end, state.blocks) - Vec2(then[0], then[1])));
-        }
-    }
-    return load;
-}
-
 /// As the modulus changes all forces stay: what the beams have flowed is seen from the new one.
 void harden(const Liner& liner, double factor, const LinerMemory& memory)
 {
@@ -59,6 +33,80 @@ void harden(const Liner& liner, double factor, const LinerMemory& memory)
             own.turned[end] = seen(shape.of(1 + end, first, second), own.turned[end]);
     }
     *memory.factor = factor;
+}
+
+/// @param before  velocities of the nodes in the last cycle
+void slow_down(const std::vector<double>& before, double damping, const LinerMemory& memory)
+{
+    const auto share_kept = [&](double power, double change, double speed)
+    { return power < 0.0 ? std::max(1.0 - damping * change / speed, 0.0) : 1.0; };
+    for (std::size_t at = 0; at < before.size(); at += 3)
+    {
+        double* v = &memory.velocity[at];
+        const Vec2 speed(v[0], v[1]), change = speed - Vec2(before[at], before[at + 1]);
+        const double kept = share_kept(change.dot(speed), change.norm(), speed.norm());
+        v[0] *= kept;
+        v[1] *= kept;
+        const double turned = v[2] - before[at + 2];
+        v[2] *= share_kept(turned * v[2], std::abs(turned), std::abs(v[2]));
+    }
+}
+
+/// Forces and moments of a liner on the blocks that touch others by impulses.
+std::map<Index, Triple> on_impulsive_blocks(const Liner& liner, const LinerLoad& load, const LinerMemory& memory,
+                                            const Blocks& blocks, const LinerSolver& solver)
+{
+    std::map<Index, Triple> sums;
+    for (std::size_t s = 0; s < liner.segments.size(); ++s)
+    {
+        const LinerSegment& segment = liner.segments[s];
+        if (load.gone[s] != 0 || !can_move(blocks.inertia[segment.block]) ||
+            (blocks.force[segment.block].contacts & contact_impulse) == 0)
+            continue;
+        Triple& sum = sums[segment.block];
+        for (int end = 0; end < 2; ++end)
+        {
+            const TieAnswer tie = solver.tie(s, end, load, memory);
+            const Vec2 force = tie.normal * segment.to_rock() + tie.shear * segment.along;
+            const Vec2 arm = turned_with(blocks.motion[segment.block], segment.arm[end]);
+            sum = {sum.x + force.x(), sum.y + force.y(), sum.w + cross(arm, force)};
+        }
+    }
+    return sums;
+}
+
+/// Size of the force against a swing, see liner_damping.h.
+/// @param mobility  speed that a unit impulse gives [1/kg]
+/// @param rate      of the force, along the velocity [N/s]
+double damping_force(double share, double mobility, double speed, double rate, double step)
+{
+    // The speed is half a step old: see bolt_forces.cpp.
+    constexpr double most_taken = 0.25;
+    if (!(mobility > 0.0 && speed > 0.0 && rate < 0.0))
+        return 0.0;
+    return std::min(2.0 * share * std::sqrt(-rate * speed / mobility), most_taken * speed / (mobility * step));
+}
+
+void damp_blocks(const std::map<Index, Triple>& before, const std::map<Index, Triple>& now, double share, const Blocks& blocks,
+                 std::vector<BlockPush>& pushes)
+{
+    const double step = blocks.step.last;
+    for (const auto& [block, force] : now)
+    {
+        const Triple& was = before.at(block);
+        const BlockMotion& m = blocks.motion[block];
+        const BlockInertia& inertia = blocks.inertia[block];
+        const double speed = std::hypot(m.vx, m.vy);
+        const Vec2 along = speed > 0.0 ? Vec2(m.vx / speed, m.vy / speed) : Vec2(0.0, 0.0);
+        const double rate = ((force.x - was.x) * along.x() + (force.y - was.y) * along.y()) / step;
+        const double mobility = inertia.inverse_mass_x * along.x() * along.x() + inertia.inverse_mass_y * along.y() * along.y();
+        const double turning = std::copysign(1.0, m.w), turn_rate = turning * (force.w - was.w) / step;
+        const double against = damping_force(share, mobility, speed, rate, step);
+        const double moment = damping_force(share, inertia.inverse_inertia, std::abs(m.w), turn_rate, step);
+        if (against > 0.0 || moment > 0.0)
+            pushes.push_back(
+                {block, {-against * along.x(), -against * along.y(), -moment * turning}, {m.vx, m.vy, m.w}, 0.0, true});
+    }
 }
 
 /// Book what flowed in the cycle, and press on the rock.
@@ -187,6 +235,13 @@ bool install_liners(const Model& model, State& state)
 
 void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::vector<BlockPush>& pushes)
 {
+    press_liners(model, state, solvers, 0.0, pushes);
+}
+
+void press_liners(const Model& model, State& state, LinerSolvers& solvers, double damping, std::vector<BlockPush>& pushes)
+{
+    std::vector<double> before;
+    std::map<Index, Triple> before_on, now_on;
     for (std::size_t i = 0; i < model.support.liners.size(); ++i)
     {
         const Liner& liner = model.support.liners[i];
@@ -197,8 +252,20 @@ void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::
         const LinerLoad load = load_of(liner, record, memory, model, state);
         harden(liner, load.factor, memory);
         LinerSolver& solver = solvers.of(model, i);
+        if (damping > 0.0)
+        {
+            before.assign(memory.velocity.begin(), memory.velocity.end());
+            before_on = on_impulsive_blocks(liner, last_load(liner, record, memory, model, state), memory, state.blocks, solver);
+        }
         solver.solve(load, memory);
+        if (damping > 0.0)
+        {
+            slow_down(before, damping, memory);
+            now_on = on_impulsive_blocks(liner, load, memory, state.blocks, solver);
+        }
         Booking(liner, load, memory, state.blocks, record, pushes).run(solver);
+        if (damping > 0.0)
+            damp_blocks(before_on, now_on, damping * std::numbers::inv_pi, state.blocks, pushes);
     }
 }
 

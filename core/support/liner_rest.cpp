@@ -1,43 +1,46 @@
 #include "core/support/liner_rest.h"
 
-#include "core/support/liner_memory.h"
-
-#include <algorithm>
-#include <cmath>
+#include "core/support/liner_load.h"
 
 namespace hdem
 {
 namespace
 {
-double fastest_node(const Liner& liner, const std::vector<double>& history)
-{
-    const LinerNodes nodes = liner_nodes_of(liner, history);
-    double fastest = 0.0;
-    for (std::size_t n = 0; n < liner.nodes.size(); ++n)
-        fastest = std::max(fastest, std::hypot(nodes.velocity[3 * n], nodes.velocity[3 * n + 1]));
-    return fastest;
-}
-}  // namespace
+constexpr double balanced = 1e-3;  ///< below this share of its loads a lining is in balance
+constexpr double falling = 0.1;    ///< share of its loads that moves it as a whole
 
-bool has_come_off(const Liner& liner, const LinerRecord& record, const Blocks& blocks)
+bool is_parted(const Liner& liner, const LinerRecord& record, const Blocks& blocks)
 {
     double length = 0.0;  // with rock behind it
     for (const LinerSegment& segment : liner.segments)
         if (segment.block != no_index && blocks.present[segment.block] != 0)
             length += segment.length;
-    return record.installed != 0 && record.parted >= length * (1.0 - 1e-9);
+    return record.parted >= length * (1.0 - 1e-9);
+}
+}  // namespace
+
+LinerRest rest_of_liner(const Model& model, const State& state, std::size_t i)
+{
+    const Liner& liner = model.support.liners[i];
+    const LinerRecord& record = state.support.liners[i];
+    if (record.installed == 0)
+        return {};
+    std::vector<double> history = state.support.history;
+    const LinerMemory memory = liner_memory(liner, history);
+    const LinerBalance now = LinerSolver(liner).balance(last_load(liner, record, memory, model, state), memory);
+    if (!(now.unbalanced > balanced))
+        return {LinerMotion::rests, now.unbalanced};
+    // A ring that swings is parted all around too, but what acts on it as a whole is little.
+    const bool is_off = is_parted(liner, record, state.blocks) && now.whole > falling && !now.is_at_strength;
+    return {is_off ? LinerMotion::has_come_off : LinerMotion::moves, now.unbalanced};
 }
 
-bool liners_move(const Model& model, const State& state, double speed)
+std::vector<std::size_t> moving_liners(const Model& model, const State& state)
 {
+    std::vector<std::size_t> moving;
     for (std::size_t i = 0; i < model.support.liners.size(); ++i)
-    {
-        const LinerRecord& record = state.support.liners[i];
-        const Liner& liner = model.support.liners[i];
-        if (record.installed != 0 && !has_come_off(liner, record, state.blocks) &&
-            fastest_node(liner, state.support.history) > speed)
-            return true;
-    }
-    return false;
+        if (rest_of_liner(model, state, i).motion == LinerMotion::moves)
+            moving.push_back(i);
+    return moving;
 }
 }  // namespace hdem

@@ -4,11 +4,26 @@
 #include "core/model/model.h"
 #include "core/state/state.h"
 
+#include <vector>
+
 namespace hdem
 {
-/// Has it no rock to hold on any more? It falls, and nothing catches it.
-[[nodiscard]] bool has_come_off(const Liner& liner, const LinerRecord& record, const Blocks& blocks);
+enum class LinerMotion : std::uint8_t
+{
+    rests,        ///< its nodes are in balance, or it is not installed
+    moves,        ///< it swings, or yields and has not come to an end of it
+    has_come_off  ///< it has no rock to hold on any more and falls: nothing catches it
+};
 
-/// Has a lining that still hangs on the rock a node that is faster than `speed` [m/s]? One that has come off falls for ever: nothing waits for it.
-[[nodiscard]] bool liners_move(const Model& model, const State& state, double speed);
+struct LinerRest
+{
+    LinerMotion motion = LinerMotion::rests;
+    double unbalanced = 0.0;  ///< see LinerBalance [-]
+};
+
+/// As the last cycle has left it. One that has parted from the rock all along and bears what presses on it, as a ring does, rests; one that is at its strength moves.
+[[nodiscard]] LinerRest rest_of_liner(const Model& model, const State& state, std::size_t liner);
+
+/// Linings that move, in the order of the case. Those that have come off are not among them: they fall for ever, and nothing waits for them.
+[[nodiscard]] std::vector<std::size_t> moving_liners(const Model& model, const State& state);
 }  // namespace hdem

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hdem
@@ -166,6 +167,45 @@ void LinerSolver::factorise(const LinerLoad& load)
     factored_flows_ = flows_;
     factored_step_ = load.step;
     factored_factor_ = load.factor;
+}
+
+LinerBalance LinerSolver::balance(const LinerLoad& load, const LinerMemory& memory)
+{
+    LinerLoad still = load;
+    still.step = std::numeric_limits<double>::infinity();
+    needs_matrix_ = false;
+    assemble(still, memory);
+    const double g = load.gravity.norm() > 0.0 ? load.gravity.norm() : 9.81;
+    double borne = 0.0, greatest = 0.0, applied = 0.0;
+    Vec2 whole(0.0, 0.0);
+    LinerBalance found;
+    for (std::size_t n = 0; n < liner_.nodes.size(); ++n)
+    {
+        const auto at = static_cast<Eigen::Index>(3 * n);
+        greatest = std::max(greatest, std::hypot(net_[at], net_[at + 1]));
+        whole += Vec2(net_[at], net_[at + 1]);
+        applied += load.gravity.norm() * mass_[3 * n];
+        borne += g * mass_[3 * n];
+    }
+    for (std::size_t s = 0; s < liner_.segments.size(); ++s)
+    {
+        borne += liner_.segments[s].length * std::abs(load.pressure);
+        applied += liner_.segments[s].length * std::abs(load.pressure);
+        for (int end = 0; load.gone[s] == 0 && end < 2; ++end)
+        {
+            const TieAnswer held = tie(s, end, load, memory);
+            borne += std::hypot(held.normal, held.shear);
+        }
+        const BeamAnswer beam = this->beam(s, load, memory);
+        const double moment = std::max(std::abs(beam.moment[0]), std::abs(beam.moment[1]));
+        constexpr double nearly = 1.0 - 1e-3;  // displacements of a lining that collapses are great, and their round-off with them
+        found.is_at_strength = found.is_at_strength || -beam.thrust >= nearly * load.factor * liner_.compressive_strength ||
+                               beam.thrust >= nearly * load.factor * liner_.tensile_strength ||
+                               moment >= nearly * load.factor * liner_.moment_strength;
+    }
+    found.whole = applied > 0.0 ? whole.norm() / applied : 0.0;
+    found.unbalanced = greatest * static_cast<double>(liner_.nodes.size()) / borne;
+    return found;
 }
 
 void LinerSolver::solve(const LinerLoad& load, const LinerMemory& memory)

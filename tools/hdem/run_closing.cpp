@@ -93,17 +93,6 @@ void print_liners(Log& log, const std::vector<LinerSummary>& liners)
                                  l.displacement, l.hinges, l.parted));
         else
             log.line(fmt::format("  {:<16} not installed", l.name));
-    for (const LinerSummary& l : liners)
-        if (l.is_off)
-            log.line(
-                fmt::format("warning: liner \"{}\" has come off the rock along all of its length, and falls. The end of a stage is "
-                            "that of the rock without it.",
-                            l.name));
-        else if (l.is_far)
-            log.line(fmt::format(
-                "warning: liner \"{}\" has moved by {:.3g} m, more than its thickness: its forces hold for small displacements. "
-                "It has failed, or the rock behind it has.",
-                l.name, l.displacement));
 }
 
 /// One word for the run.
@@ -159,6 +148,10 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
         if (!stage.not_at_rest.empty())
             log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks: {}", stage.name, stage.not_at_rest.size(),
                                  first_of(stage.not_at_rest)));
+    if (const StageSummary* last = s.stages.empty() ? nullptr : &s.stages.back(); last && last->sought_rest && !last->met_end)
+        for (const LinerSummary& liner : s.liners)
+            if (liner.moves)
+                log.line(fmt::format("not at rest at the end of stage \"{}\": liner \"{}\"", last->name, liner.name));
     print_straight_joints(log, simulation.model(), simulation.state().contacts);
     log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
                          s.kinetic_energy_limit, s.unbalanced_force_ratio));

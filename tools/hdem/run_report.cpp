@@ -26,6 +26,30 @@ std::vector<std::string> names_of(const Model& model, const std::vector<Index>& 
 }
 }  // namespace
 
+namespace
+{
+/// Linings that fall, still move or have moved too far.
+void add_liner_warnings(const RunSummary& s, std::vector<std::string>& warnings)
+{
+    const bool sought_rest = !s.stages.empty() && s.stages.back().sought_rest;
+    for (const LinerSummary& l : s.liners)
+    {
+        if (l.is_off)
+            warnings.push_back(fmt::format("liner \"{}\" has come off the rock along all of its length, and falls. The end of a "
+                                           "stage is that of the rock without it.",
+                                           l.name));
+        else if (l.moves && (sought_rest || l.is_far))
+            warnings.push_back(fmt::format("liner \"{}\" is not at rest: {:.3g} of the load of a node is out of balance, "
+                                           "displacement {:.3g} m. Give it more strength if it fails, or the stage more cycles.",
+                                           l.name, l.unbalanced, l.displacement));
+        if (!l.is_off && l.is_far)
+            warnings.push_back(fmt::format("liner \"{}\" has moved by {:.3g} m, more than its thickness: its forces hold for "
+                                           "small displacements. It has failed, or the rock behind it has.",
+                                           l.name, l.displacement));
+    }
+}
+}  // namespace
+
 std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
 {
     std::vector<std::string> warnings;
@@ -48,6 +72,7 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
             fmt::format("blocks have left the model and move on outside it: {}. Give walls or a ground to hold them, or "
                         "a stage with until = \"converged\", which ends their way.",
                         first_of(outside)));
+    add_liner_warnings(s, warnings);
     if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
         warnings.push_back(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "

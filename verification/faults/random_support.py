@@ -94,6 +94,8 @@ class RichScene(Scene):
         first, rest = stages[:1], stages[1:]
         self.add("[[boundary]]", name="hold", side="right", kind="fixed", stages=first)
         kind = self.more.choice(("stress", "velocity", "servo", "roller"))
+        if kind == "servo" and '"impulse"' in "".join(self.lines):
+            kind = "roller"
         given = {"stress": {"stress": "insitu"}, "velocity": {"velocity": [-0.02, 0.0], "ramp_cycles": [0, 150]},
                  "servo": {"target": 3e5, "max_velocity": 0.05}, "roller": {}}[kind]
         self.add("[[boundary]]", name="push", side="right", kind=kind, stages=rest, **given)

@@ -60,6 +60,10 @@ TEST(BoundaryErrors, TellWhatIsWrongAndWhatToDo)
          "belongs to stress_gradient"},
         {on_top + "kind = \"velocity\"\n", "13:1: boundary \"lid\": velocity (", "this kind needs it"},
         {on_top + "kind = \"servo\"\n", "13:1: boundary \"lid\": target (", "this kind needs it"},
+        {on_top + "kind = \"servo\"\ntarget = 1e6\n[contact]\nmethod = \"impulse\"\n", "16:8: boundary \"lid\": kind = \"servo\" (",
+         "stage \"load\" has method = \"impulse\", and impulses have no stiffness to steer a wall by). Use method \"hybrid\""},
+        {on_top + "kind = \"servo\"\ntarget = 1e6\n[[stage]]\nname = \"throw\"\ncycles = 5\nmethod = \"impulse\"\n",
+         "16:8: boundary \"lid\": kind = \"servo\" (", "stage \"throw\" has method"},
         {on_top + "kind = \"servo\"\ntarget = -1e6\n", "17:10: boundary \"lid\": target = -1000000 Pa (", "must be > 0"},
         {on_top + "kind = \"roller\"\nstress = [1e6, 0]\n", "17:10: boundary \"lid\": stress (", "belongs to another kind"},
         {on_top + "kind = \"roller\"\nmax_velocity = 1.0\n", "17:16: boundary \"lid\": max_velocity (", "belongs to kind servo"},
@@ -79,6 +83,14 @@ TEST(BoundaryErrors, TellWhatIsWrongAndWhatToDo)
     };
     for (const auto& [text, place_and_object, says] : mistakes)
         expect_one_problem(text, place_and_object, says);
+}
+
+TEST(BoundaryErrors, LeaveServosOfStagesThatHaveSprings)
+{
+    const std::string servo = rectangle + height + "[[boundary]]\nname = \"lid\"\nside = \"top\"\nkind = \"servo\"\ntarget = 1e6\n";
+    const std::string throws = "[[stage]]\nname = \"throw\"\ncycles = 5\nmethod = \"impulse\"\n";
+    EXPECT_THAT(problems_of(servo + "[contact]\nmethod = \"force\"\n"), testing::IsEmpty());
+    EXPECT_THAT(problems_of(servo + "stages = [\"load\"]\n" + throws), testing::IsEmpty()) << "it has ended by then";
 }
 
 TEST(BoundaryErrors, OfForcesThatNothingGivesToTakeOff)

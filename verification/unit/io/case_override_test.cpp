@@ -58,6 +58,31 @@ TEST(Override, TheLastOfOneKeyHolds)
     EXPECT_EQ(read(two_blocks, {{"stage[0].cycles", "5"}, {"stage[0].cycles", "6"}}).stages[0].cycles, 6);
 }
 
+/// What a stage sets may be wrong only together with what stands elsewhere: the stage is named, where it stands.
+TEST(Override, OfAStageIsNamedWhereItMakesTheCaseWrong)
+{
+    const auto set = [](const std::string& joint, const std::string& lines)
+    {
+        return test::with(two_blocks, "friction_angle_deg = 30.0\n", "friction_angle_deg = 30.0\n" + joint) +
+               "[[stage]]\nname = \"cut\"\ncycles = 5\n" + lines;
+    };
+    const std::string bonded = "cohesion = 1e4\ntension = 1e4\n";
+    EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.cohesion = 0\"]\n")),
+                ElementsAre(testing::AllOf(
+                    testing::StartsWith(
+                        "case.toml:21:7: stage \"cut\": set = \"joint.default.cohesion=0\": then joint \"default\": tension ("),
+                    HasSubstr("is greater than cohesion / tan(friction) = 0 Pa). Give less, or more cohesion."))));
+    EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.friction_angle_deg = 60\"]\nset_cycles = 5\n")),
+                ElementsAre(HasSubstr("case.toml:21:7: stage \"cut\": set = \"joint.default.friction_angle_deg=60\": then joint")));
+    EXPECT_THAT(
+        problems_of(set(bonded, "set = [\"joint.default.tension = 5e4\"]\n")),
+        ElementsAre(testing::StartsWith("stage \"cut\": set joint.default.tension=5e4: joint \"default\": tension (is greater")));
+    EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.tension = 5e3\"]\n[[stage]]\nname = \"open\"\ncycles = 5\n"
+                                        "set = [\"joint.default.cohesion = 0\"]\n")),
+                ElementsAre(testing::StartsWith("case.toml:25:7: stage \"open\": set = \"joint.default.cohesion=0\": then joint")))
+        << "the tension is of an earlier stage";
+}
+
 TEST(Override, IsNamedWhereItIsWrong)
 {
     EXPECT_THAT(problems_of(two_blocks, {{"joint.default.fricton_angle_deg", "20"}}),

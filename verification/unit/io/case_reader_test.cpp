@@ -2,6 +2,7 @@
 #include "io/case_schema.h"
 #include "verification/unit/io/case_text.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -118,6 +119,24 @@ TEST(CaseReader, WarnsAboutSettingsWithoutEffect)
     EXPECT_EQ(file.warnings[0].text,
               "case.toml:18:12: warning: [time]: fraction (has no effect: step is given). Remove one of the two.");
     EXPECT_THAT(file.warnings[1].text, testing::HasSubstr("case.toml:21:9: warning: [damping]: local"));
+}
+
+TEST(CaseReader, WarnsOfAsperitiesThatAreSteeperThanTheirFriction)
+{
+    const auto warnings = [](double friction)
+    {
+        std::string texts;
+        const std::string
+            joint = "[joint.j]\nlaw = \"plesha\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e10\nasperity_angle_deg = 20\n";
+        for (const Problem& warning :
+             read_case_text(two_blocks + joint + fmt::format("friction_angle_deg = {}\n", friction), "case.toml").warnings)
+            texts += warning.text;
+        return texts;
+    };
+    EXPECT_EQ(warnings(20.0), "");
+    EXPECT_THAT(warnings(10.0), testing::HasSubstr("case.toml:20:22: warning: joint \"j\": asperity_angle_deg = 20 (is above "
+                                                   "friction_angle_deg = 10: "));
+    EXPECT_THAT(warnings(10.0), testing::HasSubstr("Give no more than the friction angle"));
 }
 
 TEST(CaseReader, WarnsAboutAShareOfTheStableStepThatNoStageTakes)

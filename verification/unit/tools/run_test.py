@@ -212,5 +212,54 @@ class TheEnd(unittest.TestCase):
         self.assertGreater(timing["output"]["mean"], 0.0)
 
 
+# A lining below a roof that does not move, longer than the roof by a metre.
+LINING = small_case.ROCK + """
+[[block]]
+name = "roof"
+polygon = [[-1, 0], [1, 0], [1, 1], [-1, 1]]
+fixed = true
+[[block]]
+name = "stand"
+polygon = [[3, 0], [5, 0], [5, 1], [3, 1]]
+fixed = true
+[[block]]
+name = "stone"
+polygon = [[3.5, 1], [4.5, 1], [4.5, 2], [3.5, 2]]
+[[liner]]
+name = "coat"
+path = [[2, 0], [-1, 0]]
+thickness = 0.05
+modulus = 1e9
+normal_stiffness = 1e8
+%s
+[[stage]]
+name = "hang"
+until = "converged"
+max_cycles = 8000
+"""
+
+
+class Linings(unittest.TestCase):
+    def warnings(self, keys):
+        with tempfile.TemporaryDirectory() as folder:
+            case, out = Path(folder) / "case.toml", Path(folder) / "run"
+            case.write_text(LINING % keys)
+            run = subprocess.run([HDEM, "run", case, "-o", out], capture_output=True, text=True, check=False)
+            self.assertIn(run.returncode, (0, 4), run.stderr)
+            return json.loads((out / "summary.json").read_text())["warnings"], run.stdout + (out / "run.log").read_text()
+
+    def test_one_that_bears_is_not_warned_of(self):
+        self.assertEqual(self.warnings("bond_strength = 1e6")[0], [])
+
+    def test_one_that_falls_is_in_the_summary(self):
+        warnings, _ = self.warnings("bond_strength = 0.0")
+        self.assertIn('liner "coat" has come off the rock', warnings[0])
+
+    def test_one_that_collapses_is_in_the_summary_and_not_at_rest(self):
+        warnings, said = self.warnings("bond_strength = 1e6\nmoment_strength = 100.0")
+        self.assertIn('liner "coat" is not at rest', warnings[0])
+        self.assertIn('not at rest at the end of stage "hang": liner "coat"', said)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
