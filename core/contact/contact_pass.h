@@ -19,8 +19,8 @@ struct PassRule
     PassRule(const Model& model, const RegimeRule& rule, const Blocks& of, const PassNeeds& needed)
         : blocks(of),
           needs(needed),
-          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
-                    rule.rock_keeps_springs},
+          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.gravity.isZero(0.0) ? of.step.kick() : 0.0,
+                    model.contact.threshold_velocity.value_or(-1.0), rule.rock_keeps_springs},
           closing(rule.closing),
           closing_speed(rule.closing_speed),
           dt(of.step.last),
