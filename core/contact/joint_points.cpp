@@ -131,6 +131,7 @@ template <typename React>
     const Pack slide = (p.v_t - half * dt * g.turning[k].t) * dt;
     const Pack closure = select(shares, share, 1.0) * (overlap - rest);
     Pack normal = zero, shear = zero, strength = zero, heat = zero, dilated = zero, freed = zero, energy = zero;
+    Pack slid = zero, opened = zero;
     Mask slips{};
     if (any(spring))
     {
@@ -158,6 +159,8 @@ template <typename React>
                 *spent = select(still, zero, *spent);
             slips = slips & !still;
         }
+        slid = select(slips, now.slid, zero);
+        opened = select(slips, now.opening - before.opening, zero);
         put<false>(spring & !still, m.stiffness, now.normal_stiffness);
     }
     // What a joint slides by impulses is slip too.
@@ -187,6 +190,8 @@ template <typename React>
     sums.friction += mine(heat + dilated);
     sums.dilation += mine(dilated);
     sums.broken += freed;
+    sums.slid += mine(slid);
+    sums.opened += mine(opened);
     sums.changes += mine(half * dt * (normal * p.v_m - shear * p.v_t) + lost - heat) - freed;
     sums.normal[k] = all ? normal : select(own, normal, sums.normal[k]);
     sums.work += mine(normal * (p.overlap + opening - rest));
