@@ -89,7 +89,9 @@ template <ContactLaw law, Joints joints, typename P>
         P reach = pressed_by<joints>(g, k);
         if constexpr (joints == Joints::laws)
             if (rows.any)
-                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]);
+                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]) +
+                         climb_of(contacts.memory_lane[i / lanes].point[k], did_slip(&contacts.regime[k][i]),
+                                  g.touch.point[k].v_t * rule.blocks.step.last);
         g.closed[k] = is_closed(g.touch.length, reach, floor);
         g.was_impulse[k] = were_impulses(&contacts.regime[k][i], MaskOf<P>{});
         g.last_normal[k] = load_lane<P>(l, l.normal_force[k]);

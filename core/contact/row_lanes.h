@@ -44,6 +44,18 @@ class RowLanes
     return load_lane(memory.opening) + select(load_lane(memory.broken) < Pack(0.5), rows.reach, rows.torn_reach);
 }
 
+/// Points that slipped in the last cycle.
+[[nodiscard]] inline Mask did_slip(const std::uint8_t* regime)
+{
+    return mask_of(WordLanes(load_bytes(regime) == byte_ones * static_cast<std::uint32_t>(Regime::slip)));
+}
+
+/// By which slip of this cycle may open a joint at most that has slipped, and opened, before: the law must be asked whether it still touches [m].
+[[nodiscard]] inline Pack climb_of(const MemoryLanes::Point& memory, Mask slipped, Pack slide)
+{
+    return select(slipped & (load_lane(memory.opening) > Pack(0.0)), abs(slide), 0.0);
+}
+
 /// Points that no impulse may take from their springs: bonds until they break, and closures that are no straight line.
 [[nodiscard]] inline Mask keep_springs(const RowLanes& rows, const MemoryLanes::Point& memory)
 {
