@@ -130,19 +130,36 @@ template <typename P>
     return fast;
 }
 
-template <ContactLaw law, typename P>
-[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_impulsive(const BasicContactGroup<P>& g, const Model& model,
-                                                                 const Blocks& blocks, const Threshold& threshold)
+/// Square of the speed that counts in Eq. (24): of the faster closed point [m2/s2].
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P motion_squared(const BasicContactGroup<P>& g)
 {
-    const MaskOf<P> none{};
-    if constexpr (law != ContactLaw::by_speed)
-        return law == ContactLaw::impulses ? !none : none;
     P speed = 0.0;
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<P>& p = g.touch.point[k];
         speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
     }
+    return speed;
+}
+
+/// The same of the approach alone.
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P approach_squared(const BasicContactGroup<P>& g)
+{
+    P approach = 0.0;
+    for (int k = 0; k < 2; ++k)
+        approach = max(approach, select(g.closed[k], g.touch.point[k].v_m, 0.0));
+    return approach * approach;
+}
+
+template <ContactLaw law, typename P>
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_impulsive(const BasicContactGroup<P>& g, P speed, const Model& model,
+                                                                 const Blocks& blocks, const Threshold& threshold)
+{
+    const MaskOf<P> none{};
+    if constexpr (law != ContactLaw::by_speed)
+        return law == ContactLaw::impulses ? !none : none;
     // The elastic part only adds: at rest nothing more needs to be known.
     const double least = threshold.least();
     if (!any(speed > P(least * least)))

@@ -98,7 +98,11 @@ template <ContactLaw law, Joints joints, typename P>
         g.last_shear[k] = load_lane<P>(l, l.shear_force[k]);
         sums.closed.add(g.closed[k]);
     }
-    MaskOf<P> impulsive = are_impulsive<law>(g, model, rule.blocks, rule.threshold);
+    P speed = motion_squared(g);
+    if constexpr (joints == Joints::laws)
+        if (rows.any)  // impulses know no roughness, nor what dilation takes: springs until the blocks approach fast
+            speed = select(rows.is_rough, approach_squared(g), speed);
+    MaskOf<P> impulsive = are_impulsive<law>(g, speed, model, rule.blocks, rule.threshold);
     if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
         if (rows.any && any(impulsive))
             impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes].point[0]) |

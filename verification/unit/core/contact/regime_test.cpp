@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace hdem
 {
 namespace
@@ -145,6 +148,36 @@ TEST(Regime, OfAFreeHitWithoutGravityIsThatOfImpulses)
             run.advance();
         run.advance(10);
     }
+}
+
+/// A block that slides on asperities of 10 degrees and basic friction of 25, or on a joint of 35 that dilates by 10: a = g (sin b - cos b tan 35) / (1 + tan 10 tan 35).
+TEST(Regime, OfARoughJointThatSlidesIsThatOfSprings)
+{
+    constexpr double degree = std::numbers::pi / 180.0, slope = 37.0 * degree;
+    CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+    scene.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope)};
+    scene.joints[0].shear_stiffness = 2e9;
+    CaseDef asperities = scene, dilates = scene;
+    asperities.joints[0].law = JointLaw::patton;
+    asperities.joints[0].friction_angle_deg = 25.0;
+    asperities.joints[0].asperity_angle_deg = 10.0;
+    asperities.joints[0].residual_friction_angle_deg = 30.0;
+    asperities.joints[0].cohesion = 1e6;
+    dilates.joints[0].friction_angle_deg = 35.0;
+    dilates.joints[0].dilation_angle_deg = 10.0;
+    for (const CaseDef& rough : {asperities, dilates})
+        for (const double angle : {0.0, 23.0})
+        {
+            test::CaseRun run(scenes::turned(rough, angle));
+            const auto speed_at = [&](double time)
+            {
+                while (run.state().time < time)
+                    run.advance();
+                return run.velocity("block").norm() * std::cos(10.0 * degree);
+            };
+            const double slow = speed_at(0.1);
+            EXPECT_NEAR((speed_at(1.0) - slow) / 0.9, 0.3720, 0.01 * 0.3720) << angle;
+        }
 }
 }  // namespace
 }  // namespace hdem
