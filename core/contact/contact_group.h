@@ -13,6 +13,7 @@ struct Threshold
 {
     double scale;
     double gravity_velocity;  ///< what gravity gives in a cycle, dt |g| [m/s]
+    double load_time;         ///< without gravity dt, for load_velocity; else 0 [s]
     double fixed;             ///< given velocity, or negative [m/s]
     bool rock_keeps_springs;  ///< RegimeRule
     [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
@@ -50,6 +51,21 @@ struct BasicContactGroup
 };
 using ContactGroup = BasicContactGroup<Pack>;
 
+/// What one contact point adds to the threshold velocity where there is no gravity; their sum stands for dt |g| in Eq. (25) [m/s]:
+///
+///   dt |F_N| / m_cN
+///
+///   F_N  force of the last cycle, of springs or impulses [N]
+///
+/// Differs from the paper: there the threshold is 0 without gravity, as impulses store nothing. Loads and walls press joints then too, and one that had taken an impulse
+/// would obey impulses for ever: without its stiffness, without its roughness, and with any force where a wall moves. A point that touches first has no
+/// force yet, so that its impact is one.
+template <typename R>
+[[nodiscard]] inline R load_velocity(R last_normal, R inverse_mass_normal, R dt)
+{
+    return dt * abs(last_normal) * inverse_mass_normal;
+}
+
 /// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
 /// m_c = m/2 without levers.
 template <typename P>
@@ -77,7 +93,7 @@ template <typename P>
         return speed_squared > P(threshold.fixed * threshold.fixed) * margin;
     const BasicInertia<P> ref = threshold_inertias<P>(model, blocks, g.ref);
     const BasicInertia<P> inc = threshold_inertias<P>(model, blocks, g.inc);
-    P elastic = 0.0;
+    P elastic = 0.0, weight = threshold.gravity_velocity;
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<P>& p = g.touch.point[k];
@@ -88,8 +104,10 @@ template <typename P>
         const P shear = select(g.was_impulse[k], 0.0, g.last_shear[k]);
         elastic += elastic_velocity_squared(normal, g.joint->law.normal_stiffness * g.length, mass_n, shear,
                                             g.joint->law.shear_stiffness * g.length, mass_s);
+        if (threshold.load_time > 0.0)
+            weight += load_velocity(g.last_normal[k], mass_n, P(threshold.load_time));
     }
-    const P u_th = threshold_velocity(P(threshold.scale), P(threshold.gravity_velocity), elastic);
+    const P u_th = threshold_velocity(P(threshold.scale), weight, elastic);
     return speed_squared > u_th * u_th * margin;
 }
 
@@ -112,19 +130,36 @@ template <typename P>
     return fast;
 }
 
-template <ContactLaw law, typename P>
-[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_impulsive(const BasicContactGroup<P>& g, const Model& model,
-                                                                 const Blocks& blocks, const Threshold& threshold)
+/// Square of the speed that counts in Eq. (24): of the faster closed point [m2/s2].
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P motion_squared(const BasicContactGroup<P>& g)
 {
-    const MaskOf<P> none{};
-    if constexpr (law != ContactLaw::by_speed)
-        return law == ContactLaw::impulses ? !none : none;
     P speed = 0.0;
     for (int k = 0; k < 2; ++k)
     {
         const BasicTouchPoint<P>& p = g.touch.point[k];
         speed = max(speed, select(g.closed[k], p.v_t * p.v_t + p.v_m * p.v_m, 0.0));
     }
+    return speed;
+}
+
+/// The same of the approach alone.
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P approach_squared(const BasicContactGroup<P>& g)
+{
+    P approach = 0.0;
+    for (int k = 0; k < 2; ++k)
+        approach = max(approach, select(g.closed[k], g.touch.point[k].v_m, 0.0));
+    return approach * approach;
+}
+
+template <ContactLaw law, typename P>
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> are_impulsive(const BasicContactGroup<P>& g, P speed, const Model& model,
+                                                                 const Blocks& blocks, const Threshold& threshold)
+{
+    const MaskOf<P> none{};
+    if constexpr (law != ContactLaw::by_speed)
+        return law == ContactLaw::impulses ? !none : none;
     // The elastic part only adds: at rest nothing more needs to be known.
     const double least = threshold.least();
     if (!any(speed > P(least * least)))

@@ -19,8 +19,8 @@ struct PassRule
     PassRule(const Model& model, const RegimeRule& rule, const Blocks& of, const PassNeeds& needed)
         : blocks(of),
           needs(needed),
-          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.contact.threshold_velocity.value_or(-1.0),
-                    rule.rock_keeps_springs},
+          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.gravity.isZero(0.0) ? of.step.kick() : 0.0,
+                    model.contact.threshold_velocity.value_or(-1.0), rule.rock_keeps_springs},
           closing(rule.closing),
           closing_speed(rule.closing_speed),
           dt(of.step.last),
@@ -89,14 +89,20 @@ template <ContactLaw law, Joints joints, typename P>
         P reach = pressed_by<joints>(g, k);
         if constexpr (joints == Joints::laws)
             if (rows.any)
-                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]);
+                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]) +
+                         climb_of(contacts.memory_lane[i / lanes].point[k], did_slip(&contacts.regime[k][i]),
+                                  g.touch.point[k].v_t * rule.blocks.step.last);
         g.closed[k] = is_closed(g.touch.length, reach, floor);
         g.was_impulse[k] = were_impulses(&contacts.regime[k][i], MaskOf<P>{});
         g.last_normal[k] = load_lane<P>(l, l.normal_force[k]);
         g.last_shear[k] = load_lane<P>(l, l.shear_force[k]);
         sums.closed.add(g.closed[k]);
     }
-    MaskOf<P> impulsive = are_impulsive<law>(g, model, rule.blocks, rule.threshold);
+    P speed = motion_squared(g);
+    if constexpr (joints == Joints::laws)
+        if (rows.any)  // impulses know no roughness, nor what dilation takes: springs until the blocks approach fast
+            speed = select(rows.is_rough, approach_squared(g), speed);
+    MaskOf<P> impulsive = are_impulsive<law>(g, speed, model, rule.blocks, rule.threshold);
     if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
         if (rows.any && any(impulsive))
             impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes].point[0]) |
@@ -165,8 +171,30 @@ template <Joints joints, typename P>
     return false;
 }
 
-/// What the contacts of a pack put on their blocks.
+/// Direction in which the blocks of a contact slide along each other, for damping: along the joint, and where slip opens it as much across it as it does.
+/// Damping across the joint would see the opening as a motion to be stopped, and a block above its friction limit would creep: each swing of its normal springs presses
+/// it on harder than it is thrown off.
+/// What does not slip, or does not dilate, keeps the direction of its edge.
 template <typename P>
+struct SlideDirection
+{
+    P x, y;
+
+    SlideDirection(const BasicEdgeTouch<P>& touch, const BasicSums<P>& sums) : x(touch.ex), y(touch.ey)
+    {
+        const MaskOf<P> dilates = (abs(sums.opened) > P(0.0)) & (abs(sums.opened) < abs(sums.slid));
+        if (!any(dilates))
+            return;
+        // On inc the shear force acts along t, so that inc slides along -t; and it goes along -m as the joint opens.
+        const P tilt = select(dilates, sums.opened / select(dilates, sums.slid, 1.0), 0.0);
+        const P share = P(1.0) / sqrt(P(1.0) + tilt * tilt);
+        x = select(dilates, (touch.ex - touch.ey * tilt) * share, x);
+        y = select(dilates, (touch.ey + touch.ex * tilt) * share, y);
+    }
+};
+
+/// What the contacts of a pack put on their blocks.
+template <Joints joints, typename P>
 [[gnu::always_inline]] inline void store_results(const BasicEdgeTouch<P>& touch, const BasicSums<P>& sums, MaskOf<P> touching,
                                                  MaskOf<P> impulsive, const std::uint8_t* swapped, Index i, ContactLoads& loads)
 {
@@ -175,7 +203,14 @@ template <typename P>
     store_loads(x, y, sums.moment_ref, sums.moment_inc, sums.strength - sums.used, swapped, &loads.load[2 * (i - loads.first)]);
     const MaskOf<P> springs = touching & !impulsive;
     const P mobilised = select(sums.strength > P(0.0), sums.used / sums.strength, 1.0);
-    store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, &loads.use[i - loads.first]);
+    JointUse* const use = &loads.use[i - loads.first];
+    if constexpr (joints == Joints::laws)
+    {
+        const SlideDirection<P> slide(touch, sums);
+        store_use(select(springs, mobilised, -1.0), slide.x, slide.y, touching, springs, use);
+    }
+    else
+        store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, use);
 }
 
 /// Ask for the memory of contacts that come later. Processors foresee that ContactLanes follow each other, but too late: without this a pass over contacts that no
@@ -270,7 +305,7 @@ template <ContactLaw law, Joints joints, typename P>
             pass.dilation += sums.dilation;
             pass.broken += sums.broken;
         }
-        store_results(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
+        store_results<joints>(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
     }
     return pass.added_to(before);
 }

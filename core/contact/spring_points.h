@@ -15,7 +15,8 @@ struct BasicSums
       moment_inc = 0.0;            ///< on inc, along and across the edge; moments about the centroids
     P used = 0.0, strength = 0.0;  ///< shear force and shear strength of force points
     P friction = 0.0, changes = 0.0, dilation = 0.0, broken = 0.0;
-    P normal[2], work = 0.0;  ///< normal forces, and the sum of normal force times stretch
+    P slid = 0.0, opened = 0.0;  ///< plastic slip and dilation of this cycle, of laws with a memory only
+    P normal[2], work = 0.0;     ///< normal forces, and the sum of normal force times stretch
 
     void take(MaskOf<P> lanes_of, const BasicSums& from)
     {

@@ -22,7 +22,7 @@ struct StrengthBound
         not_found    ///< too many blocks, or Clp gave up
     };
     End end = End::not_found;
-    double factor = 0.0;  ///< F, where found
+    double factor = 0.0;  ///< F, where found; `most` where there is none
     int rows = 0, columns = 0, solutions = 0;
     std::string why;  ///< not found
 };
@@ -52,7 +52,7 @@ struct StrengthBound
 
 /// The same where contacts no longer than the length floor, corners that touch a side or a corner, bear nothing. A corner that cannot be crushed holds more than rock
 /// does: the tip of a wedge at a bend of its slip surface, for example, stands on the lower plane.
-/// @param with_corners  the bound where they bear; found. It is given back where the other one is less than a fiftieth below
+/// @param with_corners  the bound where they bear; found, or none: then the search begins at its `most`. It is given back where the other one is less than a fiftieth below
 [[nodiscard]] StrengthBound strength_bound_without_corners(const Model& model, const State& state,
                                                            const std::vector<std::uint8_t>& weakened, double least,
                                                            const StrengthBound& with_corners, bool weakens_bolts = false);

@@ -21,9 +21,11 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
     if (question.begin)
         question.begin(outcome);
     FactorSetting setting{.def = outcome.def, .bound = {}, .threads = question.threads, .store = question.store};
-    if (outcome.bound.end == StrengthBound::End::found)
-    {
+    const bool is_found = outcome.bound.end == StrengthBound::End::found;
+    if (is_found)
         setting.bound = outcome.bound.factor;
+    if (is_found || outcome.bound.end == StrengthBound::End::none)
+    {
         const StrengthBound lower = strength_bound_without_corners(model, reference.moment.state,
                                                                    weakened_joints(model.joints, outcome.def), least_factor,
                                                                    outcome.bound, weakens_bolts(outcome.def));

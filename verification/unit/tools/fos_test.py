@@ -14,6 +14,30 @@ from pathlib import Path
 
 HDEM, CASES = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve() / "fos"
 
+TOE = """
+[material.rock]
+density = 2500.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 2.5e9
+friction_angle_deg = 32.0
+cohesion = 15e3
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[-12, -12], [29.1377760809, -12], [29.1377760809, 12], [17.1377760809, 12], [0, 0], [-12, 0]]
+fixed = true
+[[block]]
+name = "wedge"
+polygon = [[0, 0], [17.1377760809, 12], [5.5956918979, 12]]
+[[stage]]
+until = "converged"
+max_cycles = 60000
+[factor_of_safety]
+check_stiffness = 1
+"""
+
 
 def hdem(*arguments, code=0):
     done = subprocess.run([HDEM, *map(str, arguments)], capture_output=True, text=True, check=False)
@@ -46,6 +70,18 @@ class Fos(unittest.TestCase):
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertIn("Factor of safety", page)
         self.assertIn("Blocks that fail", page)
+
+    def test_warns_of_a_toe_on_the_floor(self):
+        # Plane failure at 35 degrees, F = 1.2145. The floor before the slope holds the tip of the wedge at any strength.
+        case = self.folder.with_name("toe.toml")
+        case.write_text(TOE, encoding="utf-8")
+        text = hdem("fos", case, "-o", self.folder, code=4)
+        self.assertIn("nothing fails", text)
+        self.assertIn("without them the factor is at most 1.21", text)
+        found = answer(self.folder)
+        self.assertIsNone(found["bound"])
+        self.assertAlmostEqual(found["bound_without_corners"], 1.2145, delta=0.001)
+        self.assertEqual(len(found["warnings"]), 1)
 
     def test_goes_on_after_it_was_killed(self):
         whole, broken = self.folder / "whole", self.folder / "broken"

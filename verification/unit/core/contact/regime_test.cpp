@@ -1,8 +1,12 @@
 #include "core/contact/regime.h"
 #include "core/types.h"
+#include "verification/unit/case_run.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace hdem
 {
@@ -81,6 +85,99 @@ TEST(ThresholdVelocity, OfTheSlidingBlockIsTheOneDerivedByHand)
 TEST(ThresholdVelocity, OfAFirstTouchIsWhatGravityGivesInOneStep)
 {
     EXPECT_DOUBLE_EQ(threshold_velocity(1.0, 4.9e-4, elastic_velocity_squared(0.0, 7e9, 1.0 / mass, 0.0, 5e8, 1.0 / mass)), 4.9e-4);
+}
+
+/// Two blocks without gravity under the default method.
+CaseDef weightless(const Polygon& upper)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.gravity = {0.0, 0.0};
+    scenes::add_fixed_block(scene, "base", scenes::rectangle({-4, -1}, {4, 0}));
+    scenes::add_block(scene, "block", upper);
+    return scene;
+}
+
+/// Pressed by 1.2 MN, pushed along by 0.9: asperities bear 1.2 tan(42 deg) = 1.08, impulses 1.2 tan(30 deg) = 0.69.
+TEST(Regime, OfWhatLoadsPressWithoutGravityIsThatOfSprings)
+{
+    for (const double angle : {0.0, 23.0, 90.0})
+    {
+        CaseDef scene = weightless(scenes::rectangle({-0.6, 0}, {0.6, 0.6}));
+        scene.joints[0].law = JointLaw::patton;
+        scene.joints[0].asperity_angle_deg = 12.0;
+        scene.joints[0].residual_friction_angle_deg = 34.0;
+        scene.joints[0].cohesion = 1e6;
+        scene.loads = {{.blocks = {"block"}, .force = {0.0, -1.2e6}},
+                       {.blocks = {"block"}, .force = {0.9e6, 0.0}, .interval = {.from_cycle = 2000}}};
+        test::CaseRun run(scenes::turned(scene, angle));
+        run.advance(6000);
+        const Vec2 bears = run.forces_between("base", "block");
+        EXPECT_NEAR(bears.x(), 1.2e6, 10.0) << angle;
+        EXPECT_NEAR(std::abs(bears.y()), 0.9e6, 10.0) << angle;
+        EXPECT_LT(run.displacement("block").norm(), 5e-3) << angle;
+    }
+}
+
+/// Two joints in series between a wall and fixed rock: F = K_N w d / 2.
+TEST(Regime, OfWhatAWallPressesWithoutGravityIsThatOfSprings)
+{
+    CaseDef scene = weightless(scenes::rectangle({-1, 0}, {1, 1}));
+    BlockDef& wall = scenes::add_fixed_block(scene, "wall", scenes::rectangle({-1, 1}, {1, 2}));
+    wall.velocity = {0.0, -0.002};
+    test::CaseRun run(scenes::moved(scene, {0.3, 0.7}));
+    run.advance(4000);
+    const double way = -run.displacement("wall").y();
+    EXPECT_NEAR(run.forces_between("block", "wall").x(), 7e9 * 2.0 * way / 2.0, 0.02 * 7e9 * way);
+    EXPECT_NEAR(run.forces_between("base", "block").x(), 7e9 * 2.0 * way / 2.0, 0.02 * 7e9 * way);
+}
+
+/// What hits freely bounces by its restitution, each time.
+TEST(Regime, OfAFreeHitWithoutGravityIsThatOfImpulses)
+{
+    CaseDef scene = weightless(scenes::rectangle({-0.5, 0.01}, {0.5, 1.01}));
+    scenes::add_fixed_block(scene, "roof", scenes::rectangle({-4, 1.03}, {4, 2}));
+    scene.joints[0].restitution = 0.5;
+    scene.blocks[1].velocity = {0.0, -1.0};
+    test::CaseRun run(scene);
+    run.advance(100);
+    for (double speed = 1.0; speed > 0.1; speed *= 0.5)
+    {
+        const double sign = run.velocity("block").y();
+        EXPECT_NEAR(std::abs(sign), speed, 1e-9);
+        while (run.velocity("block").y() * sign > 0.0 && run.state().cycle < 100'000)
+            run.advance();
+        run.advance(10);
+    }
+}
+
+/// A block that slides on asperities of 10 degrees and basic friction of 25, or on a joint of 35 that dilates by 10: a = g (sin b - cos b tan 35) / (1 + tan 10 tan 35).
+TEST(Regime, OfARoughJointThatSlidesIsThatOfSprings)
+{
+    constexpr double degree = std::numbers::pi / 180.0, slope = 37.0 * degree;
+    CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+    scene.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope)};
+    scene.joints[0].shear_stiffness = 2e9;
+    CaseDef asperities = scene, dilates = scene;
+    asperities.joints[0].law = JointLaw::patton;
+    asperities.joints[0].friction_angle_deg = 25.0;
+    asperities.joints[0].asperity_angle_deg = 10.0;
+    asperities.joints[0].residual_friction_angle_deg = 30.0;
+    asperities.joints[0].cohesion = 1e6;
+    dilates.joints[0].friction_angle_deg = 35.0;
+    dilates.joints[0].dilation_angle_deg = 10.0;
+    for (const CaseDef& rough : {asperities, dilates})
+        for (const double angle : {0.0, 23.0})
+        {
+            test::CaseRun run(scenes::turned(rough, angle));
+            const auto speed_at = [&](double time)
+            {
+                while (run.state().time < time)
+                    run.advance();
+                return run.velocity("block").norm() * std::cos(10.0 * degree);
+            };
+            const double slow = speed_at(0.1);
+            EXPECT_NEAR((speed_at(1.0) - slow) / 0.9, 0.3720, 0.01 * 0.3720) << angle;
+        }
 }
 }  // namespace
 }  // namespace hdem

@@ -132,6 +132,38 @@ cycles = 3000
     EXPECT_NEAR(crushed.factor, 1.25673, 1e-3);
 }
 
+/// Plane failure: 1.2145 by limit equilibrium. The tip of the wedge stands on the floor before the slope, which holds it at any strength.
+TEST(StrengthBound, OfAWedgeWhoseTipStandsOnTheFloor)
+{
+    const std::string text = R"([material.rock]
+density = 2500.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 2.5e9
+friction_angle_deg = 32.0
+cohesion = 15e3
+[contact]
+method = "force"
+[[block]]
+name = "ground"
+polygon = [[-12, -12], [29.1377760809, -12], [29.1377760809, 12], [17.1377760809, 12], [0, 0], [-12, 0]]
+fixed = true
+[[block]]
+polygon = [[0, 0], [17.1377760809, 12], [5.5956918979, 12]]
+[[stage]]
+cycles = 3000
+)";
+    test::CaseRun run(read_case_text(text, "case.toml").def);
+    run.simulation.begin_stage(0);
+    run.advance(3000);
+    const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
+    EXPECT_EQ(whole.end, StrengthBound::End::none);
+    EXPECT_EQ(whole.factor, 64.0);
+    const StrengthBound crushed = strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole);
+    EXPECT_EQ(crushed.end, StrengthBound::End::found);
+    EXPECT_NEAR(crushed.factor, 1.2145, 1e-3);
+}
+
 /// Where no corner bears, both are the same.
 TEST(StrengthBound, WithoutCornersIsThatOfFaces)
 {

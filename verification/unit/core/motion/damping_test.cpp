@@ -1,12 +1,15 @@
 #include "core/motion/damping.h"
 #include "core/stage/rules.h"
 #include "core/types.h"
+#include "verification/unit/case_run.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace hdem
 {
@@ -185,6 +188,66 @@ RC_GTEST_PROP(LocalDamping, DoesNotKnowTheAxes, (short f_t, short f_m, short v_t
     };
     const double size = std::abs(f_t) + std::abs(f_m) + 20.0 * (std::abs(v_t) + std::abs(v_m));
     RC_ASSERT((damped(0.1 * turn) - damped(0.0)).norm() <= 1e-13 * size);
+}
+
+/// A block of 2 m by 1 m by springs on a slope of 37 degrees, on a joint that opens by 10 degrees as it slips.
+CaseDef on_dilatant_slope(double friction_angle_deg)
+{
+    constexpr double slope = 37.0 * std::numbers::pi / 180.0;
+    CaseDef scene = scenes::block_on_ground(2.0, 1.0);
+    scene.contact.method = Method::force;
+    scene.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope)};
+    scene.joints[0].friction_angle_deg = friction_angle_deg;
+    scene.joints[0].shear_stiffness = 2e9;
+    scene.joints[0].dilation_angle_deg = 10.0;
+    return scene;
+}
+
+/// a = g (sin b - cos b tan phi) / (1 + tan psi tan phi) = 0.372 m/s2
+TEST(Damping, LeavesABlockFreeThatClimbsAsItSlides)
+{
+    for (const double angle : {0.0, 23.0, 90.0, 200.0})
+    {
+        test::CaseRun run(scenes::turned(on_dilatant_slope(35.0), angle));
+        const auto to = [&](double time)
+        {
+            while (run.state().time < time)
+                run.advance();
+            return std::pair(run.state().time, run.velocity("block").norm());
+        };
+        const auto [begin, slow] = to(0.03);
+        const auto [end, fast] = to(0.1);
+        const double along = (fast - slow) / (end - begin) * std::cos(10.0 * std::numbers::pi / 180.0);
+        EXPECT_NEAR(along, 0.3720, 0.01 * 0.3720) << angle;
+    }
+}
+
+/// From 0.1 m/s on the joint opens by more than its closure in a cycle.
+TEST(Damping, LeavesABlockFreeThatClimbsFast)
+{
+    for (const double angle : {0.0, 23.0})
+    {
+        CaseDef scene = on_dilatant_slope(35.0);
+        scene.time.step = 1e-4;
+        test::CaseRun run(scenes::turned(scene, angle));
+        run.advance(1000);
+        const double slow = run.velocity("block").norm();
+        run.advance(9000);
+        const double along = (run.velocity("block").norm() - slow) / 0.9 * std::cos(10.0 * std::numbers::pi / 180.0);
+        EXPECT_NEAR(along, 0.3720, 0.005 * 0.3720) << angle;
+        EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-9);
+    }
+}
+
+TEST(Damping, LetsABlockRestBelowTheStrengthOfADilatantJoint)
+{
+    for (const double angle : {0.0, 23.0, 90.0, 200.0})
+    {
+        test::CaseRun run(scenes::turned(on_dilatant_slope(40.0), angle));
+        run.advance(20'000);
+        EXPECT_LT(run.velocity("block").norm(), 1e-9) << angle;
+        EXPECT_LT(run.displacement("block").norm(), 1e-3) << angle;
+    }
 }
 }  // namespace
 }  // namespace hdem
