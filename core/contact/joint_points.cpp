@@ -92,7 +92,7 @@ constexpr double round_off = 1e-13;
 /// @param stretch  closure before it [m]
 Pack pieces_of(Mask climbs, Pack gaps, Pack stretch)
 {
-    constexpr double most = 128.0, largest = 0.5;  // of the closure
+    constexpr double most = 1024.0, largest = 0.5;  // of the closure
     Pack pieces = 1.0;
     for (int i = 0; i < lanes; ++i)
         if (climbs.has(i))
