@@ -148,12 +148,13 @@ TEST(EnergyTerms, BoundaryIsWhatSidesGive)
             const EnergyLedger& e = run.state().ledger;
             const StoredEnergy stored = stored_energy(run.model(), run.state());
             EXPECT_NEAR(e.load_work, 0.0, 1e-12 * e.boundary);
-            EXPECT_GT(e.boundary, method == Method::force || kind == BoundaryKind::velocity ? 1.0 : 1e-3);
-            EXPECT_EQ(stored.total() > 1.0, method == Method::force) << "else all is taken by impulses, without gravity";
+            EXPECT_GT(e.boundary, 1.0);
+            EXPECT_GT(stored.total(), 1.0) << "in the springs of pressed joints, by hybrid too";
             EXPECT_NEAR(e.boundary,
                         stored.total() + e.local_damping + e.friction + e.contact_changes + e.impulse_loss - e.position_correction,
                         1e-5 * e.boundary);
-            EXPECT_GT(e.boundary, stored.total() * (1.0 - 1e-5));
+            // Springs that take over from impulses begin with their force, which is in contact_changes.
+            EXPECT_GT(e.boundary, stored.total() * (1.0 - (method == Method::force ? 1e-5 : 2e-3)));
         }
 }
 }  // namespace
