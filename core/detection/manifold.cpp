@@ -198,6 +198,17 @@ Facing better_placed(const Shapes& shapes, const Pair& pair, const Facing& facin
     return deepest.overlap > facing.overlap + pair.margin ? deepest : facing;
 }
 
+/// Length of the reference edge of a pair that bears nothing: nothing lies over it.
+constexpr double no_length = -1.0;
+
+/// Is the pair nearer to being apart across an internal edge than across any external one? Then what one block has of the other lies in the part beyond that edge, and
+/// that part bears. Here an external edge on the far side of the block may seem to be pressed, by as much as the block is thick: behind a thin ear a neighbour would be
+/// shot away by it. Until the next search the answer must hold.
+bool bears(double distance, double external_distance, double margin, double recycling)
+{
+    return distance <= external_distance + margin + 4.0 * recycling;
+}
+
 void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
 {
     const EdgeView v = view_edges(contact.edges, motion[contact.ref], motion[contact.inc]);
@@ -245,7 +256,9 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     if (best < 0.0 && facing.overlap < -best - margin)
         facing = better_placed(shapes, pair, facing, best);
 
-    if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge)
+    const bool bearing = bears(distance, best, margin, model.contact.recycling_distance * size);
+    const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
+    if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
     {
         const Contact old = contact;
         contact.ref = facing.ref_is_a ? block_a : block_b;
@@ -254,9 +267,13 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         contact.ref_edge = facing.ref_edge;
         contact.inc_edge = facing.inc_edge;
         contact.edges = facing.edges;
+        if (!bearing)
+            contact.edges.length = no_length;
         contact.length_floor = floor;
         contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
-        const bool goes_on = old.ref_edge != no_index && carry_history(motion, old, contact);
+        const bool goes_on = bearing && was_bearing && carry_history(motion, old, contact);
+        if (!bearing || !was_bearing)
+            contact.point = {};
         const JointTable& joints = model.joints;
         const Index law = joint_of(model, contact);
         const bool is_bonded = goes_on && joints.unbonded_of(old.law) != old.law;
@@ -265,7 +282,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
             for (PointHistory& point : contact.point)
                 point.memory = {};
         start_points(motion, blocks.step.last, contact);
-        if (old.ref_edge != no_index)
+        if (was_searched)
             limit_energy(model.joints, old, contact);
     }
     remember_view(motion, contact);

@@ -1,0 +1,121 @@
+#include "core/geometry/polygon.h"
+#include "verification/unit/block_pair.h"
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace hdem
+{
+namespace
+{
+using test::BlockPair;
+using test::number;
+
+namespace bg = boost::geometry;
+using BoostPolygon = bg::model::polygon<bg::model::d2::point_xy<double>, false, false>;
+
+/// Both where they are drawn: pair_scene puts b 100 m aside.
+BlockPair as_drawn(const Polygon& a, const Polygon& b)
+{
+    BlockPair pair(test::pair_scene(a, b));
+    pair.motion(pair.b).x -= 100.0;
+    return pair;
+}
+
+double force_between(BlockPair& pair)
+{
+    pair.search();
+    pair.evaluate();
+    return pair.force(pair.b).norm();
+}
+
+double deepest_overlap(const BlockPair& pair)
+{
+    double deepest = 0.0;
+    for (Index i = 0; i < pair.state.contacts.size(); ++i)
+        if (const EdgeTouch touch = pair.touch(pair.state.contacts.get(i)); touch.length > 0.0)
+            deepest = std::max({deepest, touch.point[0].overlap, touch.point[1].overlap});
+    return deepest;
+}
+
+/// Two fallen blocks of a tunnel. The left one is cut at its hollow below into four parts; the rightmost is a thin ear on the side of its neighbour.
+TEST(ConcaveBlock, DoesNotPressBehindAThinEar)
+{
+    const Polygon hollow{{16.0011194, 13.8583852}, {15.2860910, 12.6361148}, {15.4209748, 12.6777426},
+                         {16.2984542, 12.7684405}, {17.1767673, 12.6862080}, {17.2828804, 12.6545768}};
+    const Polygon neighbour{{17.1042066, 12.9088012}, {18.3524352, 12.7321636}, {18.1477010, 13.4820464}, {17.0491339, 12.9111379}};
+    BlockPair apart = as_drawn(hollow, neighbour);  // by 28 mm
+    EXPECT_EQ(force_between(apart), 0.0);
+
+    // Through the ear and 10 mm into the part behind it: pressed out by that much, not by the 0.2 m to the floor below.
+    BlockPair pressed = as_drawn(hollow, neighbour);
+    pressed.motion(pressed.b).x -= 0.15;
+    pressed.search();
+    const double deepest = deepest_overlap(pressed);
+    EXPECT_GT(deepest, 0.05);
+    EXPECT_LT(deepest, 0.11);
+}
+
+/// Convex but for a shallow hollow in each side, as rock is cut by arches: its parts have thin ears.
+Polygon random_hollow()
+{
+    const Polygon convex = test::random_convex();
+    Polygon hollow;
+    for (std::size_t i = 0; i < convex.size(); ++i)
+    {
+        const Vec2 from = convex[i], way = convex[next(i, convex.size())] - from;
+        hollow.push_back(from);
+        hollow.emplace_back(from + number(0.1, 0.9) * way + number(0.01, 0.15) * turned_left(way));
+    }
+    return hollow;
+}
+
+BoostPolygon whole(const BlockPair& pair, Index block, const Polygon& drawn)
+{
+    BoostPolygon outline;
+    const Vec2 centroid = area_moments(drawn).centroid;
+    for (const Vec2& p : drawn)
+    {
+        const Vec2 at = BlockPair::world(pair.state.blocks.motion[block], p - centroid);
+        bg::append(outline.outer(), bg::model::d2::point_xy<double>(at.x(), at.y()));
+    }
+    return outline;
+}
+
+/// Two parts of blocks that have come `way` into each other can be drawn apart by so much: none of their points may be pressed by more.
+RC_GTEST_PROP(ConcaveBlock, IsPressedByNoMoreThanTheWayIntoIt, ())
+{
+    const Polygon a = random_hollow(), b = *rc::gen::element(0, 1) == 0 ? random_hollow() : test::random_convex();
+    for (const Polygon& shape : {a, b})
+    {
+        BoostPolygon ring;
+        for (const Vec2& p : shape)
+            bg::append(ring.outer(), bg::model::d2::point_xy<double>(p.x(), p.y()));
+        RC_PRE(bg::is_valid(ring));  // no hollow reaches the other side
+    }
+    BlockPair pair(test::pair_scene(a, b));
+    pair.place(pair.a, {0.0, 0.0}, number(-3.0, 3.0));
+    const double angle = number(-3.0, 3.0), way = number(0.0, 0.15);
+    const auto place = [&](double distance, double direction)
+    { pair.place(pair.b, distance * Vec2(std::cos(direction), std::sin(direction)), angle); };
+    for (const double direction : {0.1, 1.1, 2.1, 3.1, 4.1, 5.1})
+    {
+        double near = 0.0, far = 4.0;
+        for (int i = 0; i < 40; ++i)
+        {
+            const double middle = 0.5 * (near + far);
+            place(middle, direction);
+            (bg::intersects(whole(pair, pair.a, a), whole(pair, pair.b, b)) ? near : far) = middle;
+        }
+        place(far - way, direction);
+        pair.state.contacts.resize(0);
+        pair.search();
+        const double size = std::min(pair.model.size(pair.a), pair.model.size(pair.b));
+        RC_ASSERT(deepest_overlap(pair) <= way + 1e-3 * size);  // margin of the choice of edges
+    }
+}
+}  // namespace
+}  // namespace hdem
