@@ -31,7 +31,17 @@ if(MKDOCS AND EXISTS /usr/share/javascript/katex AND EXISTS /usr/share/mkdocs/th
 else()
     message(STATUS "the guide is packed as Markdown: tools/setup --guide installs what makes HTML of it")
     file(COPY ${guide}/docs/ DESTINATION ${documents}/guide)
-    file(COPY ${CPACK_HDEM_SOURCE}/io/case_format.md DESTINATION ${documents}/guide)    # which that page only includes
+    file(GLOB pages ${documents}/guide/*.md)
+    foreach(page ${pages})    # mkdocs would put in the files that they include
+        file(READ ${page} text)
+        string(REGEX MATCHALL "--8<-- \"[^\"]+\"" lines "${text}")
+        foreach(line ${lines})
+            string(REGEX REPLACE "^--8<-- \"(.*)\"$" "\\1" included "${line}")
+            file(READ ${CPACK_HDEM_SOURCE}/${included} part)
+            string(REPLACE "${line}" "${part}" text "${text}")
+        endforeach()
+        file(WRITE ${page} "${text}")
+    endforeach()
 endif()
 
 # Licences of what is compiled in, as the packages that it comes from say.

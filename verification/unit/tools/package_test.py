@@ -189,6 +189,8 @@ class Package(unittest.TestCase):
         pages = {file.stem for file in (SOURCES / "tools/guide/docs").glob("*.md")}
         is_site = (guide / "index.html").exists()
         self.assertEqual(pages - {file.stem for file in guide.glob("*.html" if is_site else "*.md")}, set())
+        for file in guide.glob("*.md"):
+            self.assertNotIn("--8<--", file.read_text(encoding="utf-8"), file.name)
         self.assertIn("joint_set", (guide / ("case_format.html" if is_site else "case_format.md")).read_text(encoding="utf-8"))
 
     def test_licences_of_what_is_compiled_in_are_there(self):
