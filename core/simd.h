@@ -49,6 +49,7 @@ struct alignas(32) Mask
     V v;  ///< per lane: 0 or -1
 
     [[nodiscard]] bool has(int lane) const { return v[lane] != 0; }
+    void set(int lane) { v[lane] = -1; }
     void clear(int lane) { v[lane] = 0; }
 };
 

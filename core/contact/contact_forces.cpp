@@ -2,21 +2,57 @@
 
 #include "core/contact/contact_forces_wide.h"
 #include "core/contact/spring_points.h"
+#include "core/joint/all_laws.h"
 #include "core/kernels.h"
+
+#include <algorithm>
 
 namespace hdem
 {
+namespace
+{
+constexpr Index wide = 2 * lanes;
+
+/// Are the eight contacts from `i` on all plain, or all of one law and curve?
+bool suit_wide_packs(const std::vector<JointRow>& rows, const Index* law)
+{
+    const JointRow& first = rows[law[0]];
+    if (first.kind == kind_of<UserLaw>())
+        return false;
+    for (Index j = 1; j < wide; ++j)
+        if (law[j] != law[0] && (rows[law[j]].kind != first.kind || rows[law[j]].curve != first.curve))
+            return false;
+    return true;
+}
+}  // namespace
+
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     const auto by_four = kernels().evaluate_contacts;
-    static const bool wide = has_wide_packs();
-    if (!wide || contacts.has_memory)
+    static const bool has_wide = has_wide_packs();
+    if (!has_wide)
         return by_four(range, model, rule, blocks, contacts, loads, sums, needs);
-    const Index eights = (range.end - range.begin + lanes - 1) / (2 * lanes);
-    const Index middle = range.begin + 2 * lanes * eights;
-    const ContactTally most = evaluate_by_eight({range.begin, middle}, model, rule, blocks, contacts, loads, sums, needs);
-    return middle < range.end ? by_four({middle, range.end}, model, rule, blocks, contacts, loads, most, needs) : most;
+    const Index eights = (range.end - range.begin + lanes - 1) / wide;
+    const Index last = range.begin + wide * eights;
+    ContactTally tally = sums;
+    // As many as can be handled alike, one stretch after another.
+    for (Index begin = range.begin, end = begin; begin < range.end; begin = end)
+    {
+        const auto suits = [&](Index i)
+        { return i < last && (!contacts.has_memory || suit_wide_packs(model.joints.rows, &contacts.law[i])); };
+        const bool is_wide = suits(begin);
+        if (!contacts.has_memory)
+            end = is_wide ? last : range.end;
+        else
+            do
+                end += wide;
+            while (end < range.end && suits(end) == is_wide);
+        if (!is_wide)
+            end = std::min(end, range.end);
+        tally = (is_wide ? evaluate_by_eight : by_four)({begin, end}, model, rule, blocks, contacts, loads, tally, needs);
+    }
+    return tally;
 }
 
 void store_tilt_forces(IndexRange range, const Blocks& blocks, Contacts& contacts)

@@ -4,9 +4,18 @@
 #include "core/contact/wide_lanes.h"
 //
 #include "core/contact/contact_pass.h"
+#include "core/contact/joint_reaction.h"
 
 namespace hdem
 {
+/// Laws of users, the last of the list, are asked for four points.
+void evaluate_joint_points(const BasicContactGroup<WidePack>& g, WideMask impulsive, const std::array<WidePack, 2>& share,
+                           WidePack dt, const BasicJointPlace<WidePack>& place, BasicSums<WidePack>& sums)
+{
+    static_assert(kind_of<UserLaw>() == JointKind{law_count - 1});
+    evaluate_by_one_law<WidePack, law_count - 1>(g, impulsive, share, dt, place, sums);
+}
+
 namespace
 {
 template <Joints joints>
@@ -35,7 +44,9 @@ bool has_wide_packs()
 ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
-    const auto evaluate_all = contacts.has_preload ? evaluate_by_law<Joints::preloaded> : evaluate_by_law<Joints::plain>;
+    const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws>
+                              : contacts.has_preload ? evaluate_by_law<Joints::preloaded>
+                                                     : evaluate_by_law<Joints::plain>;
     return evaluate_all(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 }  // namespace hdem

@@ -9,7 +9,7 @@ namespace hdem
 [[nodiscard]] bool has_wide_packs();
 
 /// The bits of four contacts at a time.
-/// @pre  has_wide_packs(), no contact has a memory, `range` has a multiple of eight contacts (with those that fill the arrays up)
+/// @pre  has_wide_packs(), `range` has a multiple of eight contacts (with those that fill the arrays up), and each eight of them pass `suits_wide_packs`
 [[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
                                              const PassNeeds& needs);

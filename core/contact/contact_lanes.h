@@ -168,6 +168,13 @@ static_assert(std::endian::native == std::endian::little);
     store_bytes(regimes_of(spring, slips, held), regime);
 }
 
+/// The same for lanes of `own` alone.
+[[gnu::always_inline]] inline void store_regimes_of(Mask own, Mask spring, Mask slips, Mask held, std::uint8_t* regime)
+{
+    const WordLanes here = words_of(own);
+    store_bytes((here & regimes_of(spring, slips, held)) + (~here & load_bytes(regime)), regime);
+}
+
 inline void store_flags(Mask m, std::uint8_t* to)
 {
     store_bytes(words_of(m) & byte_ones, to);

@@ -77,8 +77,8 @@ struct PassSums
 /// Which law the points of a pack obey. Fills what `g` holds of the points.
 template <ContactLaw law, Joints joints, typename P>
 [[gnu::always_inline]] inline MaskOf<P> choose_laws(BasicContactGroup<P>& g, const Model& model, const PassRule<P>& rule,
-                                                    const Contacts& contacts, Index i, [[maybe_unused]] const RowLanes& rows,
-                                                    P floor, PassSums<P>& sums)
+                                                    const Contacts& contacts, Index i,
+                                                    [[maybe_unused]] const BasicRowLanes<P>& rows, P floor, PassSums<P>& sums)
 {
     const ContactLanes& l = contacts.lane[i / lanes];
 #pragma GCC unroll 2
@@ -89,9 +89,9 @@ template <ContactLaw law, Joints joints, typename P>
         P reach = pressed_by<joints>(g, k);
         if constexpr (joints == Joints::laws)
             if (rows.any)
-                reach += reach_of(rows, contacts.memory_lane[i / lanes].point[k]) +
-                         climb_of(contacts.memory_lane[i / lanes].point[k], did_slip(&contacts.regime[k][i]),
-                                  g.touch.point[k].v_t * rule.blocks.step.last);
+                reach += reach_of(rows, contacts.memory_lane[i / lanes], k) +
+                         climb_of<P>(contacts.memory_lane[i / lanes], k, did_slip(&contacts.regime[k][i], MaskOf<P>{}),
+                                     g.touch.point[k].v_t * rule.blocks.step.last);
         g.closed[k] = is_closed(g.touch.length, reach, floor);
         g.was_impulse[k] = were_impulses(&contacts.regime[k][i], MaskOf<P>{});
         g.last_normal[k] = load_lane<P>(l, l.normal_force[k]);
@@ -105,8 +105,8 @@ template <ContactLaw law, Joints joints, typename P>
     MaskOf<P> impulsive = are_impulsive<law>(g, speed, model, rule.blocks, rule.threshold);
     if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
         if (rows.any && any(impulsive))
-            impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes].point[0]) |
-                                      keep_springs(rows, contacts.memory_lane[i / lanes].point[1]));
+            impulsive = impulsive & !(keep_springs(rows, contacts.memory_lane[i / lanes], 0) |
+                                      keep_springs(rows, contacts.memory_lane[i / lanes], 1));
     if constexpr (law != ContactLaw::springs)
     {
         sums.impulses.add(g.closed[0] & impulsive);
@@ -128,7 +128,7 @@ template <Joints joints, typename P>
 template <Joints joints, typename P>
 [[gnu::always_inline]] inline bool evaluate_points(BasicContactGroup<P>& g, MaskOf<P> touching, MaskOf<P> impulsive,
                                                    const PassRule<P>& rule, Contacts& contacts, Index i,
-                                                   [[maybe_unused]] const RowLanes& rows, P floor, BasicSums<P>& sums)
+                                                   [[maybe_unused]] const BasicRowLanes<P>& rows, P floor, BasicSums<P>& sums)
 {
     ContactLanes& l = contacts.lane[i / lanes];
     MaskOf<P> act = g.was_impulse[0] | g.was_impulse[1] | impulsive;
@@ -160,9 +160,9 @@ template <Joints joints, typename P>
     if constexpr (joints == Joints::laws)
         if (remembers)
         {
-            evaluate_joint_points(g, impulsive, share, rule.dt,
-                                  {l, contacts.memory_lane[i / lanes], {&contacts.regime[0][i], &contacts.regime[1][i]}, rows},
-                                  sums);
+            const BasicJointPlace<P> place{
+                l, contacts.memory_lane[i / lanes], {&contacts.regime[0][i], &contacts.regime[1][i]}, rows};
+            evaluate_joint_points(g, impulsive, share, rule.dt, place, sums);
             return false;
         }
 #pragma GCC unroll 2
@@ -215,7 +215,7 @@ template <Joints joints, typename P>
 
 /// Ask for the memory of contacts that come later. Processors foresee that ContactLanes follow each other, but too late: without this a pass over contacts that no
 /// cache of a core holds takes up to twice as long (perf/measured.md).
-template <typename P>
+template <Joints joints, typename P>
 [[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, Index i, const PassNeeds& needs)
 {
     constexpr std::size_t always = offsetof(ContactLanes, moved_limit), group = sizeof(ContactLanes);
@@ -224,6 +224,12 @@ template <typename P>
     const auto all = static_cast<Index>(contacts.stale.size());
     const bool is_far = all > beyond_caches;
     const Index at = std::min(i + (is_far ? far : near), all - P::width);
+    if constexpr (joints == Joints::laws)
+    {
+        const char* const memory = reinterpret_cast<const char*>(&contacts.memory_lane[at / lanes]);
+        for (std::size_t b = 0; b < P::width / lanes * sizeof(MemoryLanes); b += 64)
+            __builtin_prefetch(memory + b, 1);
+    }
     // (Not by one function for both: g++ drops a function that only fetches.)
     const char* const lane = reinterpret_cast<const char*>(&contacts.lane[at / lanes]);
     for (std::size_t g = 0; g < P::width / lanes * group; g += group)
@@ -249,17 +255,16 @@ template <ContactLaw law, Joints joints, typename P>
                                           Contacts& contacts, ContactLoads& loads, const ContactTally& before,
                                           const PassNeeds& needs)
 {
-    static_assert(joints != Joints::laws || std::is_same_v<P, Pack>);
     const PassRule<P> rule(model, regimes, blocks, needs);
     LawLanes<P> laws(model.joints.laws);
-    RowLanes rows(model.joints.rows);
+    BasicRowLanes<P> rows(model.joints.rows);
     PassSums<P> pass(before);
     for (Index i = range.begin; i < range.end; i += P::width)
     {
         ContactLanes& l = contacts.lane[i / lanes];
         const Index* const at_ref = &contacts.ref[i];
         const Index* const at_inc = &contacts.inc[i];
-        fetch_ahead<P>(contacts, i, needs);
+        fetch_ahead<joints, P>(contacts, i, needs);
         const BasicEdgePair<P> edges = load_edges<P>(l);
         const BasicMotion<P> ref = load_motions<P>(blocks.motion, at_ref);
         const BasicMotion<P> inc = load_motions<P>(blocks.motion, at_inc);
@@ -302,8 +307,8 @@ template <ContactLaw law, Joints joints, typename P>
         add_pack(sums.changes, pass.changes);
         if constexpr (joints == Joints::laws)
         {
-            pass.dilation += sums.dilation;
-            pass.broken += sums.broken;
+            add_pack(sums.dilation, pass.dilation);
+            add_pack(sums.broken, pass.broken);
         }
         store_results<joints>(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
     }

@@ -1,83 +1,100 @@
 #pragma once
-/// Joint rows of four contacts.
+/// Joint rows of the contacts of a pack.
 
 #include "core/contact/contact_lanes.h"
 #include "core/joint/all_laws.h"
 #include "core/joint/joint_row.h"
 #include "core/state/contacts.h"
 
+#include <cstring>
 #include <vector>
 
 namespace hdem
 {
 /// Neighbours mostly have the same rows: what was loaded last is kept.
-class RowLanes
+template <typename P>
+class BasicRowLanes
 {
   public:
-    explicit RowLanes(const std::vector<JointRow>& rows) : rows_(rows) {}
+    using M = MaskOf<P>;
+    static constexpr int width = P::width;
+
+    explicit BasicRowLanes(const std::vector<JointRow>& rows) : rows_(rows) { last_.fill(no_index); }
 
     void load(const Index* law)
     {
-        if (!std::equal(law, law + lanes, last_.begin()))
+        if (std::memcmp(law, last_.data(), sizeof last_) != 0)
             reload(law);
     }
 
-    std::array<JointKind, lanes> kind{};
-    std::array<CurveKind, lanes> curve{};
-    Mask has_memory{};        ///< the others are plain
-    Mask is_linear{};         ///< of these: with a linear normal spring
-    Mask is_bonded{};         ///< JointRow::is_bonded
-    Mask is_rough{};          ///< dilates, or is of a law of which impulses know no more than its basic friction
-    bool any = false;         ///< one of the four has a memory
+    std::array<JointKind, width> kind{};
+    std::array<CurveKind, width> curve{};
+    M has_memory{};           ///< the others are plain
+    M is_linear{};            ///< of these: with a linear normal spring
+    M is_bonded{};            ///< JointRow::is_bonded
+    M is_rough{};             ///< dilates, or is of a law of which impulses know no more than its basic friction
+    bool any = false;         ///< one of them has a memory
     bool is_uniform = false;  ///< all have, and the same law and curve
-    Pack reach = 0.0, torn_reach = 0.0;
-    BasicJointNumbers<Pack> numbers;
+    P reach = 0.0, torn_reach = 0.0;
+    BasicJointNumbers<P> numbers;
 
   private:
     void reload(const Index* law);
 
     const std::vector<JointRow>& rows_;
-    std::array<Index, lanes> last_{no_index, no_index, no_index, no_index};
+    std::array<Index, width> last_;
 };
+using RowLanes = BasicRowLanes<Pack>;
 
 /// Gap across which the points still bear [m].
-[[nodiscard]] inline Pack reach_of(const RowLanes& rows, const MemoryLanes::Point& memory)
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P reach_of(const BasicRowLanes<P>& rows, const MemoryLanes& memory, int k)
 {
-    return load_lane(memory.opening) + select(load_lane(memory.broken) < Pack(0.5), rows.reach, rows.torn_reach);
+    const MemoryLanes::Point& m = memory.point[k];
+    return load_lane<P>(memory, m.opening) + select(load_lane<P>(memory, m.broken) < P(0.5), rows.reach, rows.torn_reach);
 }
 
 /// Points that slipped in the last cycle.
-[[nodiscard]] inline Mask did_slip(const std::uint8_t* regime)
+[[nodiscard]] inline Mask did_slip(const std::uint8_t* regime, Mask)
 {
     return mask_of(WordLanes(load_bytes(regime) == byte_ones * static_cast<std::uint32_t>(Regime::slip)));
 }
 
 /// By which slip of this cycle may open a joint at most that has slipped, and opened, before: the law must be asked whether it still touches [m].
-[[nodiscard]] inline Pack climb_of(const MemoryLanes::Point& memory, Mask slipped, Pack slide)
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline P climb_of(const MemoryLanes& memory, int k, MaskOf<P> slipped, P slide)
 {
-    return select(slipped & (load_lane(memory.opening) > Pack(0.0)), abs(slide), 0.0);
+    return select(slipped & (load_lane<P>(memory, memory.point[k].opening) > P(0.0)), abs(slide), 0.0);
 }
 
 /// Points that no impulse may take from their springs: bonds until they break, and closures that are no straight line.
-[[nodiscard]] inline Mask keep_springs(const RowLanes& rows, const MemoryLanes::Point& memory)
+template <typename P>
+[[nodiscard, gnu::always_inline]] inline MaskOf<P> keep_springs(const BasicRowLanes<P>& rows, const MemoryLanes& memory, int k)
 {
-    return rows.has_memory & ((!rows.is_linear) | (rows.is_bonded & (load_lane(memory.broken) < Pack(0.5))));
+    const MaskOf<P> is_whole = load_lane<P>(memory, memory.point[k].broken) < P(0.5);
+    return rows.has_memory & ((!rows.is_linear) | (rows.is_bonded & is_whole));
 }
 
-inline void RowLanes::reload(const Index* law)
+template <typename P>
+[[gnu::noinline]] void BasicRowLanes<P>::reload(const Index* law)
 {
-    std::copy(law, law + lanes, last_.begin());
+    std::memcpy(last_.data(), law, sizeof last_);
     any = false;
-    for (int i = 0; i < lanes; ++i)
+    has_memory = is_linear = is_bonded = is_rough = M{};
+    for (int i = 0; i < width; ++i)
     {
         const JointRow& row = rows_[law[i]];
         kind[i] = row.kind;
         curve[i] = row.curve;
-        has_memory.v[i] = row.has_memory() ? -1 : 0;
-        is_linear.v[i] = row.curve == CurveKind::linear ? -1 : 0;
-        is_bonded.v[i] = row.is_bonded ? -1 : 0;
         const bool dilates = row.kind != kind_of<CoulombResidual>() || row.numbers[CoulombResidual::dilation] > 0.0;
-        is_rough.v[i] = row.has_memory() && dilates ? -1 : 0;
+        if (row.has_memory())
+            has_memory.set(i);
+        if (row.curve == CurveKind::linear)
+            is_linear.set(i);
+        if (row.is_bonded)
+            is_bonded.set(i);
+        if (row.has_memory() && dilates)
+            is_rough.set(i);
         any = any || row.has_memory();
         is_uniform = (i == 0 || is_uniform) && row.has_memory() && kind[i] == kind[0] && curve[i] == curve[0];
         reach.v[i] = row.reach;

@@ -6,6 +6,8 @@
 
 #include <immintrin.h>
 
+#include <bit>
+
 namespace hdem
 {
 inline constexpr int wide_lanes = 2 * lanes;
@@ -15,6 +17,7 @@ struct WideMask
     __mmask8 v = 0;
 
     [[nodiscard]] bool has(int lane) const { return ((v >> lane) & 1) != 0; }
+    void set(int lane) { v = static_cast<__mmask8>(v | (1 << lane)); }
     void clear(int lane) { v = static_cast<__mmask8>(v & ~(1 << lane)); }
 };
 
@@ -117,6 +120,13 @@ inline bool any(WideMask m)
     return m.v != 0;
 }
 
+using WideBits = std::uint64_t __attribute__((vector_size(64)));
+
+inline WideBits bits_of(WidePack x)
+{
+    return std::bit_cast<WideBits>(x.v);
+}
+
 /// How many lanes of masks were set.
 class WideCount
 {
@@ -183,6 +193,11 @@ template <typename Row>
 {
     return {
         static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_eight_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::impulse))))};
+}
+
+[[nodiscard]] inline WideMask did_slip(const std::uint8_t* regime, WideMask)
+{
+    return {static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_eight_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::slip))))};
 }
 
 inline void store_eight_bytes(__m128i bytes, std::uint8_t* to)

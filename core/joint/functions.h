@@ -1,5 +1,5 @@
 #pragma once
-/// Logarithm, exponential, tangent and power for `double` and for `Pack`.
+/// Logarithm, exponential, tangent and power for `double` and for packs.
 ///
 /// One algorithm for both, from + - * / and integer operations alone: a lane gives the same bits as a double, and no result depends on the
 /// libm of the machine. The series are those of Taylor, the tangent's fraction is Lambert's. Relative error about 5e-16.
@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace hdem
 {
@@ -24,13 +25,13 @@ inline BitLanes bits_of(Pack x)
 {
     return std::bit_cast<BitLanes>(x.v);
 }
-inline double from_bits(std::uint64_t bits)
+template <typename R, typename Bits>
+[[nodiscard]] inline R from_bits(Bits bits)
 {
-    return std::bit_cast<double>(bits);
-}
-inline Pack from_bits(BitLanes bits)
-{
-    return Pack(std::bit_cast<Pack::V>(bits));
+    if constexpr (std::is_same_v<R, double>)
+        return std::bit_cast<double>(bits);
+    else
+        return R(std::bit_cast<typename R::V>(bits));
 }
 
 /// |x|, with the same sign of 0 in a lane and in a double; that of simd.h has not.
@@ -88,8 +89,8 @@ template <typename R>
     constexpr std::uint64_t root_half = 0x3FE6A09E667F3BCDu, bias = std::uint64_t{1024} << 52, two52 = 0x4330000000000000u;
     const auto bits = bits_of(x);
     const auto shifted = (bits - root_half + bias) >> 52;  // k + 1024
-    const R k = from_bits(shifted | two52) - R(0x1p52 + 1024.0);
-    const R m = from_bits(bits - (shifted << 52) + bias);
+    const R k = from_bits<R>(shifted | two52) - R(0x1p52 + 1024.0);
+    const R m = from_bits<R>(bits - (shifted << 52) + bias);
     const R f = m - R(1.0);
     const R s = f / (R(2.0) + f);
     return k * R(ln2_high) + (R(2.0) * s + (s * atanh_rest(s) + k * R(ln2_low)));
@@ -109,7 +110,7 @@ template <typename R>
     const R n = stored - R(rounder);
     const R r = (cut - n * R(ln2_high)) - n * R(ln2_low);
     const R rest = r * r * polynomial(r, c);
-    const R scale = from_bits((bits_of(stored) - std::bit_cast<std::uint64_t>(rounder) + 1023u) << 52);
+    const R scale = from_bits<R>((bits_of(stored) - std::bit_cast<std::uint64_t>(rounder) + 1023u) << 52);
     return scale * (R(1.0) + (r + rest));
 }
 

@@ -1,6 +1,7 @@
 /// Four contacts at a time, as this processor does it and as any does, and eight at a time give the same bits.
 #include "core/contact/contact_forces_wide.h"
 #include "core/kernels.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/case_run.h"
 
 #include <cstring>
@@ -91,8 +92,10 @@ Index expect_same_bits(const CaseRun& run, const std::string& what)
                 const PassNeeds needs{.views = keeps, .rests = true, .tilts = !keeps};
                 const Pass plain = pass_of(run, rule, needs, plain_kernels().evaluate_contacts);
                 expect_same(plain, pass_of(run, rule, needs, kernels().evaluate_contacts), what + ", four at a time");
-                if (has_wide_packs() && !run.state().contacts.has_memory)
-                    expect_same(plain, pass_of(run, rule, needs, evaluate_by_eight), what + ", eight at a time");
+                if (has_wide_packs())  // as far as they can be taken so where joints have a memory
+                    expect_same(plain,
+                                pass_of(run, rule, needs, run.state().contacts.has_memory ? evaluate_contacts : evaluate_by_eight),
+                                what + ", eight at a time");
                 expect_same_motion(run, plain, what);
                 impulses += law == ContactLaw::by_speed ? plain.tally.impulses : 0;
             }
@@ -146,20 +149,39 @@ TEST_F(ContactWidths, PreloadedRockGivesTheSameBits)
     }
 }
 
-TEST_F(ContactWidths, LawsWithMemoryGiveTheSameBits)
+void expect_same_bits_of_laws(const CaseDef& scene, const std::string& what)
 {
-    CaseDef scene = scenes::joints(12.0, 12.0, 1.3, 10.0);
-    JointDef& joint = scene.joints.front();
-    joint.law = JointLaw::barton_bandis;
-    joint.jrc = 8.0;
-    joint.jcs = 1e8;
     CaseRun run(scene);
     ASSERT_TRUE(run.state().contacts.has_memory);
     for (int i = 0; i < 10; ++i)
     {
-        expect_same_bits(run, "Barton and Bandis");
+        expect_same_bits(run, what);
         run.advance(20);
     }
+}
+
+TEST_F(ContactWidths, LawsWithMemoryGiveTheSameBits)
+{
+    for (const JointDef& joint : scenes::sample_joints())
+    {
+        CaseDef scene = scenes::joints(12.0, 12.0, 1.3, 10.0);
+        scene.joints = {joint};
+        expect_same_bits_of_laws(scene, "law " + std::to_string(static_cast<int>(joint.law)));
+    }
+}
+
+TEST_F(ContactWidths, LawsBesideEachOtherGiveTheSameBits)
+{
+    CaseDef scene = scenes::joints(12.0, 12.0, 1.3, 10.0);
+    scene.joint_sets.push_back({.name = "cross", .dip_deg = 50.0, .spacing = 3.0});
+    const std::array<JointDef, 7> laws = scenes::sample_joints();
+    for (std::size_t i : {1, 6})  // the third set stays plain
+    {
+        scene.joints.push_back(laws[i]);
+        scene.joints.back().name = "rough" + std::to_string(i);
+        scene.joint_sets[i == 1 ? 0 : 1].joint = scene.joints.back().name;
+    }
+    expect_same_bits_of_laws(scene, "Barton and Bandis, a shared library, and plain");
 }
 }  // namespace
 }  // namespace hdem
