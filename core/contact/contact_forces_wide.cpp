@@ -16,25 +16,6 @@ void evaluate_joint_points(const BasicContactGroup<WidePack>& g, WideMask impuls
     evaluate_by_one_law<WidePack, law_count - 1>(g, impulsive, share, dt, place, sums);
 }
 
-namespace
-{
-template <Joints joints>
-ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks, Contacts& contacts,
-                             ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
-{
-    switch (rule.law)
-    {
-    case ContactLaw::springs:
-        return evaluate_packs<ContactLaw::springs, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    case ContactLaw::impulses:
-        return evaluate_packs<ContactLaw::impulses, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    case ContactLaw::by_speed:
-        return evaluate_packs<ContactLaw::by_speed, joints, WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
-    }
-    return {};
-}
-}  // namespace
-
 bool has_wide_packs()
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
@@ -44,10 +25,7 @@ bool has_wide_packs()
 ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
-    const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws>
-                              : contacts.has_preload ? evaluate_by_law<Joints::preloaded>
-                                                     : evaluate_by_law<Joints::plain>;
-    return evaluate_all(range, model, rule, blocks, contacts, loads, sums, needs);
+    return evaluate_by<WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
 }
 }  // namespace hdem
 

@@ -1,9 +1,8 @@
 #pragma once
 /// One pass of the laws over contacts, as many at a time as a pack P holds.
 
-#include "core/contact/closing.h"
-#include "core/contact/contact_forces.h"
 #include "core/contact/joint_points.h"
+#include "core/contact/pass_rule.h"
 #include "core/contact/spring_points.h"
 
 #include <algorithm>
@@ -12,68 +11,6 @@
 
 namespace hdem
 {
-/// What is the same for all contacts of a cycle.
-template <typename P>
-struct PassRule
-{
-    PassRule(const Model& model, const RegimeRule& rule, const Blocks& of, const PassNeeds& needed)
-        : blocks(of),
-          needs(needed),
-          threshold{model.threshold_scale, of.step.kick() * model.gravity.norm(), model.gravity.isZero(0.0) ? of.step.kick() : 0.0,
-                    model.contact.threshold_velocity.value_or(-1.0), rule.rock_keeps_springs},
-          closing(rule.closing),
-          closing_speed(rule.closing_speed),
-          dt(of.step.last),
-          ways(closing_ways(of.step)),
-          floors_deep(model.contact.overlap_limit / model.contact.length_floor),
-          recovery(model.contact.correction_rate * dt / model.contact.length_floor)
-    {
-    }
-
-    const Blocks& blocks;
-    PassNeeds needs;
-    Threshold threshold;
-    Closing closing;
-    double closing_speed;
-    P dt, ways;
-    P floors_deep;  ///< contact.overlap_limit; it and the length floor are shares of the smaller block's size
-    P recovery;     ///< of a rest overlap in a cycle, in length floors
-};
-
-/// ContactTally while it is formed.
-template <typename P>
-struct PassSums
-{
-    using Count = decltype(count_of(MaskOf<P>{}));
-    Pack friction, changes, dilation, broken;
-    Count closed{}, impulses{}, stale{}, deep{};
-    bool unrested = false;
-    FloatsOf<P> slack;
-
-    explicit PassSums(const ContactTally& before)
-        : friction(before.friction),
-          changes(before.changes),
-          dilation(before.dilation),
-          broken(before.broken),
-          unrested(before.unrested),
-          slack(all_floats<P>(before.slack))
-    {
-    }
-    [[nodiscard]] ContactTally added_to(const ContactTally& before) const
-    {
-        return {friction.lane_sums(),
-                changes.lane_sums(),
-                before.closed + static_cast<Index>(closed.total()),
-                before.impulses + static_cast<Index>(impulses.total()),
-                before.stale + static_cast<Index>(stale.total()),
-                before.deep + static_cast<Index>(deep.total()),
-                dilation.lane_sums(),
-                broken.lane_sums(),
-                unrested,
-                least(slack)};
-    }
-};
-
 /// Which law the points of a pack obey. Fills what `g` holds of the points.
 template <ContactLaw law, Joints joints, typename P>
 [[gnu::always_inline]] inline MaskOf<P> choose_laws(BasicContactGroup<P>& g, const Model& model, const PassRule<P>& rule,
@@ -249,7 +186,7 @@ template <Joints joints, typename P>
     }
 }
 
-/// evaluate_contacts for packs of one width. `range` begins and ends at multiples of it, or of `lanes` with the last contact.
+/// evaluate_contacts for packs of one width, contacts of one kind and one rule. `range` begins and ends at multiples of it, or of `lanes` with the last contact.
 template <ContactLaw law, Joints joints, typename P>
 [[nodiscard]] ContactTally evaluate_packs(IndexRange range, const Model& model, const RegimeRule& regimes, const Blocks& blocks,
                                           Contacts& contacts, ContactLoads& loads, const ContactTally& before,
@@ -313,5 +250,33 @@ template <ContactLaw law, Joints joints, typename P>
         store_results<joints>(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
     }
     return pass.added_to(before);
+}
+
+template <Joints joints, typename P>
+[[nodiscard]] ContactTally evaluate_by_law(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                                           Contacts& contacts, ContactLoads& loads, const ContactTally& before,
+                                           const PassNeeds& needs)
+{
+    switch (rule.law)
+    {
+    case ContactLaw::springs:
+        return evaluate_packs<ContactLaw::springs, joints, P>(range, model, rule, blocks, contacts, loads, before, needs);
+    case ContactLaw::impulses:
+        return evaluate_packs<ContactLaw::impulses, joints, P>(range, model, rule, blocks, contacts, loads, before, needs);
+    case ContactLaw::by_speed:
+        return evaluate_packs<ContactLaw::by_speed, joints, P>(range, model, rule, blocks, contacts, loads, before, needs);
+    }
+    return {};
+}
+
+/// evaluate_contacts for packs of one width, whatever the contacts carry and obey.
+template <typename P>
+[[nodiscard]] ContactTally evaluate_by(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
+                                       Contacts& contacts, ContactLoads& loads, const ContactTally& before, const PassNeeds& needs)
+{
+    const auto evaluate_all = contacts.has_memory    ? evaluate_by_law<Joints::laws, P>
+                              : contacts.has_preload ? evaluate_by_law<Joints::preloaded, P>
+                                                     : evaluate_by_law<Joints::plain, P>;
+    return evaluate_all(range, model, rule, blocks, contacts, loads, before, needs);
 }
 }  // namespace hdem
