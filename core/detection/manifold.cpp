@@ -80,6 +80,9 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
     return scan;
 }
 
+/// Cosine of the angle between two pieces of one side.
+constexpr double in_line = 0.999;
+
 /// Does an edge lie flat on another, and a second edge at an angle to it that a sliver beside them would have? By the sines of their angles to it.
 bool is_flat_beside(double sine, double other_sine)
 {
@@ -92,7 +95,6 @@ bool is_flat_beside(double sine, double other_sine)
 /// a corner on a corner would carry as much as a face.)
 Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
-    constexpr double in_line = 0.999;  // cosine of the angle between two pieces of one side
     const Vec2 t = shapes.edge_tangent[edge];
     const Vec2 start = shapes.vertex[edge];
     const auto depth = [&](Index v) { return cross(t, Vec2(pose.moved(shapes.vertex[v]) - start)); };
@@ -177,19 +179,25 @@ Facing face(const Shapes& shapes, const Pair& pair, bool ref_is_a, Index ref_edg
     return f;
 }
 
-/// The two edges of `facing` are not where the parts overlap: of the edges whose distance is `best`, the one that is. Edges of an almost straight side
-/// are equally far from a corner that enters it, and only one of them is over that corner.
+/// The two edges of `facing` do not lie over each other: of the edges whose distance is `best`, the one that does. Edges of an almost straight side
+/// are equally far from a corner that nears or enters it, and only one of them is over that corner. While the parts are apart, only pieces of one side change places: of
+/// blocks that touch with corners no edge lies over another, and they would pass from one to the next at each search.
 Facing better_placed(const Shapes& shapes, const Pair& pair, const Facing& facing, double best)
 {
     Facing deepest = facing;
+    const auto may_take = [&](bool on_a, Index e)
+    {
+        const bool is_same_side = on_a == facing.ref_is_a &&
+                                  shapes.edge_tangent[e].dot(shapes.edge_tangent[facing.ref_edge]) > in_line;
+        return is_external(shapes, e) && (best < 0.0 || is_same_side);
+    };
     for (const bool on_a : {true, false})
     {
         const Index part = on_a ? pair.a : pair.b;
         const Index other = on_a ? pair.b : pair.a;
         for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
         {
-            if (!is_external(shapes, e) ||
-                edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b) < best - pair.margin)
+            if (!may_take(on_a, e) || edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b) < best - pair.margin)
                 continue;
             if (const Facing f = face(shapes, pair, on_a, e); f.overlap > deepest.overlap)
                 deepest = f;
@@ -253,7 +261,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         ref_is_a = on_a.kept_distance > -infinity;
     }
     Facing facing = face(shapes, pair, ref_is_a, ref_edge);
-    if (best < 0.0 && facing.overlap < -best - margin)
+    if (facing.overlap < -best - margin)
         facing = better_placed(shapes, pair, facing, best);
 
     const bool bearing = bears(distance, best, margin, model.contact.recycling_distance * size);

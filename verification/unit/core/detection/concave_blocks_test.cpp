@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+
 namespace hdem
 {
 namespace
@@ -57,6 +59,37 @@ TEST(ConcaveBlock, DoesNotPressBehindAThinEar)
     const double deepest = deepest_overlap(pressed);
     EXPECT_GT(deepest, 0.05);
     EXPECT_LT(deepest, 0.11);
+}
+
+/// A hook above a bar that hangs on a stem: the top of the bar is one side in two pieces, and a lip of the hook is above each. Both are known before they land, or the hook
+/// would land on one lip a cycle earlier and slip sideways.
+TEST(ConcaveBlock, LandsOnBothPiecesOfASplitSideAtOnce)
+{
+    const Polygon bar{{-0.6, 0.7}, {0.6, 0.7}, {0.6, 1.0}, {0.1, 1.0}, {0.1, 2.0}, {-0.1, 2.0}, {-0.1, 1.0}, {-0.6, 1.0}};
+    Polygon hook{{-1.0, 0.0}, {1.0, 0.0},  {1.0, 1.3},  {0.2, 1.3},  {0.2, 1.0},  {0.7, 1.0},
+                 {0.7, 0.4},  {-0.7, 0.4}, {-0.7, 1.0}, {-0.2, 1.0}, {-0.2, 1.3}, {-1.0, 1.3}};
+    for (Vec2& p : hook)
+        p += Vec2(0.01, 0.005);
+    for (const double turn : {0.0, 37.0, 200.0})
+    {
+        const auto turned = [&](Polygon shape)
+        {
+            const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
+            for (Vec2& p : shape)
+                p = p.x() * x + p.y() * turned_left(x);
+            return shape;
+        };
+        BlockPair pair = as_drawn(turned(bar), turned(hook));
+        pair.search();
+        std::vector<double> stretches;
+        for (Index i = 0; i < pair.state.contacts.size(); ++i)
+            if (const double length = pair.touch(pair.state.contacts.get(i)).length; length > 0.1)
+                stretches.push_back(length);
+        std::ranges::sort(stretches);
+        ASSERT_EQ(stretches.size(), 2U) << "turned by " << turn;
+        EXPECT_NEAR(stretches[0], 0.39, 1e-9);
+        EXPECT_NEAR(stretches[1], 0.41, 1e-9);
+    }
 }
 
 /// Convex but for a shallow hollow in each side, as rock is cut by arches: its parts have thin ears.
