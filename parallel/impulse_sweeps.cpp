@@ -44,9 +44,15 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
 {
     Blocks& blocks = state.blocks;
     MassRange masses;
+    bool is_hit = false;
     for (const ContactPart& part : partition.contacts)
         if (!part.impulses.empty())
+        {
             masses.add(part.masses);
+            is_hit = is_hit || part.is_hit;
+        }
+    if (which == ExactIslands::hit && !is_hit)
+        which = ExactIslands::great_mass_ratios;
     if (which == ExactIslands::great_mass_ratios && masses.suits_sweeps(model.contact.impulse_sweeps))
         return;
     const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));
@@ -74,8 +80,10 @@ void apply_impulses(const Model& model, ExactIslands exact, State& state, const 
     const IndexRange contact_parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
     {
-        aim_impulses(blocks, partition.contacts[i].impulses);
-        partition.contacts[i].masses = mass_range(partition.contacts[i].impulses, blocks);
+        ContactPart& part = partition.contacts[i];
+        aim_impulses(blocks, part.impulses);
+        part.masses = mass_range(part.impulses, blocks);
+        part.is_hit = std::any_of(part.impulses.begin(), part.impulses.end(), is_impact);
     }
     team.barrier();
     if (model.insitu.given)

@@ -27,6 +27,7 @@ struct ContactPart
     EnergyLedger ledger;                 ///< of this cycle
     std::vector<ImpulsePoint> impulses;  ///< of this cycle
     MassRange masses;                    ///< of their blocks
+    bool is_hit = false;                 ///< at one of them blocks hit each other
     bool unsolved = false;               ///< they need more than sweeps
     std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
     std::vector<StiffContact> stiff;     ///< to be looked at in every cycle

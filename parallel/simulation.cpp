@@ -52,15 +52,18 @@ Simulation::Simulation(Model model, State state, const ThreadRule& threads)
 
 void Simulation::hold_lost_blocks()
 {
+    std::vector<Index> lost;
     for (Index i = 0; i < model_.blocks(); ++i)
         if (state_.blocks.is_free(i) && has_left(i, model_, state_.blocks))
-        {
-            state_.ledger.removed += kinetic_energy(model_, state_.blocks, i);
-            set_mobility(model_, i, false, state_.blocks);
-            state_.contacts_outdated = true;
-        }
-    if (state_.contacts_outdated)
-        renew_contacts();
+            lost.push_back(i);
+    if (lost.empty())
+        return;
+    const double stored = stored_energy(model_, state_).total();
+    const double changes = state_.ledger.contact_changes;
+    for (const Index block : lost)
+        set_mobility(model_, block, false, state_.blocks);
+    renew_contacts();  // two blocks that are held have no contact: what their joint stores goes, too
+    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 
 std::optional<EndMet> Simulation::look_at_ends(bool is_settled)

@@ -20,6 +20,8 @@ constexpr double left_by_sweeps = 1e-3;
 constexpr double solved = 1e-2;
 /// The same where rest is looked for, as a share of what a block at rest may be out of balance by: more, and the stage would wait for what nobody solves.
 constexpr double left_at_rest = 0.3;
+/// The same in an impact, where it stays: no later cycle takes it back.
+constexpr double left_in_impact = 1e-6;
 /// Of the overlap to be taken back, and of the one that is allowed.
 constexpr double noticeable_overlap = 1e-2;
 /// Of the greatest velocity: what rounding leaves to a block of a millionth of the mass of those that press it.
@@ -89,18 +91,28 @@ MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& bloc
     return range;
 }
 
-bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
-                  const std::vector<Triple>& pseudo)
+namespace
+{
+bool leave_more_than(double share, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                     const std::vector<Triple>& pseudo)
 {
     double limit = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
     for (const ImpulsePoint& p : points)
     {
-        limit = std::max(limit, velocity_limit(noticeable(model, which), p, blocks));
+        limit = std::max(limit, velocity_limit(share, p, blocks));
         error = std::max(error, impulse_error(p, blocks));
         pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
         pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
     }
     return error > limit || pseudo_error > noticeable_overlap * pseudo_scale;
+}
+}  // namespace
+
+bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                  const std::vector<Triple>& pseudo)
+{
+    const double share = which == ExactIslands::hit ? left_in_impact : noticeable(model, which);
+    return leave_more_than(share, model, points, blocks, pseudo);
 }
 
 Index IslandFinder::root(Index block)
@@ -232,14 +244,15 @@ std::vector<Cluster> cut(const Model& model, const Island& island, const Blocks&
 }
 
 /// More sweeps over a cluster, until they have left as little as needs no solution.
+/// @param share  of the velocity that forces and impacts give: as little may be left
 /// @return as of sweep_impulses [J]
-double sweep_more(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
+double sweep_more(const Model& model, double share, Blocks& blocks, std::vector<Triple>& pseudo, const Cluster& cluster)
 {
     double loss = 0.0;
     std::vector<ImpulsePoint> points;
     for (const ImpulsePoint* p : cluster.points)
         points.push_back(*p);
-    for (int round = 0; round < more_sweeps && are_unsolved(model, which, points, blocks, pseudo); ++round)
+    for (int round = 0; round < more_sweeps && leave_more_than(share, model, points, blocks, pseudo); ++round)
         for (int sweep = 0; sweep < model.contact.impulse_sweeps; ++sweep)
         {
             loss += sweep_impulses(points, blocks);
@@ -305,7 +318,11 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
     for (const Index block : island.blocks)
         masses.add(blocks.inertia[block]);
     const bool suits_sweeps = masses.suits_sweeps(model.contact.impulse_sweeps);
-    if (suits_sweeps && which == ExactIslands::great_mass_ratios)
+    const bool is_small = island.points.size() <= small_cluster;
+    if (which == ExactIslands::hit && is_small &&
+        std::any_of(island.points.begin(), island.points.end(), [](const ImpulsePoint* p) { return is_impact(*p); }))
+        island.loss += sweep_more(model, left_in_impact, blocks, pseudo, {.points = island.points});
+    if (suits_sweeps && which != ExactIslands::small)
         return;
     const bool whole = island.points.size() <= small_island;
     for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
@@ -313,7 +330,7 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
         if (cluster.points.size() > small_cluster)
         {
             if (!suits_sweeps)
-                island.loss += sweep_more(model, which, blocks, pseudo, cluster);
+                island.loss += sweep_more(model, noticeable(model, which), blocks, pseudo, cluster);
             continue;
         }
         island.loss += solve_velocities(noticeable(model, which), blocks, cluster);

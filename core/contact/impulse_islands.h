@@ -16,7 +16,8 @@ namespace hdem
 enum class ExactIslands
 {
     great_mass_ratios,  ///< those that sweeps would need many cycles for
-    small               ///< these, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
+    hit,                ///< these; and small ones in which blocks hit each other get more sweeps
+    small  ///< great mass ratios, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
 };
 
 /// How much the masses of movable blocks differ.
@@ -72,6 +73,7 @@ class IslandFinder
 /// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much. Of an island of
 /// more than 100 points only the clusters, where the sweeps have left more than around them: there is nothing to be gained where the cluster's
 /// neighbours are not known better. Where masses differ much, clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a
-/// heavy block may still sink into what it lies on.
+/// heavy block may still sink into what it lies on. An island that is hit, of up to 200 points, gets more sweeps in the same way: the sweeps of one cycle are too few for
+/// an impact, which has no other cycle to be shared out in.
 void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
 }  // namespace hdem

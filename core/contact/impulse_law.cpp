@@ -205,6 +205,11 @@ double least_bounce(const ImpulsePoint& p)
     return p.weight_velocity * std::clamp(lost > 0.0 ? 1.2 / lost : most, least, most);
 }
 
+bool is_impact(const ImpulsePoint& p)
+{
+    return p.approach - p.target > least_bounce(p);
+}
+
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
 {
     for (ImpulsePoint& p : points)
@@ -215,7 +220,7 @@ void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points)
         const double impact = p.approach - p.target;
         if (impact <= 0.0)
             continue;
-        if (impact > least_bounce(p))
+        if (is_impact(p))
             p.target += std::min(0.0, pressed - p.restitution * impact);
         if (p.target < 0.0 && p.overlap > 0.0 && p.overlap <= p.approach * blocks.step.last)
             p.excess_overlap -= p.target / p.approach * p.overlap;

@@ -29,6 +29,9 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 /// With both, errors of the velocity in a bounce are a third (verification/README.md).
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points);
 
+/// Do blocks hit each other at the point, faster than weight and the step make them meet? The same before and after aim_impulses.
+[[nodiscard]] bool is_impact(const ImpulsePoint& p);
+
 /// Begin with the impulses of the contacts' last forces, F dt. Those of a stack at rest then hold from cycle to cycle, and the springs' share between two points
 /// is handed over as it is. After an impact the full start would add energy: then it is scaled by the factor that minimises the remaining work.
 /// In rock with in-situ stress all points must be started together (`are_stressed`): the forces of one part alone are far from balance.

@@ -78,6 +78,14 @@ StageSetting setting_of(const Model& model, const State& state)
             .keeps_released = begun && model.stages[state.stage].relax_to > 0.0,
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
 }
+
+/// The published scheme has the sweeps of the cycle only.
+ExactIslands islands_of(DampingPreset preset, bool looks_for_rest)
+{
+    if (looks_for_rest)
+        return ExactIslands::small;
+    return preset == DampingPreset::paper ? ExactIslands::great_mass_ratios : ExactIslands::hit;
+}
 }  // namespace
 
 StageRules resolve_rules(const StageSetting& s)
@@ -91,7 +99,7 @@ StageRules resolve_rules(const StageSetting& s)
                         .rock_keeps_springs = looks_for_rest,
                         .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
                         .closing_speed = settling},
-            .islands = looks_for_rest ? ExactIslands::small : ExactIslands::great_mass_ratios,
+            .islands = islands_of(s.preset, looks_for_rest),
             .damping = {.local = s.preset == DampingPreset::dynamic ? 0.0 : s.damping.local,
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,

@@ -110,6 +110,31 @@ TEST(EnergyTerms, TensionThatIsCutOffFreesTheNormalSpring)
     EXPECT_LT(ledger_residual(run), 1e-6);
 }
 
+/// Two blocks press on each other as they leave. Once both are held they have no contact, and what it stored is gone like their speed.
+TEST(EnergyTerms, BlocksThatLeaveTakeWhatTheirJointStores)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "back", scenes::rectangle({-1.0, 0.0}, {0.0, 1.0})).velocity = {50.0, 0.0};
+    scenes::add_block(scene, "front", scenes::rectangle({0.0, 0.0}, {1.0, 1.0})).velocity = {50.0, 0.0};
+    scene.joints = {coulomb()};
+    scene.gravity = {0.0, 0.0};
+    scene.contact.method = Method::force;
+    scene.convergence.lost_distance = 1.0;
+    scene.loads = {{.blocks = {"back"}, .force = {1e7, 0.0}}, {.blocks = {"front"}, .force = {-1e7, 0.0}}};
+    scene.stages = {{.name = "leave", .until_converged = true}};
+    CaseRun run(scene);
+    while (run.displacement("back").x() < 5.0)
+        run.advance();
+    const StoredEnergy before = stored_energy(run.model(), run.state());
+    ASSERT_GT(before.total() - before.kinetic, 1e-6 * before.total());
+    run.simulation.hold_lost_blocks();
+    EXPECT_EQ(run.state().contacts.size(), 0);
+    EXPECT_LT(ledger_residual(run), 1e-9);
+    run.advance();
+    EXPECT_EQ(stored_energy(run.model(), run.state()).total(), 0.0);
+    EXPECT_LT(ledger_residual(run), 1e-9);
+}
+
 /// What [insitu] has stored stands apart from what moves at the start.
 TEST(EnergyTerms, InsituIsWhatJointsHoldAtTheStart)
 {

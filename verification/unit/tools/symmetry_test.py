@@ -7,8 +7,9 @@ Corners are multiples of 2^-12 m, so each of these changes is exact, and no roun
 sorted and forces are added does change, so numbers differ by round-off. Where blocks rattle, that grows as e^t: a scene is compared as long as a
 nudge of its blocks by 1e-12 m by itself changes it by less than LITTLE.
 
-Ten sweeps of impulses over the blocks leave something that depends on their order: scenes by impulses and by the hybrid method are only shifted, which
-changes no order.
+Sweeps of impulses over the blocks leave something that depends on their order: about a millionth of the velocity of an impact. Scenes by impulses and
+by the hybrid method may differ by what a nudge of a micrometre does, and are compared as long as that is less than VISIBLE. In a few, blocks that graze
+each other touch a cycle earlier: UNLIKE.
 """
 import argparse
 import math
@@ -31,6 +32,9 @@ except ImportError as error:
 STEPS = 20           # moments at which scenes are compared
 LITTLE = 1e-7        # [m], [rad] and [m/s]
 TIMES = 1e3          # round-off of a changed scene over that of a nudge of 1e-12 m
+VISIBLE = 1e-2       # [m], [rad] and [m/s]; blocks hit each other at 6 m/s
+UNLIKE = 0.1         # share of scenes
+SWEPT = 1e-6         # [m], a nudge that stands for what sweeps leave
 NUDGE = 1e-12        # [m]
 SHIFT = 2.0 ** 20    # [m]
 CHANGES = {          # x, y -> x, y; the last number says whether anticlockwise stays so
@@ -93,6 +97,7 @@ class Symmetry(unittest.TestCase):
 
     def test_changed_scenes_give_the_same_numbers(self):
         compared = 0
+        alike = []
         for seed in range(OPTIONS.seed, OPTIONS.seed + OPTIONS.scenes):
             with tempfile.TemporaryDirectory() as scratch:
                 folder = Path(scratch)
@@ -102,9 +107,16 @@ class Symmetry(unittest.TestCase):
                 nudged = [np.abs(a - b).max() for a, b in zip(plain, self.moments(folder, scene, nudge=NUDGE))]
                 calm = next((k for k, difference in enumerate(nudged) if difference > LITTLE), STEPS + 1)
                 compared += calm
-                for name, (change, turns) in CHANGES.items() if scene.method == "force" else ():
-                    self.expect_same(f"scene {seed}, {scene.method}, {name}", plain, self.moments(folder, scene, change, turns), nudged, calm)
+                swept = []
+                for name, (change, turns) in CHANGES.items():
+                    changed = self.moments(folder, scene, change, turns)
+                    if scene.method == "force":
+                        self.expect_same(f"scene {seed}, {scene.method}, {name}", plain, changed, nudged, calm)
+                    else:
+                        swept = swept or [np.abs(a - b).max() for a, b in zip(plain, self.moments(folder, scene, nudge=SWEPT))]
+                        alike.append(self.are_alike(f"scene {seed}, {scene.method}, {name}", plain, changed, swept))
                 self.expect_same(f"scene {seed}, {scene.method}, shifted", plain, self.moments(folder, scene, shift=SHIFT), nudged, calm)
+        self.assertGreaterEqual(sum(alike), (1.0 - UNLIKE) * len(alike), "impulses depend on the order of blocks")
         self.assertGreater(compared, 0.5 * OPTIONS.scenes * STEPS, "chaos comes too early for these scenes to say much")
 
     def expect_same(self, what, plain, changed, nudged, calm):
@@ -113,6 +125,18 @@ class Symmetry(unittest.TestCase):
             if OPTIONS.verbose:
                 print(f"{what}, moment {k}: {difference:.1e}, by a nudge {nudged[k]:.1e}")
             self.assertLessEqual(difference, max(TIMES * nudged[k], 1e-10), f"{what}, moment {k}")
+
+    def are_alike(self, what, plain, changed, swept):
+        for k, (one, other) in enumerate(zip(plain, changed)):
+            allowed = 30.0 * max(swept[:k + 1])
+            difference = np.abs(one - other).max()
+            if allowed > VISIBLE:
+                break
+            if difference > max(allowed, 1e-10):
+                if OPTIONS.verbose:
+                    print(f"{what}, moment {k}: {difference:.1e} for {allowed:.1e}")
+                return False
+        return True
 
 
 if __name__ == "__main__":

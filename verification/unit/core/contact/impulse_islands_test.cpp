@@ -3,6 +3,7 @@
 #include "core/rock/build_model.h"
 #include "parallel/stages.h"
 #include "verification/scenes/scenes.h"
+#include "verification/unit/case_run.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -115,6 +116,33 @@ TEST(ImpulseIslands, ComeToRestWhereRestIsLookedFor)
             greatest = std::max(greatest, simulation.state().blocks.displacement(block).norm());
         EXPECT_NEAR(greatest, count * gap, 1e-3);
     }
+}
+
+/// Sweeps leave more on one side than on the other, by the order of the blocks.
+TEST(ImpulseIslands, AnImpactOnTwoBlocksIsTheSameOnBothSides)
+{
+    for (const Method method : {Method::impulse, Method::hybrid})
+        for (const double restitution : {0.0, 0.5})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scenes::add_fixed_block(scene, "ground", scenes::rectangle({-5, -1}, {5, 0}));
+            scenes::add_block(scene, "left", scenes::rectangle({-1.5, 0}, {-0.1, 1}));
+            scenes::add_block(scene, "right", scenes::rectangle({0.1, 0}, {1.5, 1}));
+            scenes::add_block(scene, "falls", scenes::rectangle({-1, 1.1}, {1, 2.1})).velocity = {0.0, -3.0};
+            scene.contact.method = method;
+            scene.contact.restitution = restitution;
+            scene.damping.preset = DampingPreset::dynamic;
+            test::CaseRun run(scene);
+            while (run.velocity("falls").y() < -2.9)
+                run.advance();
+            run.advance(3);
+            constexpr double alike = 3e-5;
+            EXPECT_NEAR(run.velocity("falls").x(), 0.0, alike);
+            EXPECT_NEAR(run.motion("falls").w, 0.0, alike);
+            EXPECT_NEAR(run.velocity("left").x(), -run.velocity("right").x(), alike);
+            EXPECT_NEAR(run.velocity("left").y(), run.velocity("right").y(), alike);
+            EXPECT_NEAR(run.motion("left").w, -run.motion("right").w, alike);
+        }
 }
 
 TEST(MassRange, LeavesBlocksThatCannotMoveOut)
