@@ -217,6 +217,7 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
     std::int64_t begin = 0;
     State then;  // as the stage ended, as far as cycles and stages go
     then.stage_begun = true;
+    then.statics = state.statics;
     for (std::size_t i = 0; i < state.stages_done.size(); ++i)
     {
         const StageOutcome& outcome = state.stages_done[i];

@@ -87,6 +87,15 @@ bool has_faded(const Factor& factor, const Model& model, const State& state)
     return factor.varies() && factor.rows.back()[1] == 0.0 &&
            cycles_since(factor.since, state) > factor.last_cycle(model.time_step);
 }
+
+bool has_static_solution(const State& state)
+{
+    return std::ranges::any_of(state.statics,
+                               [&](const StaticSolution& solution) {
+                                   return solution.stage == state.stage &&
+                                          (solution.end == StaticEnd::balanced || solution.end == StaticEnd::nearly_balanced);
+                               });
+}
 }  // namespace
 
 std::int64_t last_cycle(const StageDef& stage, std::int64_t begin, double time_step)
@@ -174,7 +183,8 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
         }
     if (stage < model.stage_laws.size() && !model.stage_laws[stage].laws.empty())
         add("set: joints change", state.stage_begin_cycle + set_until(def, model.time_step));
-    add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);
+    if (!has_static_solution(state))  // it has taken them off
+        add("relax_cycles: forces are taken off", state.stage_begin_cycle + def.relax_cycles);
     return found;
 }
 

@@ -267,6 +267,8 @@ TEST(StaticSolver, TakesForcesOfExcavatedBlocksOffInPartsAsCyclesDo)
     const std::vector<StageResult> results = run_stages(parts, {});
     ASSERT_TRUE(results[1].statics && results[1].statics->outcome == "balanced");
     EXPECT_TRUE(parts.state().released.empty());
+    EXPECT_LT(results[1].cycles, 4000);
+    EXPECT_TRUE(results[1].to_come.empty()) << results[1].to_come.front();
     EXPECT_NE(parts.state().ledger.load_work, 0.0);
     EXPECT_LT(std::abs(relative_residual(parts.state().ledger, stored_energy(parts.model(), parts.state()))), 1e-9);
     const DisplacementReport one = report_displacements(cycles.model(), cycles.state()),
