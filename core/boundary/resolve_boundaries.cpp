@@ -111,7 +111,13 @@ class BoundaryResolver
             };
             const BoundaryForce force = force_of_traction(face, traction(face.from), traction(face.to));
             BoundaryForce& sum = sums[face.block];
-            sum = {face.block, sum.x + force.x, sum.y + force.y, sum.moment + force.moment};
+            sum = {.block = face.block,
+                   .x = sum.x + force.x,
+                   .y = sum.y + force.y,
+                   .moment = sum.moment + force.moment,
+                   .xx = sum.xx + force.xx,
+                   .yy = sum.yy + force.yy,
+                   .xy = sum.xy + force.xy};
         }
         for (const auto& [block, force] : sums)
             boundary.forces.push_back(force);

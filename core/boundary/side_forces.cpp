@@ -19,7 +19,15 @@ BoundaryForce force_of_traction(const BoundaryFace& face, const Vec2& first, con
     const double sixth = (face.to - face.from).norm() / 6.0;
     const Vec2 at_from = sixth * (2.0 * first + second), at_to = sixth * (first + 2.0 * second);
     const Vec2 sum = at_from + at_to;
-    return {face.block, sum.x(), sum.y(), cross(face.body_from, at_from) + cross(face.body_to, at_to)};
+    const auto arms = [&](int of_arm, int of_force)
+    { return face.body_from[of_arm] * at_from[of_force] + face.body_to[of_arm] * at_to[of_force]; };
+    return {.block = face.block,
+            .x = sum.x(),
+            .y = sum.y(),
+            .moment = arms(0, 1) - arms(1, 0),
+            .xx = arms(0, 0),
+            .yy = arms(1, 1),
+            .xy = 0.5 * (arms(0, 1) + arms(1, 0))};
 }
 
 double factor_of(const Boundary& boundary, const Model& model, const State& state)

@@ -11,7 +11,7 @@ namespace hdem
 {
 /// Force on a block by a traction that is linear along a face, as at its two ends, at the block's centroid.
 ///
-///   F_1 = L (2 t_1 + t_2) / 6,  F_2 = L (t_1 + 2 t_2) / 6,  M = sum of (x - centroid) x F
+///   F_1 = L (2 t_1 + t_2) / 6,  F_2 = L (t_1 + 2 t_2) / 6,  M = sum of (x - centroid) x F,  and the sums of (x - centroid) (x) F
 ///
 /// @param first, second  traction on the block at `face.from` and `face.to` [Pa]
 [[nodiscard]] BoundaryForce force_of_traction(const BoundaryFace& face, const Vec2& first, const Vec2& second);

@@ -1,5 +1,6 @@
 #include "core/contact/contact_report.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
 
 #include <algorithm>
@@ -88,6 +89,16 @@ std::vector<MeanStress> mean_stresses(const Model& model, const State& state)
             const Vec2 on_inc = contacts.shear_force(k, i) * t - contacts.normal_force(k, i) * m;
             add(stresses[inc], p.inc_t * t + p.inc_m * m, on_inc, model.area[inc]);
             add(stresses[ref], p.ref_t * t + p.ref_m * m, -on_inc, model.area[ref]);
+        }
+    }
+    for (const Boundary& boundary : model.boundaries)
+    {
+        const double factor = boundary.acts(state.stage) ? factor_of(boundary, model, state) : 0.0;
+        for (const BoundaryForce& force : boundary.forces)
+        {
+            MeanStress& stress = stresses[force.block];
+            const double share = factor / model.area[force.block];
+            stress = {stress.xx - share * force.xx, stress.yy - share * force.yy, stress.xy - share * force.xy};
         }
     }
     return stresses;

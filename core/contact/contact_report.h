@@ -47,11 +47,11 @@ struct MeanStress
     [[nodiscard]] double magnitude() const;
 };
 
-/// Of every block, in the model's order, from the contact forces on it:
+/// Of every block, in the model's order, from the forces of its contacts and the tractions on its sides:
 ///
 ///   sigma = -1/A sum (x_c (x) f_c), made symmetric                  mean of a body in equilibrium
 ///
-///   A area [m2]   x_c from the centroid to the contact point [m]   f_c force on the block there [N]
+///   A area [m2]   x_c from the centroid to the contact point [m]   f_c force on the block there [N]; of a traction the integral over the side
 ///
 /// The minus sign makes compression positive, as rock mechanics has it.
 /// @see verification/unit/core/contact/contact_report_test.cpp

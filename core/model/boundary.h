@@ -40,7 +40,8 @@ struct BoundaryForce
     Index block = no_index;
     double x = 0.0;  ///< [N]
     double y = 0.0;
-    double moment = 0.0;  ///< [N m]
+    double moment = 0.0;                  ///< [N m]
+    double xx = 0.0, yy = 0.0, xy = 0.0;  ///< integral of arm (x) traction, made symmetric; the arm is seen from the centroid [N m]
 };
 
 /// Does this kind have walls that move?

@@ -148,7 +148,7 @@ void bind_motion(RunType& type)
     type.def_property_readonly("moments", look(moments_on_blocks), "Likewise about the centroid, (n,) [N m], copy.");
     type.def_property_readonly(
         "stresses", look(stresses),
-        "Mean stress of each block from its contact forces, compression positive, (n, 3) [Pa]: xx, yy, xy; copy.");
+        "Mean stress of each block from its contacts and the tractions on its sides, compression positive, (n, 3) [Pa]: xx, yy, xy; copy.");
     type.def_property_readonly("present", look(present), "Which blocks have not been removed by a stage, (n,) bool, copy.");
     type.def_property_readonly(
         "slots",

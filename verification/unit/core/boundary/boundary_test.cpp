@@ -33,6 +33,29 @@ TEST(SideForces, HaveTheMomentOfALinearTraction)
     const BoundaryForce force = force_of_traction(face, {-1e6, 0.0}, {-2e6, 0.0});
     EXPECT_NEAR(force.x, -4.5e6, 1e-6);
     EXPECT_NEAR(force.moment, 1.5 * (2.5e6 - 2.0e6), 1e-6);
+    EXPECT_NEAR(force.xx, 0.5 * -4.5e6, 1e-6);
+    EXPECT_NEAR(force.yy, 0.0, 1e-6);
+    EXPECT_NEAR(force.xy, 0.5 * 1.5 * (2.0e6 - 2.5e6), 1e-6);
+}
+
+/// A block that a traction presses on one face and its neighbour on the other carries the stress of the side, and so do those farther inside.
+TEST(Boundary, StressIsThatOfTheBlocksAtTheSide)
+{
+    CaseDef scene = square_pattern(6.0, 6.0);
+    scene.domain.fixed = {"left", "bottom"};
+    scene.boundaries = {pressed("right", 3e6), pressed("top", 2e6)};
+    scene.insitu = {.given = true, .stress = StressDef{-3e6, -2e6, 0.0}};
+    const CaseRun run(scene);
+    const std::vector<MeanStress> stresses = mean_stresses(run.model(), run.state());
+    for (Index block = 0; block < run.state().blocks.size(); ++block)
+    {
+        if (!run.state().blocks.is_free(block))
+            continue;
+        const MeanStress& stress = stresses[block];
+        EXPECT_NEAR(stress.xx, 3e6, 1.0);
+        EXPECT_NEAR(stress.yy, 2e6, 1.0);
+        EXPECT_NEAR(stress.xy, 0.0, 1.0);
+    }
 }
 
 /// 3 MPa at y = 4 m, 0.2 MPa less a metre upwards, and a shear that grows upwards: force and moment of the whole side.
