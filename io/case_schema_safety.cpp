@@ -63,8 +63,8 @@ SectionSpec factor_of_safety_section()
          field<&FactorOfSafetyDef::begin>(
              {.name = "begin",
               .effect = "Where blocks gave way in the last stage by their own strength: `\"last_stage\"` runs the stage anew "
-                        "under great strength, and F says where they would have stood; `\"last_state\"` takes the rock as it "
-                        "lies, and F is that of what still stands.",
+                        "under great strength, and F says where they would have stood; what falls then too fails at any strength. "
+                        "`\"last_state\"` takes the rock as it lies, and F is that of what still stands.",
               .choices = {"last_stage", "last_state"}}),
          field<&FactorOfSafetyDef::peak>(
              {.name = "peak",

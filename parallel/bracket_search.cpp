@@ -32,7 +32,7 @@ class Search
             go_down();
         while (!found_.fails && *found_.stands < rule_.most)
             go_up();
-        while (found_.is_closed() && *found_.fails - *found_.stands > rule_.tolerance * (1.0 + 1e-9))
+        while (found_.is_closed() && is_to_be_divided())
             divide();
         return found_;
     }
@@ -50,6 +50,13 @@ class Search
         const double stands = *found_.stands;
         const double high = std::min(stands < rule_.high ? rule_.high : 2.0 * stands, rule_.most);
         look_at(0.5 * (stands + high), high);
+    }
+
+    /// Wider than the tolerance, and than round-off.
+    [[nodiscard]] bool is_to_be_divided() const
+    {
+        const double low = *found_.stands, high = *found_.fails, width = high - low;
+        return width > rule_.tolerance * (1.0 + 1e-9) && low + width / 3.0 > low && low + 2.0 * (width / 3.0) < high;
     }
 
     void divide()

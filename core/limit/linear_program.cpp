@@ -62,6 +62,8 @@ LinearProgram::Status LinearProgram::solve(int most_iterations)
     }
     auto clp = std::make_unique<Clp>();
     Clp_setLogLevel(clp->model, 0);
+    Clp_scaling(clp->model,
+                0);  // of numbers that are round-off Clp would make great ones, and stop at a point that is not the best
     Clp_loadProblem(clp->model, columns, rows, begin_.data(), row_.data(), value_.data(), low_.data(), high_.data(),
                     cost_of_.data(), row_value_.data(), row_value_.data());
     Clp_setMaximumIterations(clp->model, most_iterations);

@@ -133,16 +133,29 @@ std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& m
     return lines;
 }
 
+namespace
+{
+/// Where blocks gave way.
+std::string factor_of_what(const FosOutcome& outcome)
+{
+    if (outcome.def.begin == FactorStart::last_state)
+        return "The factor is that of the rock as it lies now.";
+    if (outcome.falls_anyway.empty())
+        return "It was run anew with a thousand times the strength; the factor is that of the blocks where they were.";
+    return fmt::format(
+        "It was run anew with a thousand times the strength, and these fell again: {}. No strength holds them, so that there is no "
+        "factor. Support them, let small ones fall (least_size), or take the rock as it lies (begin = \"last_state\").",
+        some_of(outcome.falls_anyway));
+}
+}  // namespace
+
 std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method)
 {
     const SafetyFactor& f = outcome.factor;
     std::vector<std::string> warnings;
     if (!outcome.gave_way.empty())
-        warnings.push_back(fmt::format(
-            "these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
-            outcome.def.begin == FactorStart::last_stage
-                ? "It was run anew with a thousand times the strength; the factor is that of the blocks where they were."
-                : "The factor is that of the rock as it lies now."));
+        warnings.push_back(fmt::format("these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
+                                       factor_of_what(outcome)));
     if (!outcome.gave_way.empty() && outcome.def.begin == FactorStart::last_stage && f.as_given.stands && *f.as_given.stands > 1.0)
         warnings.push_back(
             "they fell by their own strength, but stand at a factor above 1 where the rock first comes to rest under great "

@@ -6,8 +6,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hdem
 {
+namespace
+{
+/// What no strength holds has no factor: all trials would begin from where it has fallen to. Its fall under great strength counts as the trial with
+/// the least factor.
+SafetyFactor fails_at_any_strength(const Moment& fallen, const std::vector<Index>& falling)
+{
+    Trial trial{.factor = least_factor, .end = TrialEnd::failed, .reason = {}, .failing = falling, .let_fall = {}};
+    for (const Index user : falling)
+        trial.displacement = std::max(trial.displacement,
+                                      rim_displacement(fallen.model.slot_of_user[user], fallen.model, fallen.state.blocks));
+    trial.reason = fmt::format("block {} fell even with {:g} times its strength",
+                               printable(fallen.model.name[fallen.model.slot_of_user[falling.front()]]), great_strength);
+    SafetyFactor found;
+    found.as_given.fails = least_factor;
+    found.trials.push_back({FactorSearch::as_given, std::move(trial)});
+    found.failure = fallen;
+    return found;
+}
+}  // namespace
+
 FosAnswer find_factor(const Moment& last, const FosQuestion& question)
 {
     FosOutcome outcome{.def = question.def};
@@ -16,6 +38,20 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
     const bool runs_anew = !gave_way.empty() && outcome.def.begin == FactorStart::last_stage;
     Reference reference = find_reference(last, gave_way, runs_anew ? question.before() : std::nullopt, question.threads);
     const Model& model = reference.moment.model;
+    if (const std::vector<Index> falling = runs_anew ? blocks_that_gave_way(reference.moment, true, outcome.def.least_size)
+                                                     : std::vector<Index>{};
+        !falling.empty())
+    {
+        outcome.falls_anyway = names_of_blocks(model, falling);
+        outcome.bound.why = "blocks fall at any strength";
+        if (question.begin)
+            question.begin(outcome);
+        outcome.factor = fails_at_any_strength(reference.moment, falling);
+        if (question.show)
+            question.show(outcome.factor.trials.front());
+        outcome.warnings = fos_warnings(outcome, reference.moment, last.state.method);
+        return {std::move(outcome), std::move(reference.moment)};
+    }
     outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
                                    greatest_factor, weakens_bolts(outcome.def));
     if (question.begin)

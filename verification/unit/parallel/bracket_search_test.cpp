@@ -49,6 +49,19 @@ TEST(BracketSearch, FindsTheLimitWithinItsTolerance)
         }
 }
 
+TEST(BracketSearch, EndsWhereTheToleranceIsBelowRoundOff)
+{
+    for (const double scale : {1.0, 1e9})
+        for (const double limit : {0.3 * scale, -0.7 * scale})
+        {
+            const StandsAt stands = [&](double x, int, const std::stop_token&) { return x < limit; };
+            const Bracket found = search_bracket({.tolerance = 1e-300, .known = {-scale, scale}}, 1, stands);
+            EXPECT_LT(*found.stands, limit);
+            EXPECT_GE(*found.fails, limit);
+            EXPECT_LT(*found.fails - *found.stands, 1e-15 * scale);
+        }
+}
+
 TEST(BracketSearch, FindsTheSameOnAnyNumberOfThreads)
 {
     for (const double limit : {0.1, 1.137, 5.0})

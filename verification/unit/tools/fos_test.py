@@ -83,6 +83,27 @@ class Fos(unittest.TestCase):
         self.assertAlmostEqual(found["bound_without_corners"], 1.2145, delta=0.001)
         self.assertEqual(len(found["warnings"]), 1)
 
+    def test_no_factor_of_what_no_strength_holds(self):
+        # A column of 4 m on a base of 1 m turns over at 30 degrees. Where it lies then its factor would be tan 40 / tan 30 = 1.45.
+        # Without friction and cohesion a thousand times the strength is none: the slab slides.
+        for more, what in ((["block[1].polygon=[[0,0],[1,0],[1,4],[0,4]]"], "slab"),
+                           (["joint.default.friction_angle_deg=0"], "slab")):
+            text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--overwrite", *[x for m in more for x in ("--set", m)], code=4)
+            self.assertIn("fails at any strength", text)
+            self.assertIn(f"these fell again: {what}", text)
+            found = answer(self.folder)
+            self.assertIsNone(found["factor"])
+            self.assertIsNone(found["stable_at"])
+            self.assertEqual(found["failing_blocks"], [what])
+            self.assertEqual(found["verdict"], "failed")
+            self.assertEqual(len(found["warnings"]), 1)
+            hdem("report", self.folder)
+            hdem("plot", self.folder / "failure")
+        # As it lies it has one.
+        hdem("fos", CASES / "slab.toml", "-o", self.folder, "--overwrite", "--set", "block[1].polygon=[[0,0],[1,0],[1,4],[0,4]]",
+             "--set", 'factor_of_safety.begin="last_state"')
+        self.assertAlmostEqual(answer(self.folder)["factor"], 1.4534, delta=0.01)
+
     def test_goes_on_after_it_was_killed(self):
         whole, broken = self.folder / "whole", self.folder / "broken"
         hdem("fos", CASES / "toppling.toml", "-o", whole, "-q")

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 namespace hdem
@@ -32,6 +33,25 @@ TEST(LinearProgram, MaximisesInTwoUnknowns)
     program.change_column(x, {{0, 1.0}, {1, 13.0}});
     EXPECT_EQ(program.solve(1000), LinearProgram::Status::optimal);
     EXPECT_NEAR(program.cost(), -4.0, 1e-9);
+}
+
+/// A wedge in a notch: its two faces balance all of its weight. One number is round-off.
+TEST(LinearProgram, IsNotLedAstrayByRoundOff)
+{
+    const double roundoff = -5.5511151231257827e-17;
+    LinearProgram program(3);
+    for (const std::array<double, 3>& edge : {std::array{-0.96791554912883448, -0.52970021881119322, 0.74642755300449637},
+                                              std::array{-0.21639021306373629, -1.0819510653186817, 0.29231975497412915},
+                                              std::array{-0.96791554912883448, -0.52970021881119322, -0.51955662315193685},
+                                              std::array{-0.21639021306373629, -1.0819510653186817, -0.97366523032665442},
+                                              std::array{0.70923765511080816, -0.84523652348139899, 1.1033244779120013},
+                                              std::array{1.1033779189624917, roundoff, 0.71740961136551673},
+                                              std::array{0.70923765511080816, -0.84523652348139899, -0.38636145957799667},
+                                              std::array{1.1033779189624917, roundoff, -0.77227727824614467}})
+        program.add_column(0.0, infinity, 0.0, {{0, edge[0]}, {1, edge[1]}, {2, edge[2]}});
+    program.add_column(0.0, 1.0, -1.0, {{0, -0.70020753820970971}, {1, 1.0}});
+    EXPECT_EQ(program.solve(1000), LinearProgram::Status::optimal);
+    EXPECT_NEAR(program.cost(), -1.0, 1e-9);
 }
 
 std::string slab(const std::string& joint, const std::string& more = "")
