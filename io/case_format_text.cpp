@@ -198,7 +198,7 @@ x,y
 80,121.4
 ```
 
-Lines that begin with `#` are skipped. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
+Lines that begin with `#` are skipped, and the heading may be left out. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
 with the lower side: 0 is the lower side, 1 the right one, and the last one is on the left; `fixed` and [[boundary]] know them by their names too.
 
 ## Faults and regions
@@ -268,7 +268,7 @@ The first vertex is repeated at the end. Blocks without a name are called `block
 Holes, MULTIPOLYGON, Z and M are refused.
 
 A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
-other; a heading may stand above them. `tools/import_dxf.py` makes such files from drawings.
+other; a heading with these names may stand above them. `tools/import_dxf.py` makes such files from drawings.
 
 A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`. Coordinates are taken as they
 are, in metres. Other formats become GeoJSON by `ogr2ogr` (Debian: gdal-bin):

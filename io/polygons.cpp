@@ -1,5 +1,6 @@
 #include "io/polygons.h"
 
+#include "io/csv_row.h"
 #include "io/csv_shapes.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
@@ -72,8 +73,6 @@ std::string read_shape(const CsvShapes::Shape& shape, BlockDef& block)
     block.polygon = shape.points;
     if (block.polygon.size() > 1 && block.polygon.front() == block.polygon.back())
         block.polygon.pop_back();
-    if (shape.more.size() > 2)
-        return fmt::format("has {} columns). Write at most name,x,y,material,fixed.", shape.more.size() + 3);
     if (!shape.more.empty() && !shape.more[0].empty())
         block.material = shape.more[0];
     if (shape.more.size() > 1 && !read_fixed(shape.more[1], block))
@@ -127,8 +126,8 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
         result.problems.push_back(
             {Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)});
     };
-    const bool is_csv = file_name.ends_with(".csv");
-    CsvShapes rows;
+    const bool is_csv = has_ending(file_name, ".csv");
+    CsvShapes rows(2);
     const auto add = [&](int line, std::string_view text)
     {
         if (result.blocks.size() >= most_blocks)
