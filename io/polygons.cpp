@@ -165,27 +165,37 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
     return result;
 }
 
-std::string to_wkt(const Polygon& polygon)
+std::string to_wkt(const Polygon& polygon, std::span<const Polygon> holes)
 {
-    std::string text = "POLYGON((";
-    for (std::size_t i = 0; i <= polygon.size() && !polygon.empty(); ++i)
+    const auto ring_text = [](const Polygon& ring)
     {
-        const Vec2& point = polygon[i % polygon.size()];
-        text += fmt::format("{}{:.17g} {:.17g}", i == 0 ? "" : ", ", point.x(), point.y());
-    }
-    return text + "))";
+        std::string text = "(";
+        for (std::size_t i = 0; i <= ring.size() && !ring.empty(); ++i)
+        {
+            const Vec2& point = ring[i % ring.size()];
+            text += fmt::format("{}{:.17g} {:.17g}", i == 0 ? "" : ", ", point.x(), point.y());
+        }
+        return text + ")";
+    };
+    std::string text = "POLYGON(" + ring_text(polygon);
+    for (const Polygon& hole : holes)
+        text += ", " + ring_text(hole);
+    return text + ")";
+}
+
+void write_polygon(std::ostream& out, const BlockDef& block, std::span<const Polygon> holes)
+{
+    out << to_wkt(block.polygon, holes) << "; " << block.name << "; " << block.material;
+    if (block.fix_x && block.fix_y && block.fix_rotation)
+        out << "; fixed";
+    else if (block.fix_x || block.fix_y || block.fix_rotation)
+        out << ';' << (block.fix_x ? " x" : "") << (block.fix_y ? " y" : "") << (block.fix_rotation ? " rotation" : "");
+    out << '\n';
 }
 
 void write_polygons(std::ostream& out, std::span<const BlockDef> blocks)
 {
     for (const BlockDef& block : blocks)
-    {
-        out << to_wkt(block.polygon) << "; " << block.name << "; " << block.material;
-        if (block.fix_x && block.fix_y && block.fix_rotation)
-            out << "; fixed";
-        else if (block.fix_x || block.fix_y || block.fix_rotation)
-            out << ';' << (block.fix_x ? " x" : "") << (block.fix_y ? " y" : "") << (block.fix_rotation ? " rotation" : "");
-        out << '\n';
-    }
+        write_polygon(out, block);
 }
 }  // namespace hdem
