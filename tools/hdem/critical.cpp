@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -290,8 +289,7 @@ int critical_command(const CriticalOptions& options)
     }
     catch (const SearchStopped&)
     {
-        log.line(
-            fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
+        log.line(fmt::format("{}: the search was stopped. The same command goes on.", interrupt_name()));
         return 128 + interrupt();
     }
 }
