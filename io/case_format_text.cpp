@@ -61,7 +61,7 @@ A case file says everything a run needs: the rock, its joints, the loads, the st
 `key = value` lines below headers in brackets, comments behind `#`.
 
 - **SI units** without exception, so values carry no unit. Angles are in degrees where the key ends in `_deg`. All forces, masses and
-  stiffnesses are per metre out of plane.
+  stiffnesses are per metre out of plane. No length and no coordinate is above 1e8 m.
 - Headers in single brackets, `[domain]`, occur once. Headers in double brackets, `[[joint_set]]`, occur as often as there are such
   things. In `[joint.NAME]` and `[material.NAME]` you choose the name: letters, digits, `_` and `-`.
 - A point or vector is `[x, y]`, a polygon `[[x, y], [x, y], [x, y], ...]` of 3 to 25 000 vertices. Where a number is expected, `2` is as good as `2.0`;
