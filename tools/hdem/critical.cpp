@@ -262,6 +262,9 @@ FailureCondition parse_condition(const std::string& text)
 int critical_command(const CriticalOptions& options)
 {
     const Vary vary = parse_vary(options.vary);
+    if (options.tolerance && *options.tolerance >= vary.high - vary.low)
+        refuse(fmt::format("--tolerance {}: (is not below the width of the range, {}: nothing would be looked for). Give less.",
+                           *options.tolerance, vary.high - vary.low));
     const FailureCondition condition = parse_condition(options.fails);
     const std::string question = question_of(options);
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
