@@ -60,7 +60,8 @@ std::string name_of(const CaseDef& def, std::int32_t source)
     return source == sources.traces() ? "traces" : "voronoi";
 }
 
-/// Outer edges one after another, ring by ring.
+/// Outer edges one after another, ring by ring. No ring meets itself: where one comes back to one of its points, what lies between
+/// is a ring of its own, as around a block whose corner touches the outline of the block around it.
 std::vector<std::vector<OuterEdge>> rings_of(const RockBlock& block)
 {
     std::multimap<std::pair<double, double>, OuterEdge> from;
@@ -74,13 +75,23 @@ std::vector<std::vector<OuterEdge>> rings_of(const RockBlock& block)
     std::vector<std::vector<OuterEdge>> rings;
     while (!from.empty())
     {
-        std::vector<OuterEdge>& ring = rings.emplace_back();
-        auto edge = from.begin();
-        while (edge != from.end())
+        std::vector<OuterEdge> ring;
+        std::map<std::pair<double, double>, std::size_t> begin;  // of the edge that goes on from a point
+        for (auto edge = from.begin(); edge != from.end();)
         {
+            begin[edge->first] = ring.size();
             ring.push_back(edge->second);
             from.erase(edge);
-            edge = from.find({ring.back().to.x(), ring.back().to.y()});
+            const std::pair<double, double> end{ring.back().to.x(), ring.back().to.y()};
+            if (const auto back = begin.find(end); back != begin.end())
+            {
+                const auto first = ring.begin() + static_cast<std::ptrdiff_t>(back->second);
+                for (auto closed = first; closed != ring.end(); ++closed)
+                    begin.erase({closed->from.x(), closed->from.y()});
+                rings.emplace_back(first, ring.end());
+                ring.erase(first, ring.end());
+            }
+            edge = from.find(end);
         }
     }
     return rings;
@@ -157,9 +168,7 @@ std::string to_wkt(std::span<const BlockShape> blocks)
     for (const BlockShape& shape : blocks)
     {
         out << "# edges: " << fmt::format("{}", fmt::join(shape.edges, "; ")) << '\n';
-        if (!shape.holes.empty())
-            out << "# this block has " << shape.holes.size() << " holes, which are not written\n";
-        write_polygons(out, std::span(&shape.block, 1));
+        write_polygon(out, shape.block, shape.holes);
     }
     return out.str();
 }

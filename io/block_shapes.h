@@ -25,6 +25,6 @@ struct BlockShape
 /// One feature a block, with properties name, material, fixed, area, excavation and edges.
 [[nodiscard]] std::string to_geojson(std::span<const BlockShape> blocks);
 
-/// As write_polygons; above each block a comment with what its edges were cut by.
+/// As write_polygon; above each block a comment with what its edges were cut by.
 [[nodiscard]] std::string to_wkt(std::span<const BlockShape> blocks);
 }  // namespace hdem

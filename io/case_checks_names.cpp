@@ -17,9 +17,28 @@ class NameCheck : public CaseCheck
     {
         check_names();
         check_joints();
+        check_use();
     }
 
   private:
+    /// A joint has no effect by its name: something has to give it.
+    void check_use()
+    {
+        Names joints{"default", def_.domain.traces_joint, def_.voronoi.joint};
+        for (const RegionDef& region : def_.regions)
+            joints.insert(region.joint);
+        for (const FaultDef& fault : def_.faults)
+            joints.insert(fault.joint);
+        for (const JointSetDef& set : def_.joint_sets)
+            joints.insert(set.joint);
+        for (const JointDef& joint : def_.joints)
+            if (joint.materials.empty() && !joints.contains(joint.name) && !problems_.has("joint." + joint.name))
+                problems_.warn(
+                    "joint." + joint.name, fmt::format("joint \"{}\"", joint.name), fmt::format("[joint.{}]", joint.name),
+                    "no contact has it: nothing names it",
+                    fmt::format("Give joint = \"{}\" to a joint set, a fault or the like, or materials here.", joint.name));
+    }
+
     /// Rules for names, and no name twice among those that the same key may refer to.
     void check_names()
     {

@@ -58,10 +58,6 @@ class StageCheck : public CaseCheck
                                   "Choose one.");
             }
         }
-        for (std::size_t i = 0; i < def_.excavations.size(); ++i)
-            if (const auto& name = def_.excavations[i].name; !removed.contains(name))
-                problems_.warn(fmt::format("excavation[{}]", i), fmt::format("excavation \"{}\"", printable(name)), "excavate",
-                               "no stage removes it", fmt::format("Add excavate = [\"{}\"] to a stage.", printable(name)));
     }
 
   private:
@@ -177,9 +173,7 @@ class StageCheck : public CaseCheck
             problems_.add(path + ".until", object, "until = []", "names no end", "Name at least one, e.g. \"converged\".");
         for (const StageEndDef& end : stage.ends)
             check_end(end, path + ".until", object);
-        if (ends_at_rest(stage) || stage.ends.empty())
-            return;
-        if (given(path + ".solver") && asks_for_statics(stage))
+        if (!ends_at_rest(stage) && given(path + ".solver") && asks_for_statics(stage))
             problems_.warn(path + ".solver", object, "solver", "has no effect: the stage does not look for rest",
                            "Add \"converged\" to until, or remove this key.");
     }

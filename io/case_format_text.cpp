@@ -61,7 +61,7 @@ A case file says everything a run needs: the rock, its joints, the loads, the st
 `key = value` lines below headers in brackets, comments behind `#`.
 
 - **SI units** without exception, so values carry no unit. Angles are in degrees where the key ends in `_deg`. All forces, masses and
-  stiffnesses are per metre out of plane.
+  stiffnesses are per metre out of plane. No length and no coordinate is above 1e8 m.
 - Headers in single brackets, `[domain]`, occur once. Headers in double brackets, `[[joint_set]]`, occur as often as there are such
   things. In `[joint.NAME]` and `[material.NAME]` you choose the name: letters, digits, `_` and `-`.
 - A point or vector is `[x, y]`, a polygon `[[x, y], [x, y], [x, y], ...]` of 3 to 25 000 vertices. Where a number is expected, `2` is as good as `2.0`;
@@ -198,7 +198,7 @@ x,y
 80,121.4
 ```
 
-Lines that begin with `#` are skipped. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
+Lines that begin with `#` are skipped, and the heading may be left out. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
 with the lower side: 0 is the lower side, 1 the right one, and the last one is on the left; `fixed` and [[boundary]] know them by their names too.
 
 ## Faults and regions
@@ -268,7 +268,7 @@ The first vertex is repeated at the end. Blocks without a name are called `block
 Holes, MULTIPOLYGON, Z and M are refused.
 
 A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
-other; a heading may stand above them. `tools/import_dxf.py` makes such files from drawings.
+other; a heading with these names may stand above them. `tools/import_dxf.py` makes such files from drawings.
 
 A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`. Coordinates are taken as they
 are, in metres. Other formats become GeoJSON by `ogr2ogr` (Debian: gdal-bin):
@@ -278,7 +278,7 @@ ogr2ogr -f GeoJSON blocks.geojson blocks.shp
 ```
 
 The other way round, `hdem check CASE.toml --write-blocks blocks.geojson` (or `.wkt`) writes all blocks with name, material, what is fixed and, for each edge from the first vertex to
-the second on, the set, fault or outline that cut it. Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials.
+the second on, the set, fault or outline that cut it. Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials. Blocks around other blocks have holes, and are refused there: draw a joint through them.
 
 ## The traces file
 

@@ -34,7 +34,8 @@ SectionSpec water_section()
                           ValueType::line),
                      assign_line<&WaterDef::table>),
          field<&WaterDef::pressure>({.name = "pressure",
-                                     .effect = "CSV file with rows of x,y,pressure in m and Pa, from a seepage calculation, for "
+                                     .effect = "CSV file with rows of x,y,pressure in m and Pa and, if you like, this heading, "
+                                               "from a seepage calculation, for "
                                                "example. Between its points it is linear in triangles. Instead of `level` and "
                                                "`table`.",
                                      .example = "\"p.csv\"",

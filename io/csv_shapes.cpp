@@ -1,43 +1,36 @@
 #include "io/csv_shapes.h"
 
+#include "io/csv_row.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace hdem
 {
 namespace
 {
-std::vector<std::string_view> columns_of(std::string_view row)
-{
-    std::vector<std::string_view> columns;
-    for (;; row.remove_prefix(row.find(',') + 1))
-    {
-        columns.push_back(trimmed(row.substr(0, row.find(','))));
-        if (row.find(',') == std::string_view::npos)
-            return columns;
-    }
-}
+constexpr std::array<CsvColumn, 5> heading = {{{"", ""}, {"x", "m"}, {"y", "m"}, {"material", ""}, {"fixed", ""}}};
 
-/// The whole column is a finite number.
-bool read_number(std::string_view column, double& x)
+/// What the columns of a table may be.
+std::string columns_text(std::size_t further)
 {
-    Scanner scan{column};
-    return scan.take_number(x) && scan.rest.empty();
+    return further > 0 ? "name,x,y,material,fixed" : "name,x,y";
 }
 }  // namespace
 
 std::string CsvShapes::add(int line, std::string_view row)
 {
-    const bool is_first = !any_row_;
-    any_row_ = true;
-    const std::vector<std::string_view> columns = columns_of(row);
+    const bool is_first = !std::exchange(any_row_, true);
+    const std::vector<std::string> columns = csv_columns(row);
     if (is_foreign_)
         return "";
-    if (is_first && (columns[0] == "WKT" || columns[0] == "\"WKT\""))
+    if (is_first && columns[0] == "WKT")
     {
         is_foreign_ = true;
         return "is the heading of a table with shapes in WKT). Make GeoJSON of the map instead: ogr2ogr -f GeoJSON OUT.geojson "
@@ -45,25 +38,31 @@ std::string CsvShapes::add(int line, std::string_view row)
     }
     if (columns.size() < 3)
         return fmt::format("the row has {} columns). Write name,x,y.", columns.size());
+    if (is_first && is_csv_heading(columns, std::span(heading).first(3 + further_)))
+        return "";
+    if (columns.size() > 3 + further_)
+        return fmt::format("has {} columns). Write at most {}.", columns.size(), columns_text(further_));
     Vec2 point;
     for (int k = 0; k < 2; ++k)
     {
-        if (!read_number(columns[1 + k], point[k]))
-            return is_first ? ""
-                            : fmt::format("expected a finite number, got \"{}\"). Write name,x,y with points as decimal marks.",
-                                          printable(columns[1 + k], 20));
+        const std::string& column = columns[1 + static_cast<std::size_t>(k)];
+        if (!read_csv_number(column, point[k]))
+            return fmt::format("expected {}a finite number, got \"{}\"). Write {} with points as decimal marks.",
+                               is_first ? "the heading " + columns_text(further_) + " or " : "", printable(column, 20),
+                               columns_text(further_));
         if (std::abs(point[k]) > farthest_coordinate)
             return fmt::format("the point is farther than {} m from the origin). Move the model nearer to the origin.",
                                farthest_coordinate);
     }
     if (columns[0].empty())
         return "the row has no name). Write name,x,y.";
+    const std::vector<std::string> more(columns.begin() + 3, columns.end());
     if (shapes.empty() || shapes.back().name != columns[0])
-    {
-        shapes.push_back({std::string(columns[0]), line, {}, {}});
-        for (std::size_t i = 3; i < columns.size(); ++i)
-            shapes.back().more.emplace_back(columns[i]);
-    }
+        shapes.push_back({columns[0], line, {}, more});
+    for (std::size_t i = 0; i < more.size(); ++i)
+        if (!more[i].empty() && (i >= shapes.back().more.size() || more[i] != shapes.back().more[i]))
+            return fmt::format("\"{}\" stands in a later row of \"{}\"). Write material and fixed in the first row of a block.",
+                               printable(more[i], 20), printable(columns[0], 40));
     shapes.back().points.push_back(point);
     return "";
 }

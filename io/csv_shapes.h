@@ -6,7 +6,7 @@
 ///   bench,1,0
 ///   bench,1,1
 ///
-/// A first row whose second column is no number is a heading. What follows the coordinates is kept from a shape's first row.
+/// A first row with these names, or the first of them, is a heading. Material and what is fixed stand in a shape's first row.
 
 #include "core/types.h"
 
@@ -16,21 +16,26 @@
 
 namespace hdem
 {
-struct CsvShapes
+class CsvShapes
 {
+  public:
     struct Shape
     {
         std::string name;
         int line = 0;                   ///< of its first row
         Polygon points;                 ///< [m]
-        std::vector<std::string> more;  ///< further columns of its first row
+        std::vector<std::string> more;  ///< material and fixed of its first row
     };
+    /// @param further  how many columns may follow the coordinates: 2 for blocks, 0 for traces
+    explicit CsvShapes(std::size_t further) : further_(further) {}
+
     std::vector<Shape> shapes;
 
     /// One row; returns what is wrong with it, or "".
     std::string add(int line, std::string_view row);
 
   private:
+    std::size_t further_;
     bool any_row_ = false;
     bool is_foreign_ = false;  ///< what is wrong has been said at the first row
 };

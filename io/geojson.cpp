@@ -1,5 +1,6 @@
 #include "io/geojson.h"
 
+#include "io/csv_row.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
 
@@ -192,7 +193,7 @@ Polygon ring_of(Walker& walk, const Json& polygon)
 
 bool is_geojson(const std::string& file_name)
 {
-    return file_name.ends_with(".geojson") || file_name.ends_with(".json");
+    return has_ending(file_name, ".geojson") || has_ending(file_name, ".json");
 }
 
 TraceFile read_geojson_traces(const std::string& text, const std::string& file_name)

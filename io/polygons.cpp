@@ -1,5 +1,6 @@
 #include "io/polygons.h"
 
+#include "io/csv_row.h"
 #include "io/csv_shapes.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
@@ -72,8 +73,6 @@ std::string read_shape(const CsvShapes::Shape& shape, BlockDef& block)
     block.polygon = shape.points;
     if (block.polygon.size() > 1 && block.polygon.front() == block.polygon.back())
         block.polygon.pop_back();
-    if (shape.more.size() > 2)
-        return fmt::format("has {} columns). Write at most name,x,y,material,fixed.", shape.more.size() + 3);
     if (!shape.more.empty() && !shape.more[0].empty())
         block.material = shape.more[0];
     if (shape.more.size() > 1 && !read_fixed(shape.more[1], block))
@@ -127,8 +126,8 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
         result.problems.push_back(
             {Problem::Severity::error, "blocks_file", fmt::format("{}:{}: block: polygon ({}", file_name, line, why)});
     };
-    const bool is_csv = file_name.ends_with(".csv");
-    CsvShapes rows;
+    const bool is_csv = has_ending(file_name, ".csv");
+    CsvShapes rows(2);
     const auto add = [&](int line, std::string_view text)
     {
         if (result.blocks.size() >= most_blocks)
@@ -166,27 +165,37 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
     return result;
 }
 
-std::string to_wkt(const Polygon& polygon)
+std::string to_wkt(const Polygon& polygon, std::span<const Polygon> holes)
 {
-    std::string text = "POLYGON((";
-    for (std::size_t i = 0; i <= polygon.size() && !polygon.empty(); ++i)
+    const auto ring_text = [](const Polygon& ring)
     {
-        const Vec2& point = polygon[i % polygon.size()];
-        text += fmt::format("{}{:.17g} {:.17g}", i == 0 ? "" : ", ", point.x(), point.y());
-    }
-    return text + "))";
+        std::string text = "(";
+        for (std::size_t i = 0; i <= ring.size() && !ring.empty(); ++i)
+        {
+            const Vec2& point = ring[i % ring.size()];
+            text += fmt::format("{}{:.17g} {:.17g}", i == 0 ? "" : ", ", point.x(), point.y());
+        }
+        return text + ")";
+    };
+    std::string text = "POLYGON(" + ring_text(polygon);
+    for (const Polygon& hole : holes)
+        text += ", " + ring_text(hole);
+    return text + ")";
+}
+
+void write_polygon(std::ostream& out, const BlockDef& block, std::span<const Polygon> holes)
+{
+    out << to_wkt(block.polygon, holes) << "; " << block.name << "; " << block.material;
+    if (block.fix_x && block.fix_y && block.fix_rotation)
+        out << "; fixed";
+    else if (block.fix_x || block.fix_y || block.fix_rotation)
+        out << ';' << (block.fix_x ? " x" : "") << (block.fix_y ? " y" : "") << (block.fix_rotation ? " rotation" : "");
+    out << '\n';
 }
 
 void write_polygons(std::ostream& out, std::span<const BlockDef> blocks)
 {
     for (const BlockDef& block : blocks)
-    {
-        out << to_wkt(block.polygon) << "; " << block.name << "; " << block.material;
-        if (block.fix_x && block.fix_y && block.fix_rotation)
-            out << "; fixed";
-        else if (block.fix_x || block.fix_y || block.fix_rotation)
-            out << ';' << (block.fix_x ? " x" : "") << (block.fix_y ? " y" : "") << (block.fix_rotation ? " rotation" : "");
-        out << '\n';
-    }
+        write_polygon(out, block);
 }
 }  // namespace hdem

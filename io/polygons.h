@@ -42,7 +42,10 @@ PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::s
 std::variant<Polygon, std::string> parse_wkt(std::string_view text);
 
 /// "POLYGON((...))", closed; reading it gives the same doubles.
-std::string to_wkt(const Polygon& polygon);
-/// One line per block with name, material and what is fixed, as read_polygons reads it. Velocities are not written.
+/// @param holes  rings inside of it. parse_wkt refuses them.
+std::string to_wkt(const Polygon& polygon, std::span<const Polygon> holes = {});
+/// A line with name, material and what is fixed, as read_polygons reads it. Velocities are not written.
+void write_polygon(std::ostream& out, const BlockDef& block, std::span<const Polygon> holes = {});
+/// The same of each block.
 void write_polygons(std::ostream& out, std::span<const BlockDef> blocks);
 }  // namespace hdem

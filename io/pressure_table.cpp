@@ -1,5 +1,6 @@
 #include "io/pressure_table.h"
 
+#include "io/csv_row.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
 
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace hdem
 {
@@ -15,19 +18,11 @@ namespace
 constexpr std::size_t most_rows = 100'000;
 constexpr double largest = 1e12;  ///< [Pa]
 
-bool take_row(std::string_view line, std::array<double, 3>& row)
+constexpr std::array<CsvColumn, 3> heading = {{{"x", "m"}, {"y", "m"}, {"pressure", "Pa"}}};
+
+bool take_row(std::span<const std::string> columns, std::array<double, 3>& row)
 {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-        const auto comma = line.find(',');
-        if ((comma == std::string_view::npos) != (k == 2))
-            return false;
-        Scanner column{trimmed(line.substr(0, comma))};
-        if (!column.take_number(row[k]) || !column.rest.empty())
-            return false;
-        line.remove_prefix(k == 2 ? 0 : comma + 1);
-    }
-    return true;
+    return columns.size() == row.size() && std::ranges::equal(columns, row, read_csv_number);
 }
 
 /// "" or what is wrong with the row.
@@ -52,14 +47,14 @@ PressureFile read_pressures(std::istream& in, const std::string& file_name)
     const auto add = [&](int line, std::string_view text)
     {
         std::array<double, 3> row{};
-        const bool is_heading = std::exchange(is_first, false);
-        if (!take_row(text, row))
-        {
-            if (!is_heading)
-                complain(line, fmt::format("expected three finite numbers, got \"{}\"). Write x,y,pressure with points as decimal "
-                                           "marks.",
-                                           printable(text, 40)));
-        }
+        const bool may_be_heading = std::exchange(is_first, false);
+        const std::vector<std::string> columns = csv_columns(text);
+        if (may_be_heading && columns.size() == heading.size() && is_csv_heading(columns, heading))
+            return true;
+        if (!take_row(columns, row))
+            complain(line, fmt::format("expected {}three finite numbers, got \"{}\"). Write x,y,pressure with points as decimal "
+                                       "marks.",
+                                       may_be_heading ? "the heading x,y,pressure or " : "", printable(text, 40)));
         else if (const std::string why = find_fault(row); !why.empty())
             complain(line, why);
         else

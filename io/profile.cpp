@@ -1,11 +1,13 @@
 #include "io/profile.h"
 
+#include "io/csv_row.h"
 #include "io/scanner.h"
 #include "io/toml_tree.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
+#include <span>
 #include <utility>
 
 namespace hdem
@@ -14,13 +16,11 @@ namespace
 {
 constexpr std::size_t most_points = 20'000;
 
-bool take_row(std::string_view line, Vec2& point)
+constexpr std::array<CsvColumn, 2> heading = {{{"x", "m"}, {"y", "m"}}};
+
+bool take_row(std::span<const std::string> columns, Vec2& point)
 {
-    const auto comma = line.find(',');
-    if (comma == std::string_view::npos)
-        return false;
-    Scanner x{trimmed(line.substr(0, comma))}, y{trimmed(line.substr(comma + 1))};
-    return x.take_number(point.x()) && x.rest.empty() && y.take_number(point.y()) && y.rest.empty();
+    return columns.size() == 2 && read_csv_number(columns[0], point.x()) && read_csv_number(columns[1], point.y());
 }
 }  // namespace
 
@@ -36,13 +36,13 @@ ProfileFile read_profile(std::istream& in, const std::string& file_name)
     const auto add = [&](int line, std::string_view text)
     {
         Vec2 point;
-        const bool is_heading = std::exchange(is_first, false);
-        if (!take_row(text, point))
-        {
-            if (!is_heading)
-                complain(line, fmt::format("expected two finite numbers, got \"{}\"). Write x,y with points as decimal marks.",
-                                           printable(text, 40)));
-        }
+        const bool may_be_heading = std::exchange(is_first, false);
+        const std::vector<std::string> columns = csv_columns(text);
+        if (may_be_heading && columns.size() == heading.size() && is_csv_heading(columns, heading))
+            return true;
+        if (!take_row(columns, point))
+            complain(line, fmt::format("expected {}two finite numbers, got \"{}\"). Write x,y with points as decimal marks.",
+                                       may_be_heading ? "the heading x,y or " : "", printable(text, 40)));
         else if (point.cwiseAbs().maxCoeff() > farthest_coordinate)
             complain(line, fmt::format("the point is farther than {} m from the origin). Move the model nearer to the origin.",
                                        farthest_coordinate));

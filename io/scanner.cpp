@@ -15,6 +15,7 @@ namespace
 {
 constexpr std::size_t longest_line = 1'000'000;      // bytes; some 25 000 vertices
 constexpr std::size_t largest_file = 4'000'000'000;  // bytes
+constexpr std::string_view mark = "\xef\xbb\xbf";    // of UTF-8, with which some editors and spreadsheets begin a file
 
 /// Lead and continuation bytes belong together; what they say is not looked at.
 bool is_utf8(std::string_view text)
@@ -110,7 +111,8 @@ std::string read_lines(std::istream& in, int& last, const std::function<bool(int
             return fmt::format("more than {} bytes). Make the model smaller.", largest_file);
         if (!is_utf8(line))
             return "the line is not UTF-8 text). Save the file as UTF-8.";
-        const std::string_view text = trimmed(line);
+        const std::string_view text = trimmed(last == 1 && line.starts_with(mark) ? std::string_view(line).substr(mark.size())
+                                                                                  : line);
         if (!text.empty() && text.front() != '#' && !use(last, text))
             return "";
         line.clear();

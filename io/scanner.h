@@ -33,6 +33,7 @@ struct Scanner
 };
 
 /// Calls `use` with the number and the text of every line that is neither empty nor a comment (#), until it returns false.
+/// A mark of UTF-8 at the head of the file is left out.
 /// @return "" or why reading stopped: a line or a file that is too long; `last` is the number of the last line seen
 std::string read_lines(std::istream& in, int& last, const std::function<bool(int, std::string_view)>& use);
 }  // namespace hdem

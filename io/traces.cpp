@@ -1,5 +1,6 @@
 #include "io/traces.h"
 
+#include "io/csv_row.h"
 #include "io/csv_shapes.h"
 #include "io/scanner.h"
 
@@ -51,8 +52,8 @@ TraceFile read_traces(std::istream& in, const std::string& file_name)
         result.problems.push_back(
             {Problem::Severity::error, "domain.traces_file", fmt::format("{}:{}: trace: line ({}", file_name, line, why)});
     };
-    const bool is_csv = file_name.ends_with(".csv");
-    CsvShapes rows;
+    const bool is_csv = has_ending(file_name, ".csv");
+    CsvShapes rows(0);
     std::size_t points = 0;
     const auto keep = [&](int line, const Polygon& trace)
     {

@@ -115,6 +115,8 @@ def draw_field(axes, blocks, options):
     low, high, extend = colour_range(values[~hatched], signed)
     if options.range:
         (low, high), extend = options.range, "both"
+        if not (math.isfinite(low) and math.isfinite(high) and low < high):
+            raise ResultError(f"--range {low:g} {high:g}: no range. Give two finite numbers, the lower one first.")
     factor, unit = scaled_unit(unit, max(abs(low), abs(high)))
     shown = pick(blocks["part_polygon"], ~hatched, blocks)
     faces = PolyCollection(shown, cmap=DIVERGING if signed else SEQUENTIAL, edgecolors="face", linewidths=0.1)
@@ -176,8 +178,13 @@ def view_of(blocks, liners, others, options):
         x0, y0, x1, y1 = options.window
         if not (math.isfinite(x1 - x0) and math.isfinite(y1 - y0)) or x0 == x1 or y0 == y1:
             raise ResultError("--window: has no area. Give two opposite corners.")
-        return min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
     points = [*blocks["part_polygon"], blocks["outline"], blocks["water_table"], *others]
+    if options.window:
+        window = np.sort([[x0, y0], [x1, y1]], axis=0)
+        low, high = corners(points + ([liners["points"]] if liners else []))
+        if np.any(window[0] >= high) or np.any(window[1] <= low):
+            raise ResultError(f"--window: nothing is drawn there. What there is spans ({low[0]:.6g}, {low[1]:.6g}) to ({high[0]:.6g}, {high[1]:.6g}).")
+        return tuple(window.ravel())
     margin = 0.02
     if options.excavation:
         if not len(blocks["outline"]):

@@ -1,8 +1,11 @@
 #include "core/rock/resolve_names.h"
 
+#include "core/model/near_name.h"
 #include "core/motion/loads.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <set>
 #include <unordered_map>
 
@@ -10,6 +13,8 @@ namespace hdem
 {
 namespace
 {
+constexpr double most_cycles = 1e15;  ///< the most that a case may ask for by number
+
 class Resolver
 {
   public:
@@ -22,7 +27,7 @@ class Resolver
     std::vector<Problem> run()
     {
         for (std::size_t i = 0; i < def_.loads.size(); ++i)
-            add_load(def_.loads[i], "load[" + std::to_string(i) + "]");
+            add_load(def_.loads[i], "load[" + std::to_string(i) + "]", "load " + std::to_string(i + 1));
         time_loads(model_);
         for (std::size_t i = 0; i < model_.loads.size(); ++i)
             check_times(model_.loads[i], "load[" + std::to_string(i) + "]");
@@ -46,17 +51,37 @@ class Resolver
         problems_.push_back({.severity = Problem::Severity::warning, .key = key, .text = text});
     }
 
-    Index find(const std::string& name, const std::string& key)
+    /// Names of generated blocks are near to each other: only those that the user has chosen are suggested.
+    [[nodiscard]] std::string suggestion(const std::string& name, bool or_excavation) const
+    {
+        std::vector<std::string> chosen;
+        for (const BlockDef& block : def_.blocks)
+            chosen.push_back(block.name);
+        if (or_excavation)
+            chosen.insert(chosen.end(), model_.excavation_names.begin(), model_.excavation_names.end());
+        const std::string near = nearest_name(name, chosen);
+        return near.empty() ? "" : "; did you mean '" + near + "'?";
+    }
+
+    /// @param object  what names the block, for messages: stage "roof"
+    Index find(const std::string& name, const std::string& key, const std::string& object)
     {
         const auto at = slots_.find(name);
         if (at != slots_.end())
             return at->second;
-        fail(key, "block \"" + name + "\": unknown name (the model has " + std::to_string(model_.blocks()) +
-                      " blocks, generated ones are called b1, b2, ...). Run `hdem check --blocks` for the list.");
+        const std::string field = key.substr(key.rfind('.') + 1);
+        const bool or_excavation = field == "excavate";
+        const bool is_excavation = std::ranges::count(model_.excavation_names, name) > 0;
+        fail(key, object + ": " + field + " = \"" + name + "\" (" +
+                      (is_excavation ? "is an excavation, not a block"
+                                     : (or_excavation ? "no excavation or block has this name" : "no block has this name") +
+                                           suggestion(name, or_excavation)) +
+                      "). The model has " + std::to_string(model_.blocks()) +
+                      " blocks, generated ones are called b1, b2, ...: `hdem check --blocks` lists them.");
         return no_index;
     }
 
-    void add_load(const LoadDef& from, const std::string& key)
+    void add_load(const LoadDef& from, const std::string& key, const std::string& object)
     {
         Load load{.blocks = {},
                   .acceleration = from.acceleration,
@@ -74,7 +99,7 @@ class Resolver
                     if (blocks_.is_free(i))
                         load.blocks.push_back(i);
             }
-            else if (const Index i = find(name, key + ".blocks"); i != no_index)
+            else if (const Index i = find(name, key + ".blocks", object); i != no_index)
                 load.blocks.push_back(i);
         }
         for (const Index i : load.blocks)
@@ -128,6 +153,10 @@ class Resolver
 
     void check_stage(const StageDef& stage, const std::string& key)
     {
+        const std::string object = "stage \"" + stage.name + "\"";
+        if (stage.duration && *stage.duration / model_.time_step > most_cycles)
+            fail(key + ".duration", object + ": duration (takes more than 1e15 cycles of the time step). Give a shorter one, or a "
+                                             "greater time.step.");
         if (stage.duration && *stage.duration / model_.time_step < static_cast<double>(stage.relax_cycles))
             fail(key + ".relax_cycles", "stage: relax_cycles = " + std::to_string(stage.relax_cycles) + " (its duration has only " +
                                             std::to_string(static_cast<std::int64_t>(*stage.duration / model_.time_step)) +
@@ -142,23 +171,41 @@ class Resolver
                     fail(key + ".excavate", "excavation \"" + name + "\": removed twice. Name it in one stage only.");
             }
             else
-                find(name, key + ".excavate");
+                find(name, key + ".excavate", object);
         }
         for (const std::string& name : stage.fix)
-            find(name, key + ".fix");
+            find(name, key + ".fix", object);
         for (const std::string& name : stage.free)
-            find(name, key + ".free");
+            find(name, key + ".free", object);
         for (const StageEndDef& end : stage.ends)
             for (const std::string& name : end.blocks)
-                find(name, key + ".until");
+                find(name, key + ".until", object);
     }
 
     void check_history(const HistoryDef& history, const std::string& key)
     {
+        const std::string object = "history \"" + history.name + "\"";
         if (!history.block.empty())
-            find(history.block, key + ".block");
+            find(history.block, key + ".block", object);
         for (const std::string& name : history.between)
-            find(name, key + ".between");
+            find(name, key + ".between", object);
+        find_support(model_.support.bolts, &Bolt::name, history.bolt, key + ".bolt", object,
+                     "Those of a pattern are called NAME.1, NAME.2, ...");
+        find_support(model_.support.liners, &Liner::name, history.liner, key + ".liner", object, "Give the name of a [[liner]].");
+    }
+
+    /// Bolts and liners are there already, those of patterns too.
+    template <class Entries, class Name>
+    void find_support(const Entries& entries, Name name_of, const std::string& name, const std::string& key,
+                      const std::string& object, const std::string& remedy)
+    {
+        if (name.empty() || std::ranges::find(entries, name, name_of) != std::ranges::end(entries))
+            return;
+        std::vector<std::string> known;
+        std::ranges::transform(entries, std::back_inserter(known), name_of);
+        const std::string what = key.substr(key.rfind('.') + 1), near = nearest_name(name, known);
+        fail(key, object + ": " + what + " = \"" + name + "\" (no " + what + " has this name" +
+                      (near.empty() ? "" : "; did you mean '" + near + "'?") + "). " + remedy);
     }
 
     const CaseDef& def_;

@@ -138,9 +138,9 @@ void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
         const std::string object = "excavation \"" + excavation.name + "\": ";
         if (areas == 0)
         {
-            problems.push_back(
-                {Problem::Severity::error, key,
-                 object + "nothing is left inside the outline (it lies in earlier excavations). Move it, or drop it."});
+            problems.push_back({Problem::Severity::error, key,
+                                object + "nothing is left inside the outline (it is too small to be cut, or lies in earlier "
+                                         "excavations). Move it, or drop it."});
         }
         else if (areas > 1 && excavation.inside == InsideOutline::one_block)
         {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <algorithm>
 #include <limits>
 
 namespace hdem
@@ -36,7 +36,9 @@ void write_blocks(const std::string& file, const CaseDef& def)
 {
     const std::vector<BlockShape> shapes = block_shapes(def, generate_rock_mass(def));
     write_atomically(file, file.ends_with(".wkt") ? to_wkt(shapes) : to_geojson(shapes));
-    say("wrote             {} blocks to {}\n", shapes.size(), printable(file, 200));
+    const auto hollow = std::ranges::count_if(shapes, [](const BlockShape& shape) { return !shape.holes.empty(); });
+    say("wrote             {} blocks to {}{}\n", shapes.size(), printable(file, 200),
+        hollow == 0 ? "" : fmt::format("; {} of them with holes, which blocks_file does not read", hollow));
 }
 
 void describe_insitu(const Model& model, const InsituSummary& insitu)

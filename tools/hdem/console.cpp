@@ -5,8 +5,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <stdexcept>
 #include <string>
 
 namespace hdem
@@ -23,6 +26,14 @@ void put(std::FILE* stream, std::string_view text)
 void say_text(std::string_view text)
 {
     put(stdout, text);
+}
+
+void finish_output()
+{
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw std::runtime_error(fmt::format("standard output: cannot be written{}. Free some space, or write to another file.",
+                                             errno != 0 ? fmt::format(" ({})", std::strerror(errno)) : ""));
 }
 
 void complain_text(std::string_view text)

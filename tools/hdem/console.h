@@ -9,6 +9,8 @@ namespace hdem
 {
 /// To standard output.
 void say_text(std::string_view text);
+/// For commands whose outcome is what they print. Throws std::runtime_error where not all of it could be written, as on a full disk.
+void finish_output();
 /// To error output.
 void complain_text(std::string_view text);
 

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -263,6 +262,9 @@ FailureCondition parse_condition(const std::string& text)
 int critical_command(const CriticalOptions& options)
 {
     const Vary vary = parse_vary(options.vary);
+    if (options.tolerance && *options.tolerance >= vary.high - vary.low)
+        refuse(fmt::format("--tolerance {}: (is not below the width of the range, {}: nothing would be looked for). Give less.",
+                           *options.tolerance, vary.high - vary.low));
     const FailureCondition condition = parse_condition(options.fails);
     const std::string question = question_of(options);
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
@@ -290,8 +292,7 @@ int critical_command(const CriticalOptions& options)
     }
     catch (const SearchStopped&)
     {
-        log.line(
-            fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
+        log.line(fmt::format("{}: the search was stopped. The same command goes on.", interrupt_name()));
         return 128 + interrupt();
     }
 }

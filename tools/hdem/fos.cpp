@@ -13,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <csignal>
 #include <limits>
 
 namespace hdem
@@ -238,8 +237,7 @@ int fos_command(const FosOptions& options)
     }
     catch (const SearchStopped&)
     {
-        run.log->line(
-            fmt::format("{}: the search was stopped. The same command goes on.", interrupt() == SIGTERM ? "SIGTERM" : "SIGINT"));
+        run.log->line(fmt::format("{}: the search was stopped. The same command goes on.", interrupt_name()));
         return 128 + interrupt();
     }
 }

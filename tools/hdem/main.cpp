@@ -186,11 +186,13 @@ int dispatch(int argc, char** argv)
     if (*schema)
     {
         fmt::print("{}", markdown ? case_format_markdown() : case_json_schema());
+        finish_output();
         return exit_done;
     }
     if (*info)
     {
         say("{}", describe_file(file));
+        finish_output();
         return exit_done;
     }
     if (app.got_subcommand("fos"))
@@ -203,7 +205,11 @@ int dispatch(int argc, char** argv)
         return run_script("report", "run_report.py", report->remaining());
     if (*view)
         return run_script("view", "run_view.py", view->remaining());
-    return app.got_subcommand("run") ? run_command(run) : check_command(check);
+    if (app.got_subcommand("run"))
+        return run_command(run);
+    const int code = check_command(check);
+    finish_output();
+    return code;
 }
 }  // namespace
 }  // namespace hdem

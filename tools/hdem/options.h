@@ -17,7 +17,7 @@ enum ExitCode : int
     exit_run_failed = 1,  ///< non-finite value, overlap too great, disk full
     exit_bad_input = 2,   ///< bad input or usage
     exit_no_convergence = 4,
-    exit_wall_time = 5  ///< --max-wall was over; 130 and 143: interrupted by SIGINT and SIGTERM
+    exit_wall_time = 5  ///< --max-wall was over; 129, 130 and 143: interrupted by SIGHUP, SIGINT and SIGTERM
 };
 
 /// Option --threads: a number, or nothing for auto.

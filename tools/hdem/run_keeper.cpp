@@ -55,7 +55,7 @@ bool RunKeeper::keep(const Simulation& simulation)
     if (signal == 0 && !late)
         return true;
     exit_code_ = signal != 0 ? 128 + signal : static_cast<int>(exit_wall_time);
-    const char* const why = signal == SIGINT ? "SIGINT" : (signal == SIGTERM ? "SIGTERM" : "--max-wall");
+    const char* const why = signal != 0 ? interrupt_name() : "--max-wall";
     log_.line(fmt::format("{}: stopped after cycle {}. Go on with: hdem run --restart {}", why, cycle, settings_.folder.string()));
     return false;
 }

@@ -3,13 +3,16 @@
 
 namespace hdem
 {
-/// From now on SIGINT and SIGTERM wait to be asked for; a second one ends the program at once, as without a handler.
+/// From now on SIGINT, SIGTERM and SIGHUP wait to be asked for; a second one that is not SIGHUP ends the program at once, as without a
+/// handler. SIGHUP stays ignored where it is (nohup).
 void catch_interrupts();
 /// From now on SIGUSR1 waits to be asked for.
 void catch_checkpoint_requests();
 
-/// SIGINT or SIGTERM once one has come, else 0.
+/// One of these once it has come, else 0.
 [[nodiscard]] int interrupt();
+/// Its name. @pre interrupt() != 0
+[[nodiscard]] const char* interrupt_name();
 /// Has SIGUSR1 come since this was asked last?
 [[nodiscard]] bool checkpoint_requested();
 }  // namespace hdem

@@ -126,15 +126,15 @@ TEST(CaseReader, WarnsOfAsperitiesThatAreSteeperThanTheirFriction)
     const auto warnings = [](double friction)
     {
         std::string texts;
-        const std::string
-            joint = "[joint.j]\nlaw = \"plesha\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e10\nasperity_angle_deg = 20\n";
+        const std::string joint = "[joint.j]\nmaterials = [\"rock\", \"rock\"]\nlaw = \"plesha\"\nnormal_stiffness = "
+                                  "1e9\nshear_stiffness = 1e10\nasperity_angle_deg = 20\n";
         for (const Problem& warning :
              read_case_text(two_blocks + joint + fmt::format("friction_angle_deg = {}\n", friction), "case.toml").warnings)
             texts += warning.text;
         return texts;
     };
     EXPECT_EQ(warnings(20.0), "");
-    EXPECT_THAT(warnings(10.0), testing::HasSubstr("case.toml:20:22: warning: joint \"j\": asperity_angle_deg = 20 (is above "
+    EXPECT_THAT(warnings(10.0), testing::HasSubstr("case.toml:21:22: warning: joint \"j\": asperity_angle_deg = 20 (is above "
                                                    "friction_angle_deg = 10: "));
     EXPECT_THAT(warnings(10.0), testing::HasSubstr("Give no more than the friction angle"));
 }
@@ -160,6 +160,44 @@ TEST(CaseReader, WarnsAboutAShareOfTheStableStepThatNoStageTakes)
                 says("with prescribed motions"));
     EXPECT_THAT(warnings(timed), says("no stage runs until converged"));
     EXPECT_THAT(warnings(until, "[damping]\npreset = \"paper\"\n"), says("no stage runs until converged"));
+}
+
+/// A name alone does nothing: contacts would silently have the default.
+TEST(CaseReader, WarnsOfJointsThatNothingNames)
+{
+    const std::string joint = "[joint.bedding]\nnormal_stiffness = 1e9\nshear_stiffness = 1e9\nfriction_angle_deg = 20\n";
+    const auto warnings = [&](const std::string& more)
+    {
+        std::string texts;
+        for (const Problem& warning : read_case_text(two_blocks + more, "case.toml").warnings)
+            texts += warning.text;
+        return texts;
+    };
+    const std::string domain = "[domain]\norigin = [10, 0]\nwidth = 4\nheight = 4\n";
+    const std::string set = "[[joint_set]]\nname = \"bedding\"\ndip_deg = 10\nspacing = 1\n";
+    EXPECT_THAT(warnings(domain + set + joint),
+                testing::HasSubstr("case.toml:24:1: warning: joint \"bedding\": [joint.bedding] (no "
+                                   "contact has it: nothing names it). Give joint = \"bedding\" to"));
+    EXPECT_EQ(warnings(domain + set + "joint = \"bedding\"\n" + joint), "");
+    EXPECT_EQ(warnings(joint + "materials = [\"rock\", \"rock\"]\n"), "");
+    EXPECT_EQ(warnings(domain + "[voronoi]\nedge = 1\njoint = \"bedding\"\n" + joint), "");
+    EXPECT_EQ(warnings(domain + "[[fault]]\nname = \"f\"\npoints = [[9, 1], [15, 2]]\njoint = \"bedding\"\n" + joint), "");
+}
+
+TEST(CaseReader, WarnsOfASolverOfAStageThatDoesNotLookForRest)
+{
+    const auto warnings = [](const std::string& end)
+    {
+        std::string texts;
+        for (const Problem& warning :
+             read_case_text(test::with(two_blocks, "cycles = 10", end + "\nsolver = \"static\""), "case.toml").warnings)
+            texts += warning.text;
+        return texts;
+    };
+    EXPECT_EQ(warnings("until = \"converged\""), "");
+    for (const char* end : {"cycles = 10", "duration = 0.1", "until = \"speed < 1e-3\""})
+        EXPECT_THAT(warnings(end), testing::HasSubstr("stage \"stage1\": solver (has no effect: the stage does not look for rest)"))
+            << end;
 }
 
 TEST(CaseSource, FindsTheNearestParentOfAKey)

@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace hdem
@@ -110,6 +112,36 @@ TEST(BlockShapes, AreReadAgain)
             EXPECT_NEAR(again.setup.model.area[as_read], loaded.setup.model.area[as_cut], 1e-12);
             EXPECT_EQ(again.setup.state.blocks.is_free(as_read), loaded.setup.state.blocks.is_free(as_cut));
         }
+    }
+}
+
+/// An opening in one block: its ring is a hole, also where a corner of it touches the outline of the block.
+TEST(BlockShapes, HaveTheRingsOfTheBlocksInsideAsHoles)
+{
+    for (const char* opening : {"[[2, 2], [4, 2], [3, 4]]", "[[2, 2], [4, 2], [3, 6]]", "[[0, 3], [3, 0], [4, 4]]"})
+    {
+        const test::ScratchFolder folder("block_holes");
+        std::ofstream(folder / "case.toml")
+            << "[domain]\nwidth = 6.0\nheight = 6.0\n[[excavation]]\nname = \"hole\"\nshape = \"polygon\"\n"
+            << "polygon = " << opening << "\n"
+            << test::laws;
+        const LoadedCase loaded = load_case(folder / "case.toml");
+        double sum = 0.0;
+        for (const BlockShape& shape : block_shapes(loaded.file.def, generate_rock_mass(loaded.file.def)))
+        {
+            double area = std::abs(signed_area(shape.block.polygon));
+            for (const Polygon& hole : shape.holes)
+                area -= std::abs(signed_area(hole));
+            EXPECT_NEAR(area, shape.area, 1e-12) << opening;
+            std::set<std::pair<double, double>> corners;
+            for (const Vec2& corner : shape.block.polygon)
+                EXPECT_TRUE(corners.emplace(corner.x(), corner.y()).second) << "a ring that meets itself: " << opening;
+            EXPECT_EQ(shape.edges.size(), shape.block.polygon.size());
+            sum += shape.area;
+            const std::string text = to_wkt(std::span(&shape, 1));
+            EXPECT_EQ(text.find("), (") != std::string::npos, !shape.holes.empty()) << text;
+        }
+        EXPECT_NEAR(sum, 36.0, 1e-12);
     }
 }
 

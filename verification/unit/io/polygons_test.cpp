@@ -159,6 +159,36 @@ TEST(PolygonFile, SaysWhichRowOfATableIsWrong)
     EXPECT_THAT(file.problems[2].text, testing::HasSubstr("\"all\" does not say what is fixed"));
 }
 
+/// Columns are read by their place. A table that names others, or says what is fixed where it is not looked for, is refused.
+TEST(PolygonFile, LooksAtTheHeadingAndAtLaterRowsOfATable)
+{
+    const std::string rows = "a,0,0\na,4,0\na,4,1\n";
+    const auto problem = [](const std::string& text)
+    {
+        std::istringstream in(text);
+        const PolygonFile file = read_polygons(in, "blocks.CSV");
+        return file.problems.empty() ? "" : file.problems[0].text;
+    };
+    for (const char* heading : {"", "name,x,y\n", "block, X [m], Y [m]\n", "\xef\xbb\xbfname,x,y,material,fixed\r\n"})
+        EXPECT_EQ(problem(heading + rows), "");
+    for (const char* heading : {"name,y,x\n", "x,y,name\n", "name,x,y,fixed,material\n", "name,x\n"})
+        EXPECT_THAT(problem(heading + rows), testing::StartsWith("blocks.CSV:1: block: polygon (")) << heading;
+    EXPECT_THAT(
+        problem("a,0,0\na,4,0,rock,fixed\na,4,1\n"),
+        testing::HasSubstr("blocks.CSV:2: block: polygon (\"rock\" stands in a later row of \"a\"). Write material and fixed in"));
+    EXPECT_EQ(problem("a,0,0,rock,fixed\na,4,0,rock,fixed\na,4,1,,\n"), "");
+    EXPECT_THAT(problem("a,0,0,rock,x,7\n" + rows), testing::HasSubstr("has 6 columns). Write at most name,x,y,material,fixed."));
+}
+
+TEST(PolygonFile, TakesTextBetweenQuotesAndAMarkOfUtf8)
+{
+    std::istringstream in("\xef\xbb\xbf\"name\",\"x\",\"y\"\n\"a\",0,0\n\"a\",4,0\n\"a\",4,1\n");
+    const PolygonFile file = read_polygons(in, "blocks.csv");
+    EXPECT_THAT(file.problems, testing::IsEmpty());
+    EXPECT_EQ(file.blocks.at(0).block.name, "a");
+    EXPECT_THAT(read("\xef\xbb\xbfPOLYGON((0 0, 1 0, 1 1, 0 0))\n").problems, testing::IsEmpty());
+}
+
 /// Names go into files that say they are UTF-8.
 TEST(PolygonFile, RefusesTextInAnotherEncoding)
 {

@@ -52,7 +52,10 @@ TEST(Profile, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(problem("0,1\n1\n"), HasSubstr("topo.csv:2: profile: line (expected two finite numbers, got \"1\")"));
     EXPECT_THAT(problem("0,1\n1,1\n1,3\n"), HasSubstr("topo.csv:3: profile: line (x = 1 does not follow 1)"));
     EXPECT_THAT(problem("x,y\n0,1\n"), HasSubstr("has 1 points"));
-    EXPECT_THAT(problem("0,nan\n1,2\n2,2\n"), testing::IsEmpty()) << "the first row may be a heading";
+    EXPECT_THAT(problem("0,nan\n1,2\n2,2\n"),
+                HasSubstr("topo.csv:1: profile: line (expected the heading x,y or two finite numbers"));
+    EXPECT_THAT(problem("y,x\n1,2\n2,2\n"), HasSubstr("expected the heading x,y or two finite numbers, got \"y,x\""));
+    EXPECT_EQ(problem("\xef\xbb\xbfX [m],Y [m]\n1,2\n2,2\n"), "");
 
     const test::ScratchFolder folder("profile_keys");
     std::ofstream(folder / "topo.csv") << slope;

@@ -96,6 +96,11 @@ TEST(WaterErrors, OfAFileOfPressuresNameItsLine)
     EXPECT_THAT(problems(good + "1,2,nan\n"), ElementsAre(HasSubstr("three finite numbers")));
     EXPECT_THAT(problems(good + "1,2,-5\n"), ElementsAre(HasSubstr("suction")));
     EXPECT_THAT(problems(good + "4,0,7\n"), ElementsAre(HasSubstr("occurs twice")));
+    EXPECT_THAT(problems("x,y,pressure [Pa]\n0,0,1e5\n4,0,1e5\n0,4,0\n"), testing::IsEmpty());
+    for (const char* heading : {"x,y,head", "y,x,pressure", "x,y,pressure [kPa]", "x,y"})
+        EXPECT_THAT(problems(heading + std::string("\n0,0,10\n4,0,10\n0,4,0\n")),
+                    ElementsAre(StartsWith("p.csv:1: pressures: line (expected the heading x,y,pressure or three finite numbers")))
+            << heading;
     EXPECT_THAT(problems("0,0,1\n1,0,1\n"), ElementsAre(HasSubstr("three at least")));
 }
 }  // namespace

@@ -133,6 +133,8 @@ class Searches(unittest.TestCase):
             self.assertLess(found["fails_at"], found["stands_at"])
             for wrong in ("detached", "detached>", "detached>-1", "lost>0"):
                 self.assertIn("detached>NUMBER", hdem("critical", CASES / "hung.toml", "--vary", "load[0].force[1]=-2e5:-5e4", "--fails", wrong, "-o", folder, code=2))
+            self.assertIn("--tolerance 200000: (is not below the width of the range, 150000", hdem("critical", CASES / "hung.toml", "--vary", "load[0].force[1]=-2e5:-5e4", "--fails",
+                                                                                                 "detached>0", "--tolerance", "2e5", "-o", folder, code=2))
 
 
 if __name__ == "__main__":

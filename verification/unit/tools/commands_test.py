@@ -109,6 +109,17 @@ class Version(unittest.TestCase):
             self.assertRegex(said, rf"(?m)^{fact} +\S")
 
 
+class FullDisk(unittest.TestCase):
+    def test_what_could_not_be_printed_is_an_error(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_commands_test_") as scratch, open("/dev/full", "w", encoding="utf-8") as full:
+            small_case.run(HDEM, Path(scratch))
+            case = Path(scratch) / "small.toml"
+            for arguments in (("check", case), ("check", case, "--blocks"), ("info", case), ("schema",), ("schema", "--markdown")):
+                done = subprocess.run([HDEM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual(done.returncode, 1, arguments)
+                self.assertIn("No space left on device", done.stderr)
+
+
 class Completion(unittest.TestCase):
     def complete(self, *words):
         """What Tab offers behind these words."""

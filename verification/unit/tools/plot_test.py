@@ -119,6 +119,8 @@ class SmallRun(unittest.TestCase):
         for arguments, expected, words in ((["nowhere"], 2, "no such file"), ([self.folder, "--frame", "77"], 2, "has no frame 77"),
                                            ([self.folder, "--colour", "pink"], 2, "invalid choice"), ([self.folder / "run.log"], 2, "cannot be read"), ([self.folder / "frames"], 2, "results.h5: no such file"),
                                            ([self.folder, "--history", "x"], 2, "histories are ball, rest"),
+                                           ([self.folder, "--window", "900", "900", "950", "950"], 2, "--window: nothing is drawn there. What there is spans ("),
+                                           ([self.folder, "--range", "5", "3"], 2, "--range 5 3: no range"), ([self.folder, "--range", "nan", "3"], 2, "no range"),
                                            ([self.folder, "-o", self.folder / "a.xyz"], 2, "xyz"), ([self.folder, "-o", self.folder / "run.log/a.png"], 1, "run.log")):
             code, said = self.plot(*arguments)
             self.assertEqual(code, expected, said)

@@ -53,7 +53,7 @@ class Restart(unittest.TestCase):
         self.assertEqual(run_folder.broken_files(folder), [])
 
     def test_signals_stop_with_a_checkpoint_and_a_restart_gives_the_unbroken_run(self):
-        for number, code, threads in ((signal.SIGINT, 130, "1"), (signal.SIGTERM, 143, "3")):
+        for number, code, threads in ((signal.SIGINT, 130, "1"), (signal.SIGTERM, 143, "3"), (signal.SIGHUP, 129, "2")):
             folder, program = self.begin(f"signal{number}")
             sent = time.monotonic()
             program.send_signal(number)
@@ -73,6 +73,26 @@ class Restart(unittest.TestCase):
         screen, _ = program.communicate(timeout=60)
         self.assertIn(program.returncode, (130, 143))
         self.assertNotIn("stopped after cycle", screen)
+
+    def test_hangup_after_another_signal_does_not_hurry(self):
+        folder, program = self.begin("logout")
+        program.send_signal(signal.SIGSTOP)
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGCONT):
+            program.send_signal(number)
+        screen, _ = program.communicate(timeout=60)
+        self.assertIn(program.returncode, (129, 143), screen)
+        self.assertIn("stopped after cycle", screen)
+        self.expect_the_whole_run(folder)
+
+    def test_nohup_goes_on(self):
+        folder = self.root / "nohup"
+        # pylint: disable=consider-using-with
+        program = subprocess.Popen(["nohup", HDEM, "run", self.case, "-o", folder], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        while not (folder / "results.h5").exists():
+            time.sleep(0.005)
+        program.send_signal(signal.SIGHUP)
+        program.communicate(timeout=60)
+        self.assertEqual(program.returncode, 0)
 
     def test_usr1_checkpoints_and_goes_on(self):
         folder = self.root / "usr1"

@@ -174,6 +174,21 @@ TEST(Excavation, InsideASingleBlockLeavesARing)
     EXPECT_NEAR(summed_area(rock), 100.0, 1e-11);
 }
 
+TEST(Excavation, TooSmallToBeCutIsRefusedForThat)
+{
+    CaseDef def = jointed_case(10.0, 8.0, {{-10.0, 2.0}});
+    def.excavations = {excavation("hole", OutlineShape::rectangle, {5.0, 3.0}, 1e-9, 1e-9)};
+    try
+    {
+        generate_rock_mass(def);
+        ADD_FAILURE() << "it was cut";
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("too small to be cut"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Excavation, MayCutABlockIntoSeveralOutside)
 {
     CaseDef def = jointed_case(10.0, 10.0, {});

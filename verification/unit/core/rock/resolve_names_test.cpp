@@ -1,4 +1,7 @@
+#include "io/load_case.h"
 #include "verification/unit/case_run.h"
+
+#include <gmock/gmock.h>
 
 namespace hdem
 {
@@ -90,6 +93,76 @@ TEST(PrescribedVelocity, PassesFromOneLoadToTheNextWithoutAGap)
         run.advance(40);
         EXPECT_NEAR(run.displacement("ground").x(), 0.0, 1e-15);
     }
+}
+
+/// What is wrong with the names of a case whose rock is cut from a domain.
+std::vector<std::string> problems_of(const std::string& more)
+{
+    const std::string rock = "[domain]\nwidth = 8\nheight = 8\nfixed = [\"bottom\"]\n[[joint_set]]\ndip_deg = 0\nspacing = 2\n"
+                             "[material.rock]\ndensity = 2700\n[joint.default]\nnormal_stiffness = 1e9\nshear_stiffness = 1e9\n"
+                             "friction_angle_deg = 30\n[[excavation]]\nname = \"tunnel\"\nshape = \"circle\"\nposition = [4, 4]\n"
+                             "diameter = 2\n[[bolt]]\nname = \"roof\"\nfrom = [2, 2.5]\nto = [2, 6.5]\narea = 1e-3\n";
+    std::vector<std::string> texts;
+    try
+    {
+        for (const Problem& warning : load_case(rock + more, {}, "case.toml", {}).warnings)
+            texts.push_back(warning.text);
+    }
+    catch (const InputError& error)
+    {
+        for (const Problem& problem : error.problems())
+            texts.push_back(problem.text);
+    }
+    return texts;
+}
+
+TEST(Names, ThatNothingHasAreSaidWithTheirPlaceAndTheNearestOne)
+{
+    using testing::ElementsAre;
+    using testing::HasSubstr;
+    using testing::StartsWith;
+    EXPECT_THAT(problems_of("[[stage]]\ncycles = 1\nexcavate = [\"tunnel\"]\n"), testing::IsEmpty());
+    EXPECT_THAT(problems_of("[[stage]]\ncycles = 1\n"), ElementsAre(HasSubstr("no stage removes it"))) << "said once";
+    const auto stage = [](const char* key)
+    {
+        return problems_of("[[stage]]\ncycles = 1\nexcavate = [\"tunnel\"]\n[[stage]]\nname = \"next\"\ncycles = 1\n" +
+                           std::string(key));
+    };
+    EXPECT_THAT(
+        stage("excavate = [\"tunel\"]\n"),
+        ElementsAre(StartsWith("case.toml:30:12: stage \"next\": excavate = \"tunel\" (no excavation or block has this name; "
+                               "did you mean 'tunnel'?)")));
+    EXPECT_THAT(stage("fix = [\"tunnel\"]\n"), ElementsAre(HasSubstr("fix = \"tunnel\" (is an excavation, not a block)")));
+    EXPECT_THAT(stage("free = [\"b999\"]\n"), ElementsAre(HasSubstr("free = \"b999\" (no block has this name). The model has")));
+    EXPECT_THAT(stage("[[load]]\nblocks = [\"b999\"]\nforce = [1, 0]\n"),
+                ElementsAre(HasSubstr("load 1: blocks = \"b999\" (no block")));
+}
+
+/// hdem check must find them: a run would stop at them only after its first lines.
+TEST(Names, OfBoltsAndLinersInHistoriesAreLookedUp)
+{
+    using testing::ElementsAre;
+    using testing::HasSubstr;
+    const auto history = [](const char* keys)
+    {
+        return problems_of(
+            "[[stage]]\ncycles = 1\nexcavate = [\"tunnel\"]\n[[history]]\nname = \"h\"\nquantities = [\"status\"]\n" +
+            std::string(keys));
+    };
+    EXPECT_THAT(history("bolt = \"roof\"\n"), testing::IsEmpty());
+    EXPECT_THAT(history("bolt = \"rof\"\n"),
+                ElementsAre(testing::StartsWith("case.toml:30:8: history \"h\": bolt = \"rof\" (no bolt has "
+                                                "this name; did you mean 'roof'?)")));
+    EXPECT_THAT(problems_of("[[stage]]\ncycles = 1\nexcavate = [\"tunnel\"]\n[[history]]\nname = \"h\"\nquantities = [\"thrust\"]\n"
+                            "liner = \"ring\"\n"),
+                ElementsAre(HasSubstr("history \"h\": liner = \"ring\" (no liner has this name)")));
+}
+
+TEST(Stages, ThatWouldTakeMoreCyclesThanCanBeCountedAreRefused)
+{
+    EXPECT_THAT(
+        problems_of("[[stage]]\nduration = 1.0\nexcavate = [\"tunnel\"]\n[time]\nstep = 1e-16\n"),
+        testing::ElementsAre(testing::HasSubstr("stage \"stage1\": duration (takes more than 1e15 cycles of the time step)")));
 }
 }  // namespace
 }  // namespace hdem
