@@ -146,9 +146,9 @@ void bind_motion(RunType& type)
         "Sum of what acted on each block in the last cycle, its weight too, (n, 2) [N] per metre of thickness, copy. A "
         "result: to push a block assign applied_forces, or give the case a [[load]].");
     type.def_property_readonly("moments", look(moments_on_blocks), "Likewise about the centroid, (n,) [N m], copy.");
-    type.def_property_readonly(
-        "stresses", look(stresses),
-        "Mean stress of each block from its contacts and the tractions on its sides, compression positive, (n, 3) [Pa]: xx, yy, xy; copy.");
+    type.def_property_readonly("stresses", look(stresses),
+                               "Mean stress of each block from its contacts and the tractions on its sides, compression positive, "
+                               "(n, 3) [Pa]: xx, yy, xy; copy.");
     type.def_property_readonly("present", look(present), "Which blocks have not been removed by a stage, (n,) bool, copy.");
     type.def_property_readonly(
         "slots",
