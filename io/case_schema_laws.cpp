@@ -146,10 +146,12 @@ SectionSpec contact_section()
          field<&ContactDef::fixed_mass_counts>({.name = "fixed_mass_counts",
                                                 .effect = "`true`: a fixed block enters the collision mass of Eqs. (16), (27) with "
                                                           "its own mass, not with infinite mass."}),
-         field<&ContactDef::impulse_sweeps>({.name = "impulse_sweeps",
-                                             .effect = "Passes over the impulse contacts in a cycle. More share impacts better "
-                                                       "among many contacts of one block, and cost more.",
-                                             .range = {.low = 1, .high = 10000}}),
+         field<&ContactDef::impulse_sweeps>(
+             {.name = "impulse_sweeps",
+              .effect = "Passes over the impulse contacts in a cycle. More share impacts better "
+                        "among many contacts of one block, and cost more. Where blocks hit each other, groups of up to "
+                        "200 points get up to ten times as many, but not under preset = \"paper\".",
+              .range = {.low = 1, .high = 10000}}),
          field<&ContactDef::correction_fraction>(
              {.name = "correction_fraction",
               .effect = "Share of the overlap that impulse contacts take back in each cycle, Eq. (19).",

@@ -58,12 +58,13 @@ void Simulation::hold_lost_blocks()
             lost.push_back(i);
     if (lost.empty())
         return;
-    const double stored = stored_energy(model_, state_).total();
-    const double changes = state_.ledger.contact_changes;
-    for (const Index block : lost)
-        set_mobility(model_, block, false, state_.blocks);
-    renew_contacts();  // two blocks that are held have no contact: what their joint stores goes, too
-    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
+    remove_energy(
+        [&]
+        {
+            for (const Index block : lost)
+                set_mobility(model_, block, false, state_.blocks);
+            renew_contacts();  // two blocks that are held have no contact: what their joint stores goes, too
+        });
 }
 
 std::optional<EndMet> Simulation::look_at_ends(bool is_settled)

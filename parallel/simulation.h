@@ -39,7 +39,7 @@ class Simulation
 
     /// Excavate, fix, free; set method and damping; count displacements from here. Where the stage ends at rest a static solution is tried.
     void begin_stage(Index stage);
-    /// Free blocks that have left the model are held where they are; their kinetic energy is removed.
+    /// Free blocks that have left the model are held where they are; their energy, and that of joints between them, is removed.
     void hold_lost_blocks();
     /// Take blocks out of the model, as an excavation does.
     void take_away(const std::vector<Index>& blocks);
@@ -84,6 +84,8 @@ class Simulation
     /// What a step that is never shortened may be; infinite where it is shortened as needed [s].
     [[nodiscard]] double step_limit();
     /// What the stage excavates, fixes and frees.
+    /// Books as removed what the change takes from the stored energy, but for what contacts that are found anew change.
+    void remove_energy(const std::function<void()>& change);
     void change_blocks(const StageDef& stage, const BoundaryChange& sides);
     void change_sides(const BoundaryChange& sides);
     /// Forces of the water of the stage that begins, where the blocks are now.

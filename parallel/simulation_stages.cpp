@@ -92,17 +92,26 @@ void Simulation::excavate(const std::string& name)
     state_.excavation_cycle = state_.cycle;
 }
 
-void Simulation::take_away(const std::vector<Index>& blocks)
+void Simulation::remove_energy(const std::function<void()>& change)
 {
     const double stored = stored_energy(model_, state_).total();
     const double changes = state_.ledger.contact_changes;
-    for (const Index block : blocks)
-        remove_block(block, state_.blocks);
-    std::erase_if(state_.next_to_excavation, [&](Index i) { return state_.blocks.present[i] == 0; });
-    wake_all(state_.blocks);
-    state_.rest_changed = true;
-    renew_contacts();
+    change();
     state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
+}
+
+void Simulation::take_away(const std::vector<Index>& blocks)
+{
+    remove_energy(
+        [&]
+        {
+            for (const Index block : blocks)
+                remove_block(block, state_.blocks);
+            std::erase_if(state_.next_to_excavation, [&](Index i) { return state_.blocks.present[i] == 0; });
+            wake_all(state_.blocks);
+            state_.rest_changed = true;
+            renew_contacts();
+        });
 }
 
 void Simulation::change_sides(const BoundaryChange& sides)
@@ -122,8 +131,6 @@ void Simulation::change_sides(const BoundaryChange& sides)
 
 void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& sides)
 {
-    const double stored = stored_energy(model_, state_).total();
-    const double changes = state_.ledger.contact_changes;
     std::vector<std::uint8_t> was_fixed;
     for (Index i = 0; i < model_.blocks(); ++i)
         was_fixed.push_back(state_.blocks.is_free(i) ? 0 : 1);
@@ -142,7 +149,6 @@ void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& side
         renew_contacts();
     if (!stage.free.empty() || !sides.freed.empty())  // between two fixed blocks there was no contact
         join_drawn_blocks(model_, was_fixed, state_);
-    state_.ledger.removed += stored - stored_energy(model_, state_).total() - (state_.ledger.contact_changes - changes);
 }
 
 void Simulation::change_water()
@@ -192,7 +198,7 @@ void Simulation::begin_stage(Index stage)
     if (def.relax_cycles > 0)
         release_tractions(model_, before, stage, state_);
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
-        change_blocks(def, sides);
+        remove_energy([&] { change_blocks(def, sides); });
     change_water();
     const bool bolted = install_bolts(model_, state_), lined = install_liners(model_, state_);
     if (bolted || lined)

@@ -96,6 +96,8 @@ std::vector<MeanStress> mean_stresses(const Model& model, const State& state)
         const double factor = boundary.acts(state.stage) ? factor_of(boundary, model, state) : 0.0;
         for (const BoundaryForce& force : boundary.forces)
         {
+            if (state.blocks.present[force.block] == 0)
+                continue;
             MeanStress& stress = stresses[force.block];
             const double share = factor / model.area[force.block];
             stress = {stress.xx - share * force.xx, stress.yy - share * force.yy, stress.xy - share * force.xy};

@@ -75,6 +75,20 @@ double correction_error(const Model& model, const ImpulsePoint& p, const Blocks&
     const Triple& inc = pseudo[p.inc];
     return law_error(as_correction(model, blocks.step, p), relative_velocity(p, inc.x - ref.x, inc.y - ref.y, ref, inc));
 }
+
+bool leave_more_than(double share, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
+                     const std::vector<Triple>& pseudo)
+{
+    double limit = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
+    for (const ImpulsePoint& p : points)
+    {
+        limit = std::max(limit, velocity_limit(share, p, blocks));
+        error = std::max(error, impulse_error(p, blocks));
+        pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
+        pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
+    }
+    return error > limit || pseudo_error > noticeable_overlap * pseudo_scale;
+}
 }  // namespace
 
 MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& blocks)
@@ -90,23 +104,6 @@ MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& bloc
     }
     return range;
 }
-
-namespace
-{
-bool leave_more_than(double share, const Model& model, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
-                     const std::vector<Triple>& pseudo)
-{
-    double limit = 0.0, pseudo_scale = 0.0, error = 0.0, pseudo_error = 0.0;
-    for (const ImpulsePoint& p : points)
-    {
-        limit = std::max(limit, velocity_limit(share, p, blocks));
-        error = std::max(error, impulse_error(p, blocks));
-        pseudo_scale = std::max(pseudo_scale, correction_scale(model, blocks.step, p));
-        pseudo_error = std::max(pseudo_error, correction_error(model, p, blocks, pseudo));
-    }
-    return error > limit || pseudo_error > noticeable_overlap * pseudo_scale;
-}
-}  // namespace
 
 bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
                   const std::vector<Triple>& pseudo)

@@ -25,17 +25,20 @@ class RememberedTrials final : public TrialStore
     void add(FactorSearch search, const Trial& trial) override
     {
         const std::lock_guard lock(mutex_);
-        trials_[{search, trial.factor}] = trial;
+        if (!trials_.insert_or_assign({search, trial.factor}, trial).second)
+            ++repeated_;
         if (++added_ == stop_after_)
             stop_->request_stop();
     }
     void forget_one() { trials_.erase(trials_.begin()); }
     [[nodiscard]] int added() const { return added_; }
+    /// How many have been added that were there already.
+    [[nodiscard]] int repeated() const { return repeated_; }
 
   private:
     std::mutex mutex_;
     std::map<std::pair<FactorSearch, double>, Trial> trials_;
     std::stop_source* stop_ = nullptr;
-    int stop_after_ = 0, added_ = 0;
+    int stop_after_ = 0, added_ = 0, repeated_ = 0;
 };
 }  // namespace hdem::runs

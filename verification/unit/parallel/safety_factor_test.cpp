@@ -181,7 +181,8 @@ TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)
     EXPECT_GT(runs, 3);
     store.forget_one();
     const SafetyFactor again = factor_of(c, 2, &store);
-    EXPECT_EQ(store.added(), runs + 1);
+    EXPECT_GT(store.added(), runs) << "that one, and the second of a pair where it ends before the first has failed";
+    EXPECT_EQ(store.repeated(), 0);
     EXPECT_EQ(again.as_given.middle(), first.as_given.middle());
     EXPECT_EQ(again.trials.size(), first.trials.size());
 }
