@@ -111,8 +111,10 @@ class LinerMaker
         const Vec2 across = liner_.nodes[second] - liner_.nodes[first];
         segment.length = across.norm();
         segment.along = across / segment.length;
-        for (int end = 0; block != no_index && end < 2; ++end)
-            segment.arm[end] = liner_.nodes[segment.node[end]] - Vec2(blocks_.motion[block].x, blocks_.motion[block].y);
+        for (int end = 0; end < 2; ++end)
+            segment.arm[end] = block == no_index
+                                   ? Vec2(0.0, 0.0)
+                                   : Vec2(liner_.nodes[segment.node[end]] - Vec2(blocks_.motion[block].x, blocks_.motion[block].y));
         liner_.segments.push_back(segment);
     }
 

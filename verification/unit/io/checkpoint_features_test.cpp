@@ -70,6 +70,11 @@ TEST(CheckpointOfFeatures, GivesTheUnbrokenRunWithBolts)
     liner.bond_strength = 1e3;
     liner.cohesion = 1e3;
     liner.hardening = {{{0.0, 0.1}, {500.0, 1.0}}};
+    LinerDef beyond = liner;  // it begins where there is no block
+    beyond.name = "beyond";
+    beyond.around.clear();
+    beyond.path = {{-2.0, 12.0}, {3.0, 12.0}};
+    scene.liners.push_back(beyond);
     const RunEnd unbroken = run_unbroken(scene);
     expect_to_go_on(scene, folder.path(), unbroken, {310, 700, 1150}, {1, 2, 3});
 }
