@@ -46,7 +46,8 @@ class WaterCheck : public CaseCheck
         exclude("water", "[water]", "level", "table");
         for (const char* key : {"level", "table"})
             exclude("water", "[water]", key, "pressure");
-        if (def_.gravity.isZero() && !problems_.has("gravity"))
+        const bool is_field_alone = !def_.water.pressure.empty() && def_.water_cracks.empty();
+        if (def_.gravity.isZero() && !is_field_alone && !problems_.has("gravity"))
             problems_.add("water", "[water]", "gravity", "is 0: water has no weight", "Give gravity, or remove [water].");
         const bool has_water = def_.water.level || !def_.water.table.empty() || !def_.water.pressure.empty() ||
                                !def_.water_cracks.empty() ||

@@ -45,7 +45,9 @@ SectionSpec gravity_section()
              field<&CaseDef::gravity_tilt_deg>({.name = "tilt_deg",
                                                 .unit = "deg",
                                                 .effect = "The model is tilted by this angle, anticlockwise: `vector` is turned "
-                                                          "clockwise by it. So one number tilts a model (`hdem critical`).",
+                                                          "clockwise by it. So one number tilts a model (`hdem critical`). "
+                                                          "A water.level lies level all the same; the points of a water.table "
+                                                          "stay at their places in the drawing.",
                                                 .range = {.low = -180, .high = 180}})},
             whole_case};
 }

@@ -89,7 +89,7 @@ std::vector<KeySpec> beam_keys()
         field<&LinerDef::hardening>(
             {.name = "hardening",
              .effect = "Rows [cycles since it was installed, factor of modulus and strengths]: linear in between, constant "
-                       "before and behind. Forces stay as the factor changes.",
+                       "before and behind. Factors are above 0. Forces stay as the factor changes.",
              .example = "[[0, 0.1], [5000, 1.0]]",
              .range = non_negative,
              .default_note = "1"})};

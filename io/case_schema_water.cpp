@@ -72,7 +72,8 @@ SectionSpec water_crack_section()
         "quarter of its size. Needs [water].",
         {with_assign(spec({.name = "crack",
                            .unit = "m",
-                           .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y).",
+                           .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y). Lines beside the "
+                                     "faces of blocks press on nothing: `hdem check` warns of them.",
                            .example = "[[18, 30], [18, 16]]",
                            .range = coordinate,
                            .required = true},

@@ -1,5 +1,7 @@
 #include "core/water/resolve_water.h"
 
+#include "core/rock/problem_text.h"
+#include "core/water/crack_faces.h"
 #include "core/water/pore_pressure.h"
 
 #include <boost/geometry.hpp>
@@ -14,7 +16,8 @@ namespace hdem
 {
 namespace
 {
-constexpr double near_line = 1e-4;  ///< share of the mean block size
+constexpr double near_line = 1e-4;     ///< share of the mean block size
+constexpr double least_on_face = 0.1;  ///< share of a straight piece of a crack
 
 std::vector<Vec2> moved(const std::vector<Vec2>& points, const Vec2& origin)
 {
@@ -39,8 +42,8 @@ class WaterResolver
     std::vector<Problem> run()
     {
         water_.given = true;
-        water_.unit_weight = def_.water.density * def_.gravity.norm();
-        water_.up = -def_.gravity.normalized();
+        water_.unit_weight = def_.water.density * model_.gravity.norm();
+        water_.up = -model_.gravity.normalized();
         water_.ponded = def_.water.ponded;
         water_.tolerance = near_line * model_.mean_size;
         water_.drawn.resize(model_.user_number.size());
@@ -50,8 +53,11 @@ class WaterResolver
         add_joints();
         for (const std::string& name : model_.excavation_names)
             water_.wet_opening.push_back(std::ranges::count(def_.water.flooded, name) > 0 ? 1 : 0);
-        for (const WaterCrackDef& crack : def_.water_cracks)
-            add_crack(crack);
+        for (std::size_t i = 0; i < def_.water_cracks.size(); ++i)
+        {
+            add_crack(def_.water_cracks[i]);
+            look_at_crack(water_.cracks.back(), "water_crack[" + std::to_string(i) + "]", "water crack " + std::to_string(i + 1));
+        }
         add_field();
         return std::move(problems_);
     }
@@ -117,6 +123,32 @@ class WaterResolver
     void add_crack(const WaterCrackDef& from)
     {
         water_.cracks.push_back({moved(from.crack, origin_), moved(from.outlet, origin_), height_of(from.level)});
+    }
+
+    void warn(const std::string& key, std::string said)
+    {
+        problems_.push_back({.severity = Problem::Severity::warning, .key = key, .text = std::move(said)});
+    }
+
+    void look_at_crack(const WaterCrack& crack, const std::string& key, const std::string& object)
+    {
+        const std::vector<Vec2> wet = wet_part(crack, water_.up);
+        if (wet.empty())
+            return warn(key + ".level", object + ": level = " + text(crack.level + origin_.dot(water_.up)) +
+                                            " m (its foot is not below: there is no water in it). Give a greater one.");
+        look_at_line(wet, key + ".crack", object + ": crack");
+        look_at_line(crack.outlet, key + ".outlet", object + ": outlet");
+    }
+
+    /// A line beside the joint that is meant is a likely slip, and its water would be missing silently.
+    void look_at_line(const std::vector<Vec2>& line, const std::string& key, const std::string& object)
+    {
+        const std::vector<double> shares = shares_on_faces(line, model_, blocks_);
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            if (shares[i] < least_on_face)
+                warn(key, object + " from " + text(Vec2(line[i] + origin_)) + " to " + text(Vec2(line[i + 1] + origin_)) +
+                              " m (no face of a block lies on it within " + text(water_.tolerance) +
+                              " m: its water presses on nothing). Give the points of the joint as it is drawn.");
     }
 
     void add_field()

@@ -11,6 +11,6 @@ namespace hdem
 {
 /// @param origin  of the model in the user's coordinates
 /// @param blocks  as drawn
-/// @pre the model has its joints, excavations and sizes
+/// @pre the model has its gravity, joints, excavations and sizes
 [[nodiscard]] std::vector<Problem> resolve_water(const CaseDef& def, const Vec2& origin, const Blocks& blocks, Model& model);
 }  // namespace hdem

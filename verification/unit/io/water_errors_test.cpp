@@ -54,6 +54,9 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     expect_one_problem(crack + "outlet = [[2, 1], [2, 1], [0, 0]]\n", "17:10: water crack 1: outlet", "twice");
     expect_one_problem(crack + "outlet = [[2, 1]]\n", "17:10: water crack 1: outlet", "at least 2");
     expect_one_problem("[water]\npressure = \"none.csv\"\n", "14:12: [water]: pressure", "none.csv");
+    // Pressures that are given need no weight.
+    expect_one_problem("[water]\npressure = \"none.csv\"\n[gravity]\nvector = [0.0, 0.0]\n", "14:12: [water]: pressure",
+                       "none.csv");
 }
 
 /// relax_cycles: the change of the water comes evenly; it needs no excavation.
@@ -64,6 +67,32 @@ TEST(WaterErrors, ALevelMayComeSlowlyWithoutAnExcavation)
     EXPECT_THAT(problems_of(head + "water_table = [[0, 3], [4, 2]]\n" + slow + "[water]\ntable = [[0, 1], [4, 2]]\n"),
                 testing::IsEmpty());
     expect_one_problem(slow + water, "13:16: stage \"stand\": relax_cycles = 5", "no water changes");
+}
+
+/// Water that would be missing silently.
+TEST(WaterErrors, TellOfCracksThatPressOnNothing)
+{
+    const auto warnings = [](const std::string& crack, const std::string& outlet, const std::string& level)
+    {
+        const std::string joints = "[[joint_set]]\ndip_deg = 0.0\nspacing = 9.0\norigin = [2, 1]\n"
+                                   "[[joint_set]]\ndip_deg = 90.0\nspacing = 9.0\norigin = [2, 1]\n";
+        const CaseDef def = test::read(head + joints + "[water]\n[[water_crack]]\ncrack = " + crack + "\noutlet = " + outlet +
+                                       "\nlevel = " + level + "\n");
+        std::vector<std::string> texts;
+        for (const Problem& problem : build_model(def).warnings)
+            texts.push_back(problem.text);
+        return texts;
+    };
+    const std::string good = "[[2, 4], [2, 1]]";
+    EXPECT_THAT(warnings(good, "[[2, 1], [0, 1]]", "3.0"), testing::IsEmpty());
+    // Above its water a crack may go where it likes.
+    EXPECT_THAT(warnings("[[9, 9], [2, 3], [2, 1]]", "[[2, 1], [0, 1]]", "3.0"), testing::IsEmpty());
+    EXPECT_THAT(
+        warnings("[[1.9, 4], [1.9, 1]]", "[[1.9, 1], [0, 1]]", "3.0"),
+        ElementsAre(AllOf(StartsWith("water crack 1: crack from (1.9, 1) to (1.9, 3) m"), HasSubstr("presses on nothing"))));
+    EXPECT_THAT(warnings(good, "[[2, 1], [0, 0.9]]", "3.0"),
+                ElementsAre(StartsWith("water crack 1: outlet from (2, 1) to (0, 0.9)")));
+    EXPECT_THAT(warnings(good, "[[2, 1], [0, 1]]", "0.5"), ElementsAre(StartsWith("water crack 1: level = 0.5 m")));
 }
 
 TEST(WaterErrors, ATableRunsFromLeftToRight)

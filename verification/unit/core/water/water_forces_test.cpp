@@ -44,6 +44,22 @@ TEST(WaterForces, LiftABlockByTheWaterInItsPlace)
     }
 }
 
+/// Where tilt_deg tilts the model, water lies level all the same.
+TEST(WaterForces, TurnWithTheTiltOfTheModel)
+{
+    CaseDef scene = rock_below_water();
+    scene.gravity_tilt_deg = 30.0;
+    scene.histories = {{.name = "gauge", .point = Vec2(3.0, 2.0), .quantities = {"pore_pressure"}}};
+    const CaseRun run(scene);
+    const Triple on = water_on(run, {2.5, 2.5});
+    EXPECT_NEAR(on.x, 0.5 * weight_of_water, 1e-7);
+    EXPECT_NEAR(on.y, std::sqrt(0.75) * weight_of_water, 1e-7);
+    EXPECT_NEAR(on.w, 0.0, 1e-8);
+    double pressure = 0.0;
+    HistorySampler(run.model(), scene.histories[0]).sample(run.model(), run.state(), {&pressure, 1});
+    EXPECT_NEAR(pressure, weight_of_water * (20.0 - (0.5 * 3.0 + std::sqrt(0.75) * 2.0)), 1e-6);
+}
+
 TEST(WaterForces, AreGoneWhereABlockWasTakenOut)
 {
     CaseRun run(rock_below_water());
@@ -135,6 +151,8 @@ TEST(WaterForces, OfAFieldFollowItsGradientAndMustReachTheRock)
     const Triple on = water_on(CaseRun(scene), {2.5, 2.5});
     EXPECT_NEAR(on.x, -3e3, 1e-3);
     EXPECT_NEAR(on.y, 1e4, 1e-3);
+    scene.gravity = {0.0, 0.0};
+    EXPECT_NEAR(water_on(CaseRun(scene), {2.5, 2.5}).y, 1e4, 1e-3);
     scene.water.pressures[2] = {5.0, 5.0, 0.0};
     EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
 }
