@@ -93,8 +93,9 @@ ConditionResult run_to_condition(Simulation& simulation, const FailureCondition&
     ConditionWatch watch(condition, simulation.model(), simulation.state());
     ConditionKeeper keeper(watch, stop);
     Observer* const observers[] = {&watch};
-    static_cast<void>(run_stages(simulation, observers, &keeper));
+    const std::vector<StageResult> stages = run_stages(simulation, observers, &keeper);
     ConditionResult result = watch.result();
+    result.met_ends = result.fails || std::ranges::all_of(stages, &StageResult::met_end);
     result.cycles = simulation.state().cycle;
     result.was_stopped = stop.stop_requested() && !result.fails;
     return result;

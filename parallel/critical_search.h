@@ -29,6 +29,7 @@ struct ConditionResult
     double greatest = 0.0;  ///< of the quantity
     std::string block;      ///< that has it
     std::int64_t cycles = 0;
+    bool met_ends = true;      ///< false: a stage ended at its max_cycles, and blocks may still be on their way
     bool was_stopped = false;  ///< by the stop token: no answer
 };
 

@@ -78,8 +78,23 @@ class Critical
                            {"fails", run.result.fails},
                            {"greatest", run.result.greatest},
                            {"block", printable(run.result.block)},
-                           {"cycles", run.result.cycles}});
+                           {"cycles", run.result.cycles},
+                           {"met_ends", run.result.met_ends}});
         return all;
+    }
+
+    /// Of runs that stand only because they were too short.
+    [[nodiscard]] std::vector<std::string> warnings() const
+    {
+        std::vector<std::string> values;
+        for (const Run& run : counted_)
+            if (!run.result.met_ends)
+                values.push_back(fmt::format("{:.6g}", run.at));
+        if (values.empty())
+            return {};
+        return {fmt::format("max_cycles ended a stage before it met its end, and the run counts as one that stands, at {} = {}. "
+                            "Blocks may still be on their way there. Give more max_cycles.",
+                            vary_.key, fmt::join(values, ", "))};
     }
 
     [[nodiscard]] std::stop_token stopped() const { return signals_.token(); }
@@ -130,7 +145,8 @@ class Critical
             run.result = {.fails = (*known)["fails"],
                           .greatest = known->value("greatest", 0.0),
                           .block = known->value("block", ""),
-                          .cycles = known->value("cycles", std::int64_t{0})};
+                          .cycles = known->value("cycles", std::int64_t{0}),
+                          .met_ends = known->value("met_ends", true)};
         else
         {
             std::vector<Override> overrides;
@@ -159,7 +175,8 @@ class Critical
                       {{"fails", run.result.fails},
                        {"greatest", run.result.greatest},
                        {"block", run.result.block},
-                       {"cycles", run.result.cycles}});
+                       {"cycles", run.result.cycles},
+                       {"met_ends", run.result.met_ends}});
         }
         const std::lock_guard lock(mutex_);
         ended_[x] = run;
@@ -178,9 +195,10 @@ class Critical
         for (const Run& run : pair)
         {
             counted_.push_back(run);
-            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g}{}", run.at, run.result.fails ? "fails" : "stands",
+            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g}{}{}", run.at, run.result.fails ? "fails" : "stands",
                                   run.result.cycles, run.result.greatest,
-                                  run.result.block.empty() ? "" : " (" + printable(run.result.block) + ")"));
+                                  run.result.block.empty() ? "" : " (" + printable(run.result.block) + ")",
+                                  run.result.met_ends ? "" : ", max_cycles reached"));
             if (only_counting && run.result.fails)
                 break;
         }
@@ -284,10 +302,13 @@ int critical_command(const CriticalOptions& options)
                               {"critical", found.middle()},
                               {"stands_at", *found.stands},
                               {"fails_at", *found.fails},
+                              {"warnings", search.warnings()},
                               {"trials", search.trials()}};
         write_atomically(folder / "summary.json", summary.dump(2) + "\n");
         log.line(fmt::format("critical {} = {:.6g} ({:.6g} stands, {:.6g} fails)", vary.key, found.middle(), *found.stands,
                              *found.fails));
+        for (const std::string& warning : search.warnings())
+            log.line("warning: " + warning);
         return exit_done;
     }
     catch (const SearchStopped&)

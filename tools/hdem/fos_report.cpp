@@ -172,8 +172,9 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
     if (outcome.bound.end == StrengthBound::End::found && f.as_given.stands &&
         *f.as_given.stands > outcome.bound.factor * 1.001 + outcome.def.tolerance)
         warnings.push_back(
-            fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where others hold them.",
-                        outcome.bound.factor));
+            fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where {} hold them.",
+                        outcome.bound.factor,
+                        reference.model.support.bolts.empty() ? "others" : "others, or bolts that turn where a joint slips,"));
     if (outcome.without_corners && f.as_given.stands && *f.as_given.stands > *outcome.without_corners)
         warnings.push_back(fmt::format(
             "corners that touch other blocks in a point bear part of it: without them the factor is at most {:.4f}. They cannot be "

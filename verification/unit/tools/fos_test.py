@@ -140,6 +140,19 @@ class Fos(unittest.TestCase):
         again = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
         self.assertEqual(text, again)
 
+    def test_critical_says_which_runs_were_too_short(self):
+        arguments = ("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
+        text = hdem(*arguments, "--set", "stage[0].max_cycles=1200")
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        short = [trial["value"] for trial in found["trials"] if not trial["met_ends"]]
+        self.assertGreater(found["critical"], 41.0, "slow slabs had no time")
+        self.assertTrue(short and min(short) > 39.0, short)
+        self.assertIn("warning: max_cycles ended a stage before it met its end", text)
+        self.assertIn(f"{short[0]:.6g}", found["warnings"][0])
+        self.assertEqual(hdem(*arguments, "--set", "stage[0].max_cycles=1200"), text, "also of trials that are remembered")
+        hdem(*arguments)
+        self.assertEqual(json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))["warnings"], [])
+
     def test_critical_friction_fails_at_the_low_end(self):
         hdem("critical", CASES / "slab.toml", "--vary", "joint.default.friction_angle_deg=10:50", "--fails", "displacement:*>0.1", "-o", self.folder, "-q")
         found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
