@@ -189,9 +189,13 @@ class Resolver
             find(history.block, key + ".block", object);
         for (const std::string& name : history.between)
             find(name, key + ".between", object);
-        find_support(model_.support.bolts, &Bolt::name, history.bolt, key + ".bolt", object,
-                     "Those of a pattern are called NAME.1, NAME.2, ...");
-        find_support(model_.support.liners, &Liner::name, history.liner, key + ".liner", object, "Give the name of a [[liner]].");
+        const auto is_single = [&](const BoltDef& bolt) { return bolt.name == history.bolt && bolt.around.empty(); };
+        if (std::ranges::none_of(def_.bolts, is_single))  // else what is wrong with the bolt itself has been told
+            find_support(model_.support.bolts, &Bolt::name, history.bolt, key + ".bolt", object,
+                         "Those of a pattern are called NAME.1, NAME.2, ...");
+        if (std::ranges::count(def_.liners, history.liner, &LinerDef::name) == 0)
+            find_support(model_.support.liners, &Liner::name, history.liner, key + ".liner", object,
+                         "Give the name of a [[liner]].");
     }
 
     /// Bolts and liners are there already, those of patterns too.

@@ -115,6 +115,10 @@ TEST(SupportErrors, TellOfEndsThatHoldNothing)
     EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("both ends lie in block"));
     EXPECT_THAT(text_of_problem("from = [-1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("lies in no block"));
     EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 5.0]\n"), HasSubstr("(1, 5)"));
+    // A history of such a bolt is no second problem.
+    const std::string sampled = "[[joint_set]]\ndip_deg = 0.0\nspacing = 9.0\norigin = [2, 3.5]\n[[history]]\nbolt = "
+                                "\"bolt1\"\nquantities = [\"axial_force\"]\n";
+    EXPECT_THAT(first_problem(anchored + "area = 1e-4\n" + sampled), HasSubstr("both ends lie in block"));
 }
 }  // namespace
 }  // namespace hdem
