@@ -6,6 +6,7 @@ the same steps. Its summary.json has
     critical    middle of the last bracket, or null where both ends do the same
     stands_at, fails_at    the ends of the bracket
     bracket     "found", "stands at both ends" or "fails at both ends"
+    not_converged    steps that count as standing although max_cycles ended them before they were at rest: blocks may still have been on their way
 """
 import json
 
@@ -30,6 +31,7 @@ class Steps:
         self.folder, self.key, self.run = folder, chain["key"], run
         self.criterion = Criterion(chain["fails"])
         self.known = []    # (value, does it fail?)
+        self.not_converged = 0
 
     def __call__(self, value):
         written = float(f"{value:.10g}")
@@ -44,6 +46,7 @@ class Steps:
         if fails is None:
             raise SweepError(f"{folder / SUMMARY}: has no number for --fails {self.criterion}.")
         self.known.append((written, fails))
+        self.not_converged += not fails and code == NOT_CONVERGED
         return 1.0 if fails else -1.0
 
     def outcome(self):
@@ -68,7 +71,7 @@ def follow(folder, chain, run):
             raise
     outcome = steps.outcome()
     found = outcome["bracket"] == "found"
-    summary = outcome | {"key": chain["key"], "steps": len(steps.known), "converged": found}
+    summary = outcome | {"key": chain["key"], "steps": len(steps.known), "not_converged": steps.not_converged, "converged": found}
     temporary = folder / (SUMMARY + ".tmp")
     temporary.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
     temporary.rename(folder / SUMMARY)

@@ -44,7 +44,9 @@ with open(Path(__file__).resolve().parent / "calls", "a") as calls:
 if os.environ.get("STOP") == f"{x:g}":
     sys.exit(int(os.environ["CODE"]))
 more = {"factor_of_safety": {"factor": x / 10, "trials": []}} if sys.argv[1] == "fos" and "FACTOR" in os.environ else {}
-(folder / "summary.json").write_text(json.dumps(more | {"converged": True, "fallen": ["b"] * int(x > 23.7 + seed), "moved": 10.0 * x + seed, "title": "none", "nothing": None}))
+slow = 20.0 < x <= float(os.environ.get("SLOW", 0))
+(folder / "summary.json").write_text(json.dumps(more | {"converged": not slow, "fallen": ["b"] * int(x > 23.7 + seed), "moved": 10.0 * x + seed, "title": "none", "nothing": None}))
+sys.exit(4 if slow else 0)
 '''
 
 
@@ -227,6 +229,15 @@ class Chains(Scratch):
             self.assertTrue(low <= expected <= high and high - low <= 0.5, row)
             self.assertEqual(float(row["critical"]), 0.5 * (low + high))
         self.assertAlmostEqual(float(self.rows("statistics.csv")[0]["median"]), 28.7, delta=0.5)
+
+    def test_count_runs_that_were_too_short(self):
+        self.plan("--vary", "seed=0", *self.WORDS)
+        self.work(SLOW="30")
+        self.sweep("collect", "s")
+        steps = [json.loads(path.read_text()) for path in sorted(self.folder.glob("s/run_000001/step_*/summary.json"))]
+        slow = sum(not step["converged"] and not step["fallen"] for step in steps)
+        self.assertGreater(slow, 0)
+        self.assertEqual(int(self.rows("table.csv")[0]["not_converged"]), slow)
 
     def test_cut_short_goes_on_with_the_same_steps(self):
         self.plan("--vary", "seed=0", *self.WORDS)
