@@ -180,7 +180,10 @@ class Fos
     {
         const Trial* const first = outcome.factor.first_failure();
         if (first == nullptr)
+        {
+            fs::remove_all(failure_folder(folder_));  // of an earlier search
             return;
+        }
         if (!outcome.factor.failure)  // the trial was run by an earlier program
             static_cast<void>(run_trial(reference, trial_rule(reference.model, outcome.def, FactorSearch::as_given, first->factor),
                                         threads_, {}, &outcome.factor.failure));
@@ -195,7 +198,8 @@ class Fos
             log_.line(line);
         for (const std::string& warning : outcome.warnings)
             log_.line("warning: " + warning);
-        log_.line(fmt::format("blocks that fail: hdem plot {}", failure_folder(folder_).string()));
+        if (outcome.factor.first_failure() != nullptr)
+            log_.line(fmt::format("blocks that fail: hdem plot {}", failure_folder(folder_).string()));
     }
 
     FinishedRun& run_;

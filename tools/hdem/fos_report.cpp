@@ -147,6 +147,14 @@ std::string factor_of_what(const FosOutcome& outcome)
         "factor. Support them, let small ones fall (least_size), or take the rock as it lies (begin = \"last_state\").",
         some_of(outcome.falls_anyway));
 }
+
+std::string why_above_bound(const SafetyFactor& factor, const Model& model)
+{
+    if (!all_let_fall(factor).empty())
+        return "it counts the blocks, smaller than least_size, that fell";
+    return model.support.bolts.empty() ? "blocks have moved to where others hold them"
+                                       : "blocks have moved to where others, or bolts that turn where a joint slips, hold them";
+}
 }  // namespace
 
 std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method)
@@ -171,10 +179,8 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             factor_text(f.as_given), factor_text(*f.stiffer)));
     if (outcome.bound.end == StrengthBound::End::found && f.as_given.stands &&
         *f.as_given.stands > outcome.bound.factor * 1.001 + outcome.def.tolerance)
-        warnings.push_back(
-            fmt::format("rock stands above the bound of limit analysis ({:.4f}): blocks have moved to where {} hold them.",
-                        outcome.bound.factor,
-                        reference.model.support.bolts.empty() ? "others" : "others, or bolts that turn where a joint slips,"));
+        warnings.push_back(fmt::format("rock stands above the bound of limit analysis ({:.4f}): {}.", outcome.bound.factor,
+                                       why_above_bound(f, reference.model)));
     if (outcome.without_corners && f.as_given.stands && *f.as_given.stands > *outcome.without_corners)
         warnings.push_back(fmt::format(
             "corners that touch other blocks in a point bear part of it: without them the factor is at most {:.4f}. They cannot be "

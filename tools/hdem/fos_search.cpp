@@ -52,6 +52,8 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
         outcome.warnings = fos_warnings(outcome, reference.moment, last.state.method);
         return {std::move(outcome), std::move(reference.moment)};
     }
+    if (std::ranges::none_of(model.slot_of_user, [&](Index block) { return reference.moment.state.blocks.is_free(block); }))
+        throw RunError("factor of safety: no block is free in the last stage, so that nothing can fail. Free blocks in it.");
     outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
                                    greatest_factor, weakens_bolts(outcome.def));
     if (question.begin)

@@ -132,6 +132,24 @@ class Fos(unittest.TestCase):
             text = hdem("fos", CASES / "plane.toml", "-o", self.folder, "--set", f"factor_of_safety.{key[0]}={key[1]}", code=2)
             self.assertIn(why, text)
 
+    def test_where_nothing_fails_no_picture_of_it_is_offered(self):
+        words = ("fos", CASES / "slab.toml", "-o", self.folder, "--set", "factor_of_safety.check_stiffness=1", "--set", "gravity.tilt_deg=30")
+        self.assertIn("blocks that fail: hdem plot", hdem(*words))
+        self.assertTrue((self.folder / "failure").is_dir())
+        text = hdem(*words, "--set", "joint.default.friction_angle_deg=89.9", code=4)
+        self.assertIn("nothing fails", text)
+        self.assertNotIn("blocks that fail", text)
+        self.assertFalse((self.folder / "failure").exists(), "that of the search before")
+
+    def test_small_blocks_that_fall_are_why_rock_stands_above_the_bound(self):
+        text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--set", "factor_of_safety.check_stiffness=1", "--set", "gravity.tilt_deg=30",
+                    "--set", "factor_of_safety.least_size=100", code=4)
+        self.assertIn("it counts the blocks, smaller than least_size, that fell", text)
+
+    def test_refuses_rock_without_a_free_block(self):
+        text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--set", 'stage[0].fix=["slab"]', code=1)
+        self.assertIn("no block is free in the last stage", text)
+
     def test_critical_slope(self):
         text = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
         self.assertIn("critical gravity.tilt_deg", text)
