@@ -45,10 +45,11 @@ SectionSpec water_section()
          field<&WaterDef::ponded>({.name = "ponded",
                                    .effect = "Water stands before free faces that lie below its level, and presses on them: a "
                                              "block in it loses ρ_w g A of its weight. false: on joints only."}),
-         field<&WaterDef::joints>({.name = "joints",
-                                   .effect = "Names of the [joint.NAME] that water gets into.",
-                                   .example = "[\"bedding\", \"fault\"]",
-                                   .default_note = "all"}),
+         field<&WaterDef::joints>(
+             {.name = "joints",
+              .effect = "Names of the [joint.NAME] that water gets into. A [[water_crack]] presses on its line in any joint.",
+              .example = "[\"bedding\", \"fault\"]",
+              .default_note = "all"}),
          field<&WaterDef::flooded>({.name = "flooded",
                                     .effect = "Names of excavations that are not drained: once excavated, water stands in them "
                                               "as around them.",

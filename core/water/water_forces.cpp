@@ -166,8 +166,8 @@ class WaterForces
         {
             if (face->from > covered)
                 add_free(edge, covered, face->from, is_ponded);
-            if (face->to > covered && face->is_wet)
-                add_pressure(edge, std::max(face->from, covered), face->to, true);
+            if (face->to > covered)
+                add_pressure(edge, std::max(face->from, covered), face->to, face->is_wet);
             covered = std::max(covered, face->to);
         }
         if (covered < model_.shapes.edge_length[edge])
@@ -271,26 +271,30 @@ std::vector<Triple> water_forces(const Model& model, const State& state, std::in
 std::array<double, 2> water_share(const Model& model, Index stage, Index law, const Vec2& from, const Vec2& to)
 {
     const double length = (to - from).norm();
-    if (!model.water.given || length <= 1e-6 * model.water.tolerance || model.water.wet_law[law] == 0)
+    if (!model.water.given || length <= 1e-6 * model.water.tolerance)
         return {0.0, 0.0};
-    const PressureSum p = pressure_along(model.water, stage, from, to);
+    const bool wet = model.water.wet_law[law] != 0;
+    const PressureSum p = pressure_along(model.water, stage,
+                                         {.from = from, .to = to, .drawn_from = from, .drawn_to = to, .table_acts = wet});
     return {p.force - p.moment / length, p.moment / length};
 }
 
 double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to)
 {
-    if (!model.water.given || model.water.wet_law[state.contacts.law[contact]] == 0)
+    if (!model.water.given)
         return 0.0;
+    const bool wet = model.water.wet_law[state.contacts.law[contact]] != 0;
     const Index block = state.contacts.ref[contact];
     const Vec2 drawn = model.water.drawn[model.user_number[block]];
     const FaceStretch face{.from = from,
                            .to = to,
                            .drawn_from = drawn + to_body(state.blocks.motion[block], from),
                            .drawn_to = drawn + to_body(state.blocks.motion[block], to),
-                           .table_acts = true,
+                           .table_acts = wet,
                            .cracks_act = do_cracks_act(model, state, block)};
     const double length = (to - from).norm();
-    return length > 0.0 ? pressure_along(model.water, state.stage, face).force / length
-                        : pressure_at(model.water, state.stage, from);
+    if (length == 0.0)
+        return wet ? pressure_at(model.water, state.stage, from) : 0.0;
+    return pressure_along(model.water, state.stage, face).force / length;
 }
 }  // namespace hdem

@@ -180,6 +180,13 @@ TEST(WaterForces, OfACrackStayWithItsFaces)
         EXPECT_NEAR(push(moved).x, 0.5 * weight_of_water, 1e-6) << moved;
     EXPECT_GT(push(0.0).y, 0.9 * weight_of_water * 5.0 / 6.0);
     EXPECT_EQ(push(0.3).x, 0.0);
+    // Its joint need not be one that other water gets into.
+    const Triple open = push(0.0);
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints.back().name = "other";
+    scene.water.joints = {"other"};
+    EXPECT_EQ(push(0.0).x, open.x);
+    EXPECT_EQ(push(0.0).y, open.y);
 }
 
 /// Water stands in rock under stress: springs bear the effective part, and nothing moves.
@@ -237,22 +244,28 @@ TEST(WaterForces, OfACrackAreReportedOnItsLine)
     CaseDef scene = rock_below_water();
     scene.water.level.reset();
     scene.water_cracks.push_back({.crack = {{3, 6}, {3, 4}}, .outlet = {{3, 4}, {5, 4}}, .level = 5.5});
-    const CaseRun run(scene);
-    int found = 0;
-    for (Index i = 0; i < run.state().contacts.size(); ++i)
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints.back().name = "other";
+    for (const char* wet : {"default", "other"})
     {
-        const ContactReport c = report_contact(run.state(), i);
-        const Vec2 middle = 0.5 * (c.point[0] + c.point[1]) + run.model().origin;
-        const double p = mean_joint_pressure(run.model(), run.state(), i, c.point[0], c.point[1]);
-        const double on_crack = (middle - Vec2(3.0, 4.5)).norm() < 1e-3 ? 1.0 : 0.0;          // from 0.5 to 1.5 m deep
-        const double on_outlet = (middle - Vec2(4.5, 4.0)).norm() < 1e-3 ? 0.25 * 1.5 : 0.0;  // of 1.5 m, seeping out over 2 m
-        if (on_crack + on_outlet > 0.0)
+        scene.water.joints = {wet};
+        const CaseRun run(scene);
+        int found = 0;
+        for (Index i = 0; i < run.state().contacts.size(); ++i)
         {
-            EXPECT_NEAR(p, weight_of_water * (on_crack + on_outlet), 1.0) << middle.transpose();
-            ++found;
+            const ContactReport c = report_contact(run.state(), i);
+            const Vec2 middle = 0.5 * (c.point[0] + c.point[1]) + run.model().origin;
+            const double p = mean_joint_pressure(run.model(), run.state(), i, c.point[0], c.point[1]);
+            const double on_crack = (middle - Vec2(3.0, 4.5)).norm() < 1e-3 ? 1.0 : 0.0;          // from 0.5 to 1.5 m deep
+            const double on_outlet = (middle - Vec2(4.5, 4.0)).norm() < 1e-3 ? 0.25 * 1.5 : 0.0;  // of 1.5 m, seeping out over 2 m
+            if (on_crack + on_outlet > 0.0)
+            {
+                EXPECT_NEAR(p, weight_of_water * (on_crack + on_outlet), 1.0) << middle.transpose();
+                ++found;
+            }
         }
+        EXPECT_EQ(found, 2) << wet;
     }
-    EXPECT_EQ(found, 2);
 }
 
 TEST(WaterForces, LeaveStressedRockWhereItIsDrawn)
