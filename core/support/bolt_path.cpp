@@ -36,7 +36,7 @@ PathPiece clipped(const Vec2& from, const Vec2& direction, double length, Index 
 std::vector<PathPiece> pieces_along(const Vec2& from, const Vec2& to, const Model& model, const Blocks& blocks,
                                     const std::vector<std::uint8_t>& skipped)
 {
-    const double length = (to - from).norm(), least = 1e-9 * length;
+    const double length = (to - from).norm(), least = 1e-9 * length, seam = 1e-6 * length;
     const Vec2 direction = (to - from) / length;
     std::vector<PathPiece> found;
     for (Index part = 0; part < model.shapes.parts(); ++part)
@@ -57,7 +57,8 @@ std::vector<PathPiece> pieces_along(const Vec2& from, const Vec2& to, const Mode
         piece.from = pieces.empty() ? piece.from : std::max(piece.from, pieces.back().to);
         if (piece.to - piece.from <= least)
             continue;
-        if (!pieces.empty() && pieces.back().block == piece.block)
+        // Convex parts of a block follow each other; beyond a notch it begins anew.
+        if (!pieces.empty() && pieces.back().block == piece.block && piece.from - pieces.back().to <= seam)
             pieces.back().to = piece.to;
         else
             pieces.push_back(piece);

@@ -115,6 +115,13 @@ TEST(SupportErrors, TellOfEndsThatHoldNothing)
     EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("both ends lie in block"));
     EXPECT_THAT(text_of_problem("from = [-1.0, 1.0]\nto = [1.0, 3.0]\n"), HasSubstr("lies in no block"));
     EXPECT_THAT(text_of_problem("from = [1.0, 1.0]\nto = [1.0, 5.0]\n"), HasSubstr("(1, 5)"));
+    // A cable through the air in a notch of one block.
+    const std::string notched = "[[block]]\npolygon = [[5, 0], [6, 0], [6, 2], [8, 2], [8, 0], [9, 0], [9, 3], [5, 3]]\n"
+                                "[[block]]\npolygon = [[9, 0], [10, 0], [10, 3], [9, 3]]\n";
+    EXPECT_THAT(
+        text_of_problem("kind = \"grouted\"\nbond_stiffness = 1e7\nbond_strength = 1e5\nfrom = [9.5, 1.0]\nto = [5.5, 1.0]\n" +
+                        notched),
+        HasSubstr("from (8, 1) to (6, 1) m there is no block"));
     // A history of such a bolt is no second problem.
     const std::string sampled = "[[joint_set]]\ndip_deg = 0.0\nspacing = 9.0\norigin = [2, 3.5]\n[[history]]\nbolt = "
                                 "\"bolt1\"\nquantities = [\"axial_force\"]\n";

@@ -207,6 +207,21 @@ TEST(Liners, HaveNoBeamOfRoundOff)
     EXPECT_NEAR(run.state().support.liners[0].displacement, sag, 1e-3 * sag);
 }
 
+/// The rock behind it is one block with a notch.
+TEST(Liners, HaveNoRockBehindThemAtANotch)
+{
+    CaseDef scene = flying_pair(lining());
+    scene.blocks.resize(1);
+    scene.blocks[0].polygon = {{-1, 0}, {-0.5, 0}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, 0}, {1, 0}, {1, 1}, {-1, 1}};
+    const CaseRun run(scene);
+    const Liner& liner = run.model().support.liners[0];
+    for (const LinerSegment& segment : liner.segments)
+    {
+        const double middle = 0.5 * (liner.nodes[segment.node[0]] + liner.nodes[segment.node[1]]).x() + run.model().origin.x();
+        EXPECT_EQ(segment.block == no_index, std::abs(middle) < 0.5) << middle;
+    }
+}
+
 LinerMotion motion_of(const CaseRun& run)
 {
     return rest_of_liner(run.model(), run.state(), 0).motion;
