@@ -157,10 +157,13 @@ std::string why_above_bound(const SafetyFactor& factor, const Model& model)
 }
 }  // namespace
 
-std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method)
+std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, const State& last)
 {
     const SafetyFactor& f = outcome.factor;
     std::vector<std::string> warnings;
+    if (!last.released.empty())
+        warnings.emplace_back("forces of excavated rock that are left (relax_to, relax_cycles) act until the last stage ends, and "
+                              "not in the trials. Take them off in a stage of its own.");
     if (!outcome.gave_way.empty())
         warnings.push_back(fmt::format("these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
                                        factor_of_what(outcome)));
@@ -208,7 +211,7 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             "above F = {:.4f} a joint dilates by more than its friction pays for, as dilation is not reduced. Give less "
             "dilation_angle_deg.",
             most));
-    if (is_by_impulses(method))
+    if (is_by_impulses(last.method))
         warnings.push_back(
             "the case runs by impulses, which do not determine the stress in the rock. Trials use springs; begin with method = "
             "\"force\" or \"hybrid\" for a stress that means something.");

@@ -22,7 +22,7 @@ namespace hdem
 [[nodiscard]] std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& model);
 
 /// What users must know of the answer.
-[[nodiscard]] std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, Method method);
+[[nodiscard]] std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, const State& last);
 
 /// A trial as it stands there.
 [[nodiscard]] nlohmann::ordered_json trial_json(const FactorTrial& trial, const Model& model);

@@ -49,7 +49,7 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
         outcome.factor = fails_at_any_strength(reference.moment, falling);
         if (question.show)
             question.show(outcome.factor.trials.front());
-        outcome.warnings = fos_warnings(outcome, reference.moment, last.state.method);
+        outcome.warnings = fos_warnings(outcome, reference.moment, last.state);
         return {std::move(outcome), std::move(reference.moment)};
     }
     if (std::ranges::none_of(model.slot_of_user, [&](Index block) { return reference.moment.state.blocks.is_free(block); }))
@@ -73,7 +73,7 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
     setting.show = question.show;
     setting.stop = question.stop;
     outcome.factor = find_safety_factor(reference.moment, setting);
-    outcome.warnings = fos_warnings(outcome, reference.moment, last.state.method);
+    outcome.warnings = fos_warnings(outcome, reference.moment, last.state);
     return {std::move(outcome), std::move(reference.moment)};
 }
 

@@ -146,6 +146,24 @@ class Fos(unittest.TestCase):
                     "--set", "factor_of_safety.least_size=100", code=4)
         self.assertIn("it counts the blocks, smaller than least_size, that fell", text)
 
+    def test_says_that_forces_of_excavated_rock_do_not_act(self):
+        case = self.folder.parent / "held.toml"
+        case.write_text((CASES / "slab.toml").read_text(encoding="utf-8") + """
+[[block]]
+name = "stop"
+polygon = [[-1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [-1.0, 1.0]]
+fixed = true
+[[stage]]
+name = "dig"
+excavate = ["stop"]
+relax_cycles = 500
+relax_to = 0.8
+until = "converged"
+""", encoding="utf-8")
+        words = ("fos", case, "-o", self.folder, "--set", "factor_of_safety.check_stiffness=1", "--set", "gravity.tilt_deg=30")
+        self.assertIn("forces of excavated rock that are left", hdem(*words))
+        self.assertNotIn("forces of excavated rock", hdem(*words, "--set", "stage[1].relax_to=0"))
+
     def test_refuses_rock_without_a_free_block(self):
         text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--set", 'stage[0].fix=["slab"]', code=1)
         self.assertIn("no block is free in the last stage", text)
