@@ -64,6 +64,11 @@ class WaterCheck : public CaseCheck
             check_reference("water.joints", "[water]", name, "joint", joints_);
         for (const std::string& name : def_.water.flooded)
             check_reference("water.flooded", "[water]", name, "excavation", excavations_);
+        if (!def_.water.flooded.empty() && !def_.water.ponded)
+            problems_.warn("water.flooded", "[water]", "flooded",
+                           "has no effect with ponded = false: water presses on joints only, and an opening that is flooded is as "
+                           "one that is drained",
+                           "Remove one of the two.");
         for (std::size_t i = 0; i < def_.water_cracks.size(); ++i)
             check_crack(fmt::format("water_crack[{}]", i), fmt::format("water crack {}", i + 1), def_.water_cracks[i]);
     }

@@ -52,7 +52,7 @@ SectionSpec water_section()
               .default_note = "all"}),
          field<&WaterDef::flooded>({.name = "flooded",
                                     .effect = "Names of excavations that are not drained: once excavated, water stands in them "
-                                              "as around them.",
+                                              "as around them. Not with ponded = false.",
                                     .example = "[\"shaft\"]",
                                     .default_note = "none"})},
         [](CaseDef& def, const std::string&) -> void*

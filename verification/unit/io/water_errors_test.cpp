@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace hdem
@@ -49,6 +50,12 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     const auto warnings = read_case_text(head + "[water]\nponded = false\n", "case.toml").warnings;
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_THAT(warnings[0].text, HasSubstr("[water]: level (is missing"));
+    const auto dry = read_case_text(head + "[[excavation]]\nname = \"shaft\"\nshape = \"circle\"\nposition = [2, 2]\ndiameter = 1\n"
+                                           "[water]\nlevel = 3.0\nponded = false\nflooded = [\"shaft\"]\n",
+                                    "case.toml")
+                         .warnings;
+    EXPECT_TRUE(std::ranges::any_of(dry, [](const Problem& warning)
+                                    { return warning.text.find("no effect with ponded = false") != std::string::npos; }));
     const std::string crack = "[water]\n[[water_crack]]\nlevel = 3.0\ncrack = [[2, 4], [2, 1]]\n";
     expect_one_problem(crack + "outlet = [[2, 2], [0, 0]]\n", "17:10: water crack 1: outlet", "ends at [2, 1]");
     expect_one_problem(crack + "outlet = [[2, 1], [2, 1], [0, 0]]\n", "17:10: water crack 1: outlet", "twice");
