@@ -119,6 +119,8 @@ struct BartonBandis
         return n;
     }
 
+    static void settle(JointNumbers& n) { n = with_inverses(n); }
+
     /// Stiffness that the curve asks for at the ends of its rising parts [Pa/m].
     [[nodiscard]] static double steepest(const JointNumbers& n, double normal)
     {
