@@ -30,9 +30,29 @@ class RunCheck : public CaseCheck
                            { return std::find(stage.fix.begin(), stage.fix.end(), name) != stage.fix.end(); });
     }
 
+    [[nodiscard]] bool freed_by_a_stage(const std::string& name) const
+    {
+        return std::ranges::any_of(def_.stages, [&](const StageDef& stage) { return std::ranges::count(stage.free, name) > 0; });
+    }
+
+    /// A force on a block that never moves, as on the wrong name.
+    void check_effect(const LoadDef& load, const std::string& path, const std::string& object)
+    {
+        if (load.force == Vec2(0.0, 0.0) && load.moment == 0.0 && load.acceleration == Vec2(0.0, 0.0))
+            return;
+        for (const std::string& name : load.blocks)
+        {
+            const auto block = std::ranges::find(def_.blocks, name, &BlockDef::name);
+            if (block != def_.blocks.end() && block->fix_x && block->fix_y && block->fix_rotation && !freed_by_a_stage(name))
+                problems_.warn(path + ".blocks", object, fmt::format("blocks names \"{}\"", printable(name)),
+                               "does not move it: it is fixed in all stages", "Name another block, or free it in a stage.");
+        }
+    }
+
     void check_load(const LoadDef& load, const std::string& path, const std::string& object)
     {
         check_point(load, path, object);
+        check_effect(load, path, object);
         const bool any = std::any_of(std::begin(effects), std::end(effects),
                                      [&](const char* key) { return given(path + "." + key); });
         if (!any)

@@ -15,7 +15,8 @@ SectionSpec water_section()
         "both "
         "faces of a joint over the whole stretch on which they face each other, open or closed, so that joint laws see the "
         "effective normal stress. Time step and method do not matter to it. [insitu] stays the total stress. Its forces are found "
-        "anew every 500 cycles and with each stage. Excavations are drained: where a block was taken out there is no pressure. On "
+        "anew with each stage, every 500 cycles, and more often where blocks move or float. Excavations are drained: where a block "
+        "was taken out there is no pressure. On "
         "a "
         "side with a [[boundary]] of kind stress that stress is all that acts.",
         {field<&WaterDef::level>({.name = "level",

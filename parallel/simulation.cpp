@@ -35,7 +35,7 @@ Simulation::Simulation(Model model, State state, const ThreadRule& threads)
         renew_contacts();
     if (fresh)
     {
-        state_.water = water_forces(model_, state_);
+        renew_water();
         join_drawn_blocks(model_, std::vector<std::uint8_t>(static_cast<std::size_t>(model_.blocks()), 1), state_);
         const StoredEnergy stored = stored_energy(model_, state_);
         (model_.insitu.given ? state_.ledger.insitu : state_.ledger.initial) = stored.total() - stored.kinetic;
@@ -125,7 +125,7 @@ void Simulation::advance(std::int64_t cycles)
         if (is_setting_joints(model_, state_))
             stop = std::min(stop, next_share(model_, state_));
         if (model_.water.given)
-            stop = std::min(stop, next_multiple(state_.cycle, water_every));
+            stop = std::min(stop, state_.water_until);
         set_joints();
         if (const Index stiff = runner_.run(model_, state_, stop - state_.cycle, threads_); stiff != no_index)
             refuse_step(model_, state_, stiff);
@@ -133,12 +133,20 @@ void Simulation::advance(std::int64_t cycles)
             end_released_forces();
         if (runner_.found_deep_overlap())
             refuse_overlap(model_, state_);
-        if (model_.water.given && state_.cycle % water_every == 0)
+        if (model_.water.given && state_.cycle == state_.water_until)
         {
-            state_.water = water_forces(model_, state_);
+            renew_water();
             runner_.take_contacts();
         }
     }
+}
+
+void Simulation::renew_water()
+{
+    const WaterRule rule = resolve_rules(model_, state_).water;
+    state_.water.resize(model_.water.given ? static_cast<std::size_t>(model_.blocks()) : 0);
+    state_.water_until = model_.water.given ? water_holds_until(model_, state_, rule) : 0;
+    state_.water = water_forces(model_, state_, state_.water_until, rule.drag);
 }
 
 void Simulation::renew_contacts()

@@ -98,6 +98,7 @@ class Simulation
     /// Forces of excavated blocks and of sides that have ended act no more.
     void end_released_forces();
     void renew_contacts();
+    void renew_water();  ///< its forces, and how long they hold
     void solve_statics();
 
     Model model_;

@@ -155,7 +155,8 @@ void Simulation::change_water()
 {
     if (!model_.water.given)
         return;
-    const std::vector<Triple> before = std::exchange(state_.water, water_forces(model_, state_));
+    const std::vector<Triple> before = state_.water;
+    renew_water();
     if (model_.stages[state_.stage].relax_cycles > 0)
         release_water(before, state_);
     runner_.take_contacts();

@@ -1,12 +1,11 @@
 #include "core/motion/flight.h"
 
-#include "core/geometry/unit_direction.h"
 #include "core/motion/equilibrium.h"
 #include "core/motion/step_control.h"
+#include "core/state/turning.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace hdem
 {
@@ -54,11 +53,7 @@ double fly_ahead(const std::vector<Index>& flying, double loose_distance, const 
         m.y += way.y();
         m.vx += change.x();
         m.vy += change.y();
-        m.angle += turn;
-        const Vec2 turned = unit_direction(turn * 180.0 / std::numbers::pi);
-        const Vec2 axis = Vec2(m.c * turned.x() - m.s * turned.y(), m.s * turned.x() + m.c * turned.y()).normalized();
-        m.c = axis.x();
-        m.s = axis.y();
+        turn_by(turn, m);
         ledger.gravity_work += kinetic_energy(model, blocks, b) - before;
         used = std::max(used, (way.norm() + std::abs(turn) * model.radius[b]) / blocks.margin[b]);
     }

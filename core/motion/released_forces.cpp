@@ -3,6 +3,7 @@
 #include "core/detection/edge_touch.h"
 
 #include <algorithm>
+#include <map>
 
 namespace hdem
 {
@@ -72,6 +73,24 @@ void release_forces(const std::vector<std::uint8_t>& removed, State& state)
     for (Index b = 0; b < state.blocks.size(); ++b)
         if (is_given[b] != 0 && removed[b] == 0)
             state.released.push_back({b, given[b].x, given[b].y, given[b].w});
+}
+
+void release_water(const std::vector<Triple>& before, State& state)
+{
+    std::map<Index, ReleasedForce> sums;
+    for (const ReleasedForce& force : state.released)
+        sums[force.block] = force;
+    for (Index b = 0; b < static_cast<Index>(before.size()); ++b)
+    {
+        const Triple &was = before[b], &is = state.water[b];
+        if (!state.blocks.is_free(b) || (was.x == is.x && was.y == is.y && was.w == is.w))
+            continue;
+        ReleasedForce& sum = sums[b];
+        sum = {b, sum.x + was.x - is.x, sum.y + was.y - is.y, sum.moment + was.w - is.w};
+    }
+    state.released.clear();
+    for (const auto& [block, force] : sums)
+        state.released.push_back(force);
 }
 
 std::int64_t released_until(const Model& model, const State& state)

@@ -13,6 +13,9 @@ namespace hdem
 /// @pre    the contacts are still those of before the excavation
 void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 
+/// What the water of the stage before gave, and that of the stage that begins does not: to the forces that the stage takes off over its relax_cycles.
+void release_water(const std::vector<Triple>& before, State& state);
+
 /// The cycle from which on nothing is left of them, or the stage's relax_to.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);
 

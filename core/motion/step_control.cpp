@@ -6,6 +6,7 @@
 #include "core/motion/equilibrium.h"
 #include "core/motion/rest.h"
 #include "core/support/bolt_springs.h"
+#include "core/water/water_motion.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -21,6 +22,7 @@ constexpr double steps_an_octave = 8.0;  // between twice as long ones
 constexpr double longest = 4096.0;       // times the case's step
 constexpr double slide_share = 1.5e-3;   // of the block's size a cycle
 constexpr double approach_share = 0.02;  // the same where it touches nothing
+constexpr double swing_share = 0.03;     // of 1 / omega of a block that water may carry
 constexpr double fall_share = 1e-7;      // of its size, see StepRule::falls_by
 constexpr double not_looked_at = 0.0;    // a stable step that is not known
 constexpr double settled_share = 0.01;   // of its size: a block that moved less in its stage keeps its contact lengths
@@ -147,7 +149,8 @@ double motion_bound(Index block, const Model& model, const BlockContacts& list, 
     const bool alone = is_alone(block, list);
     const double share = blocks.force[block].contacts == 0 ? approach_share : slide_share;
     const double way = alone ? flight_share * blocks.margin[block] : share * model.size(block);
-    return speed > 0.0 ? way / speed : infinity;
+    const double rate = alone ? swing_rate(block, model) : 0.0;
+    return std::min(speed > 0.0 ? way / speed : infinity, rate > 0.0 ? swing_share / rate : infinity);
 }
 }  // namespace
 

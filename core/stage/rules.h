@@ -13,6 +13,7 @@
 #include "core/motion/rest.h"
 #include "core/motion/step_control.h"
 #include "core/state/state.h"
+#include "core/water/water_motion.h"
 
 #include <cstdint>
 #include <limits>
@@ -33,10 +34,11 @@ struct StageSetting
     DampingDef damping;
     double stable_fraction = 0.9;  ///< time.stable_fraction
     ConvergenceDef convergence;
-    double gravity = 9.81;          ///< size of [m/s2]
-    bool until_converged = false;   ///< the stage ends when the rock is at rest
-    bool has_loads = false;         ///< the case has loads of any kind
-    bool has_support = false;       ///< bolts or liners are installed
+    double gravity = 9.81;         ///< size of [m/s2]
+    bool until_converged = false;  ///< the stage ends when the rock is at rest
+    bool has_loads = false;        ///< the case has loads of any kind
+    bool has_support = false;      ///< bolts or liners are installed
+    bool has_water = false;
     bool loads_change = false;      ///< loads or sides change, now or later in the stage
     bool tractions_change = false;  ///< those on sides
     bool times_to_come = false;     ///< something changes at a time given in seconds
@@ -59,6 +61,7 @@ struct StageRules
     GroupRule groups;
     StepRule step;
     RestRule rest;
+    WaterRule water;
     bool ends_at_rest = false;      ///< the stage ends when the rock is at rest
     bool has_loads = false;         ///< there are loads to be looked at in each cycle
     bool has_support = false;       ///< bolts and liners act; they turn off neither rest nor longer steps

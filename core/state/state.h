@@ -39,7 +39,8 @@ struct State
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
     std::vector<MovingBlock> moving;        ///< as last looked for, ascending by block
-    std::vector<Triple> water;  ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
+    std::vector<Triple> water;     ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
+    std::int64_t water_until = 0;  ///< cycle up to which they hold
     SupportState support;
     EnergyLedger ledger;
     WorstResidual worst_residual;

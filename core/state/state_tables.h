@@ -41,6 +41,8 @@ void for_each_of_run(AnyState& state, const Use& use)
     use("is_calm", state.is_calm);
     use("statics_due", state.statics_due);
     use("statics_taken", state.statics_taken);
+    if (!state.water.empty())
+        use("water_until", state.water_until);
 }
 
 /// Numbers that are only told at the end.
@@ -54,7 +56,7 @@ void for_each_counter(AnyState& state, const Use& use)
     use("feature_searches", state.feature_searches);
 }
 static_assert(field_count<Steps>() == 2 && field_count<WorstResidual>() == 3 && field_count<SupportState>() == 3 &&
-                  field_count<State>() == 33,
+                  field_count<State>() == 34,
               "a new member needs its line above, or its list");
 
 /// What is remembered of the ends of the running stage.

@@ -3,10 +3,10 @@
 #include "core/detection/edge_touch.h"
 #include "core/geometry/convex_part.h"
 #include "core/water/pore_pressure.h"
+#include "core/water/water_motion.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 namespace hdem
@@ -128,7 +128,12 @@ bool do_cracks_act(const Model& model, const State& state, Index block)
 class WaterForces
 {
   public:
-    WaterForces(const Model& model, const State& state) : model_(model), state_(state), openings_(model, state)
+    /// @param ahead  of the poses for which they are found [s]
+    WaterForces(const Model& model, const State& state, double ahead)
+        : model_(model),
+          state_(state),
+          ahead_(ahead),
+          openings_(model, state)
     {
         for (Index i = 0; i < state.contacts.size(); ++i)
             add_facing(model, state, i, faces_);
@@ -140,6 +145,7 @@ class WaterForces
     {
         sum_ = {};
         block_ = block;
+        pose_ = moved_on(state_.blocks.motion[block], ahead_);
         drawn_ = model_.water.drawn[model_.user_number[block]];
         cracks_act_ = do_cracks_act(model_, state_, block);
         const Shapes& shapes = model_.shapes;
@@ -196,10 +202,9 @@ class WaterForces
                                               .table_acts = table_acts,
                                               .cracks_act = cracks_act_});
         const Vec2 force = p.force * inward;
-        const BlockMotion& motion = state_.blocks.motion[block_];
         sum_.x += force.x();
         sum_.y += force.y();
-        sum_.w += cross(a - Vec2(motion.x, motion.y), force) + p.moment;
+        sum_.w += cross(a - Vec2(pose_.x, pose_.y), force) + p.moment;
     }
 
     [[nodiscard]] bool has_given_stress(Index edge) const
@@ -225,36 +230,41 @@ class WaterForces
 
     [[nodiscard]] Vec2 direction(Index edge) const
     {
-        const BlockMotion& motion = state_.blocks.motion[block_];
         const Vec2& t = model_.shapes.edge_tangent[edge];
-        return {motion.c * t.x() - motion.s * t.y(), motion.s * t.x() + motion.c * t.y()};
+        return {pose_.c * t.x() - pose_.s * t.y(), pose_.s * t.x() + pose_.c * t.y()};
     }
     [[nodiscard]] Vec2 place(Index edge, double way) const
     {
-        return to_world(state_.blocks.motion[block_], model_.shapes.vertex[edge]) + way * direction(edge);
+        return to_world(pose_, model_.shapes.vertex[edge]) + way * direction(edge);
     }
 
     const Model& model_;
     const State& state_;
+    double ahead_;
     DryOpenings openings_;
     std::vector<Stretch> faces_;  ///< ascending by edge and place
     Index block_ = no_index;
+    BlockMotion pose_;
     Vec2 drawn_ = {0.0, 0.0};  ///< its centroid as drawn
     bool cracks_act_ = false;  ///< on it
     Triple sum_;
 };
 }  // namespace
 
-std::vector<Triple> water_forces(const Model& model, const State& state)
+std::vector<Triple> water_forces(const Model& model, const State& state, std::int64_t until, double drag)
 {
     std::vector<Triple> forces;
     if (!model.water.given)
         return forces;
     forces.resize(static_cast<std::size_t>(model.blocks()));
-    WaterForces water(model, state);
+    WaterForces water(model, state, 0.5 * static_cast<double>(until - state.cycle) * state.blocks.step.next);
     for (Index b = 0; b < model.blocks(); ++b)
         if (state.blocks.is_free(b))
+        {
             forces[b] = water.on(b);
+            if (drag > 0.0 && floats(b, state))
+                add_drag(b, drag, model, state, forces[b]);
+        }
     return forces;
 }
 
@@ -282,23 +292,5 @@ double mean_joint_pressure(const Model& model, const State& state, Index contact
     const double length = (to - from).norm();
     return length > 0.0 ? pressure_along(model.water, state.stage, face).force / length
                         : pressure_at(model.water, state.stage, from);
-}
-
-void release_water(const std::vector<Triple>& before, State& state)
-{
-    std::map<Index, ReleasedForce> sums;
-    for (const ReleasedForce& force : state.released)
-        sums[force.block] = force;
-    for (Index b = 0; b < static_cast<Index>(before.size()); ++b)
-    {
-        const Triple &was = before[b], &is = state.water[b];
-        if (!state.blocks.is_free(b) || (was.x == is.x && was.y == is.y && was.w == is.w))
-            continue;
-        ReleasedForce& sum = sums[b];
-        sum = {b, sum.x + was.x - is.x, sum.y + was.y - is.y, sum.moment + was.w - is.w};
-    }
-    state.released.clear();
-    for (const auto& [block, force] : sums)
-        state.released.push_back(force);
 }
 }  // namespace hdem

@@ -3,7 +3,7 @@
 ///
 /// On a joint the pressure acts on both faces, over the whole stretch on which the edges face each other, open or closed: springs carry
 /// what remains, so that the normal force of a joint law is the effective one. On a free face it acts where water is ponded, but not
-/// on faces of drained excavations, nor where a boundary gives the stress. Pressures are those of the present pose; those of a crack belong to
+/// on faces of drained excavations, nor where a boundary gives the stress. Those of a crack belong to
 /// the faces that lie on its line as drawn, and stay with them until their block has moved a quarter of its size.
 ///
 ///   F = -integral of p n ds,  M = integral of (x - centroid) x dF      n: out of the block
@@ -18,11 +18,9 @@
 
 namespace hdem
 {
-/// How many cycles the forces hold before they are found anew. Blocks hardly move in between.
-inline constexpr std::int64_t water_every = 500;
-
-/// In the state's stage, one entry a block; empty without water.
-[[nodiscard]] std::vector<Triple> water_forces(const Model& model, const State& state);
+/// Those that hold from now until a cycle, in the state's stage (core/water/water_motion.h); one entry a block; empty without water.
+/// @param drag  WaterRule::drag
+[[nodiscard]] std::vector<Triple> water_forces(const Model& model, const State& state, std::int64_t until, double drag);
 
 /// What the water takes off the normal forces of the two points of a contact: same resultant and moment as its pressure [N].
 /// @param from, to  the contact's points, local coordinates [m]
@@ -30,7 +28,4 @@ inline constexpr std::int64_t water_every = 500;
 
 /// Mean pressure of the water in a joint, on the stretch from `from` to `to` on which its blocks face each other [Pa]; local coordinates [m].
 [[nodiscard]] double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to);
-
-/// What the water of the stage before gave, and that of the stage that begins does not: to the forces that the stage takes off over its relax_cycles.
-void release_water(const std::vector<Triple>& before, State& state);
 }  // namespace hdem

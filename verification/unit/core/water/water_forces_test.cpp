@@ -110,7 +110,7 @@ TEST(WaterForces, KeepTheLedgerAndFollowBlocksThatMove)
     run.simulation.begin_stage(1);
     const auto change = [&]
     {
-        const std::vector<Triple> now = water_forces(run.model(), run.state());
+        const std::vector<Triple> now = water_forces(run.model(), run.state(), run.state().water_until, 0.0);
         double greatest = 0.0;
         for (std::size_t b = 0; b < now.size(); ++b)
             greatest = std::max(greatest, std::hypot(now[b].x - run.state().water[b].x, now[b].y - run.state().water[b].y));
