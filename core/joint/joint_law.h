@@ -9,7 +9,6 @@
 ///   peak_strength      greatest shear stress under a normal stress, from where the joint is drawn
 ///   damage_of          how far it has lost its roughness or its bond: 0 as drawn, 1 nothing left
 ///   drawn_state        only where `state` begins with a shear stress: its first value
-///   settle             only where numbers follow from others, as 1 / K_S: found anew after each of them has changed by itself
 ///
 /// and stands in the list of core/joint/all_laws.h.
 ///
