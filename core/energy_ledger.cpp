@@ -1,5 +1,6 @@
 #include "core/energy_ledger.h"
 
+#include "core/contact/contact_report.h"
 #include "core/detection/edge_touch.h"
 #include "core/motion/equilibrium.h"
 
@@ -13,7 +14,11 @@ namespace
 /// The same of what impulses take: loads of a block at rest are known by them [J].
 double one_step_push(const State& state, const Contact& contact)
 {
-    const auto mobility = [&](Index block) { return state.blocks.inertia[block].inverse_mass_x; };
+    const auto mobility = [&](Index block)
+    {
+        const BlockInertia& inertia = state.blocks.inertia[block];
+        return std::max(inertia.inverse_mass_x, inertia.inverse_mass_y);
+    };
     double squares = 0.0;
     for (const PointHistory& point : contact.point)
         squares += point.normal_force * point.normal_force + point.shear_force * point.shear_force;
@@ -38,7 +43,7 @@ StoredEnergy stored_energy(const Model& model, const State& state)
     {
         if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
         {
-            if (state.contacts.normal_force(0, i) != 0.0 || state.contacts.normal_force(1, i) != 0.0)
+            if (is_closed_contact(state, i))
                 stored.one_step_fall += one_step_push(state, state.contacts.get(i));
             continue;
         }

@@ -212,16 +212,18 @@ class RockCheck : public CaseCheck
                               fmt::format("Give {}, or remove this key.", to));
         };
         exclude("insitu", "[insitu]", "stress", "surface");
-        if (!def_.insitu.stress && !def_.insitu.surface && !problems_.has("insitu"))
+        const bool has_stress = def_.insitu.stress || given("insitu.stress"),
+                   has_surface = def_.insitu.surface || given("insitu.surface");
+        if (!has_stress && !has_surface && !problems_.has("insitu"))
             problems_.add("insitu", "[insitu]", "stress", "is missing, and there is no surface",
                           "Give stress, or surface and ratio.");
-        if (!def_.insitu.surface)
+        if (!has_surface)
             for (const char* key : {"ratio", "ratio_offset"})
                 belongs(key, "surface");
         else if (!def_.insitu.ratio && !problems_.has("insitu.ratio"))
             problems_.add("insitu.surface", "[insitu]", "ratio", "is missing: surface gives the vertical stress only",
                           "Give ratio.");
-        if (!def_.insitu.stress)
+        if (!has_stress)
             for (const char* key : {"gradient", "reference"})
                 belongs(key, "stress");
         if (def_.insitu.surface && (def_.gravity.x() != 0.0 || def_.gravity.y() >= 0.0 || def_.gravity_tilt_deg != 0.0))

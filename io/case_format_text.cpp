@@ -90,7 +90,8 @@ in either order; else [joint.default].
 
 **Fixed.** A fixed component (x, y or rotation) of a block is never changed by forces: it keeps the velocity it starts with, 0 unless `velocity`
 or a load prescribes another. A block with all three fixed and no velocity is a support. `domain.fixed` fixes all three of each block
-that has an edge on the named side. A stage can fix and free blocks later.
+that has an edge on the named side. A stage can fix and free blocks later. Two blocks that have all three fixed exert no forces on each other,
+even if they move: leave a component of one of them free.
 
 **Names.** Blocks, excavations, joint sets, stages and histories have names. Blocks and excavations share one set of names, because a stage can
 remove either. Blocks that are cut from the domain get names when they are made; `hdem check` and the block frames show them.

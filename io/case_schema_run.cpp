@@ -168,12 +168,12 @@ SectionSpec stage_section()
                                 .default_note = "nothing changes"}),
          field<&StageDef::set_cycles>(
              {.name = "set_cycles",
-              .effect = "With set: friction, cohesion and tension come to their new values evenly over so "
-                        "many cycles, angles by their tangents. "
-                        "0: at once. A stage with until ends after that. Other numbers change at once: set "
-                        "them in a stage of their own. Contacts keep their forces where a stiffness changes, "
-                        "so that a slow change would end in the same forces. Weight grows slowly by a "
-                        "[[load]] with an acceleration. Roughness and dilation open a joint by the slip that "
+              .effect = "With set: friction, cohesion and tension come to their new values evenly over so many cycles, in steps of "
+                        "ten. Angles go by their tangents, those of barton_bandis and continuously_yielding by themselves. 0: at "
+                        "once. A stage with until ends after that. Other numbers change at once: set them in a stage of their own. "
+                        "Contacts keep their forces where a stiffness changes, so that a slow change would end in the same forces. "
+                        "Weight grows slowly by a [[load]] with an acceleration. Roughness and dilation open a joint by the slip "
+                        "that "
                         "it has had already.",
               .example = "5000",
               .range = {.low = 0, .high = 1e9}}),

@@ -88,15 +88,19 @@ class StageJoints
         located_.insert(located_.end(), found.begin(), found.end());
     }
 
-    /// Problems of a changed value name the --set of the command line; here it is the stage's.
+    /// Problems of a changed value name the --set of the command line; here it is the stage's, and stands where that does.
     void take_over(std::size_t stage, std::vector<Problem> found)
     {
         for (Problem& problem : found)
         {
             const std::string prefix = "--set ";
-            if (problem.text.rfind(prefix, 0) == 0)
+            if (problem.text.starts_with(prefix))
+            {
+                problem.key = fmt::format("stage[{}].set", stage);
                 problem.text = fmt::format("stage \"{}\": set {}", printable(def_.stages[stage].name),
                                            problem.text.substr(prefix.size()));
+                problem = source_.located(std::vector<Problem>{problem}).front();
+            }
             located_.push_back(std::move(problem));
         }
     }

@@ -1,12 +1,9 @@
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
 #include "core/rock/line_stretches.h"
+#include "io/segment_index.h"
 #include "io/traces.h"
 
-#include <boost/geometry/algorithms/disjoint.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <fmt/format.h>
 #include <geos_c.h>
 
@@ -18,8 +15,6 @@ namespace hdem
 {
 namespace
 {
-namespace bg = boost::geometry;
-
 /// The geometry library, with its last message.
 class Geos
 {
@@ -85,13 +80,10 @@ class Geos
     std::string message_ = "no reason given";
 };
 
-Polygon lengthened(Polygon trace, double by)
+void lengthen(Vec2& end, const Vec2& before, double by)
 {
-    const Vec2 first = trace.front() - trace[1];
-    const Vec2 last = trace.back() - trace[trace.size() - 2];
-    trace.front() += by * first / first.norm();
-    trace.back() += by * last / last.norm();
-    return trace;
+    const Vec2 way = end - before;
+    end += by * way / way.norm();
 }
 
 /// The first two points of a line.
@@ -111,51 +103,10 @@ Vec2 middle(const Geos& geos, const GEOSGeometry* line)
     return 0.5 * (first + second);
 }
 
-/// Segments, found by place.
-class SegmentIndex
-{
-  public:
-    SegmentIndex(const std::vector<TraceSegment>& segments, double near) : segments_(segments), near_(near)
-    {
-        std::vector<std::pair<Around, std::size_t>> boxes;
-        for (std::size_t i = 0; i < segments.size(); ++i)
-        {
-            const Vec2 low = segments[i].from.cwiseMin(segments[i].to).array() - near;
-            const Vec2 high = segments[i].from.cwiseMax(segments[i].to).array() + near;
-            boxes.push_back({{{low.x(), low.y()}, {high.x(), high.y()}}, i});
-        }
-        tree_ = Tree(boxes);
-    }
-
-    /// Source of the first segment that both points lie on; no_index when there is none, or a trace of a file.
-    [[nodiscard]] std::int32_t source(const Vec2& a, const Vec2& b) const
-    {
-        std::size_t best = segments_.size();
-        for (auto it = tree_.qbegin(bg::index::intersects(Place(a.x(), a.y()))); it != tree_.qend(); ++it)
-            if (it->second < best && std::max(distance(a, segments_[it->second]), distance(b, segments_[it->second])) < near_)
-                best = it->second;
-        return best < segments_.size() ? segments_[best].source : no_index;
-    }
-
-  private:
-    using Place = bg::model::d2::point_xy<double>;
-    using Around = bg::model::box<Place>;
-    using Tree = bg::index::rtree<std::pair<Around, std::size_t>, bg::index::quadratic<16>>;
-
-    static double distance(const Vec2& p, const TraceSegment& segment)
-    {
-        const Vec2 way = segment.to - segment.from;
-        const double along = std::clamp(way.dot(p - segment.from) / way.squaredNorm(), 0.0, 1.0);
-        return (p - segment.from - along * way).norm();
-    }
-
-    const std::vector<TraceSegment>& segments_;
-    double near_;
-    Tree tree_;
-};
-
 /// Stretches inside the domain that part nothing and are longer than what lengthening may have left over.
-void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygon& domain, double least, TraceCells& result)
+/// @param snap  by which the user lengthens traces [m]
+void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygon& domain, double least, double snap,
+                   TraceCells& result)
 {
     const double slack = line_slack(domain);
     const SegmentIndex segments(result.segments, 0.01 * slack);
@@ -170,7 +121,7 @@ void count_dropped(const Geos& geos, const GEOSGeometry* stretches, const Polygo
             continue;
         ++result.dead_ends;
         if (source == no_index)
-            result.trace_dropped += length - least;
+            result.trace_dropped += length - snap;
         else
             result.dropped[static_cast<std::size_t>(source)] += length - slack;  // of its free end
     }
@@ -238,6 +189,35 @@ void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domai
                 drop_ring(piece, segments, result);
     result.cells = std::move(kept);
 }
+
+/// Distance by which round-off may part what meets [m].
+double round_off(const Polygon& domain)
+{
+    const Box box = bounding_box(domain);
+    const double largest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+    return std::max(1e-9 * (box.high - box.low).norm(), 64.0 * std::numeric_limits<double>::epsilon() * largest);
+}
+
+/// Ends of traces that lie on another trace or on a side, as far as numbers can tell, cross it; they may end a rounding short of it.
+void let_meet(const Polygon& domain, const std::vector<SourceLine>& lines, std::vector<Polygon>& traces, double by)
+{
+    std::vector<TraceSegment> segments;
+    for (const SourceLine& line : lines)
+        add_segments(line.points, line.source, segments);
+    for (const Polygon& trace : traces)
+        add_segments(trace, no_index, segments);
+    for (std::size_t i = 0; i < domain.size(); ++i)
+        segments.push_back({domain[i], domain[next(i, domain.size())], no_index});
+    const SegmentIndex index(segments, 0.1 * by);
+    for (Polygon& trace : traces)
+    {
+        const bool begins = index.ends_on_another(trace.front()), ends = index.ends_on_another(trace.back());
+        if (begins)
+            lengthen(trace.front(), trace[1], by);
+        if (ends)
+            lengthen(trace.back(), trace[trace.size() - 2], by);
+    }
+}
 }  // namespace
 
 TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& traces, double snap,
@@ -252,9 +232,19 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
         add_segments(line.points, line.source, result.segments);
         result.dropped.resize(std::max(result.dropped.size(), static_cast<std::size_t>(line.source) + 1), 0.0);
     }
-    for (const Polygon& trace : traces)
+    const double by = std::max(snap, 10.0 * round_off(domain));
+    std::vector<Polygon> cutting = traces;
+    if (snap <= 0.0)
+        let_meet(domain, lines, cutting, by);
+    for (std::size_t t = 0; t < traces.size(); ++t)
     {
-        all.push_back(snap > 0.0 ? lengthened(trace, snap) : trace);
+        const Polygon& trace = traces[t];
+        if (snap > 0.0)
+        {
+            lengthen(cutting[t].front(), trace[1], snap);
+            lengthen(cutting[t].back(), trace[trace.size() - 2], snap);
+        }
+        all.push_back(cutting[t]);
         add_segments(all.back(), no_index, result.segments);
         for (std::size_t i = 1; i < trace.size(); ++i)
             result.trace_length += length_inside(domain, trace[i - 1], trace[i]);
@@ -271,8 +261,8 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     const auto owned_ends = geos.own(ends);
     const auto owned_invalid = geos.own(invalid);
     result.traces = static_cast<std::int64_t>(traces.size());
-    count_dropped(geos, ends, domain, snap * (1.0 + 1e-9), result);
-    count_dropped(geos, bridges, domain, 0.0, result);
+    count_dropped(geos, ends, domain, snap > 0.0 ? by * (1.0 + 1e-9) : 2.0 * by, snap, result);
+    count_dropped(geos, bridges, domain, 0.0, 0.0, result);
     add_cells(geos, cells.get(), domain, result);
     return result;
 }

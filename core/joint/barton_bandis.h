@@ -44,12 +44,13 @@ struct BandisClosure
 ///   dw = tan(m i / M) d delta                                        dilation
 ///   JRC_n = JRC_0 (L/L_0)^(-0.02 JRC_0),  JCS_n = JCS_0 (L/L_0)^(-0.03 JRC_0),  delta_p = L/500 (JRC_n/L)^0.33
 ///
-/// delta is the greatest total shear displacement |u_p + tau/K_S| so far. It is known before the return, which so needs no iteration; dw is booked in proportion to slip.
+/// delta is the greatest total shear displacement |u_p + tau/K_S| so far. It is known before the return, which so needs no iteration. dw is booked in proportion to slip,
+/// at the rate of constant stress. Where sigma grows as the joint opens, less of d delta is slip: what is left of dw raises the rate, and comes within 0.01 delta_p.
 /// After a reversal: elastic, then slip at m(delta) with no gain. The opening stays: given back, it would unload the stiff normal spring faster
 /// than the shear spring can follow (K_N tan phi dw/du_p is ten times K_S in the example of the test), and each reversal would be a jump.
 /// K_S is raised so that each part of the curve leaves slip enough to pay for its dilation under sigma = normal_stress.
 ///
-/// Memory: state is delta; opening is w; turn and broken mean nothing.
+/// Memory: state is delta; opening is w; turn is what is left of dw [m]; broken means nothing.
 /// Differs from the source: no hysteresis of closure; |u_p + tau/K_S| counts, which on reversal is less than |u_p| + |tau|/K_S.
 /// @see verification/unit/core/joint/barton_bandis_test.cpp
 struct BartonBandis
@@ -71,6 +72,7 @@ struct BartonBandis
     static_assert(strength_share + 1 < joint_numbers);  // the last is that of user_law.h
 
     static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
+    static constexpr double left_within = 0.01;     ///< slip / delta_p within which what is left of dw comes
 
     /// m over x = delta / delta_p, from 0.3 on.
     template <typename R>
@@ -119,6 +121,8 @@ struct BartonBandis
         return n;
     }
 
+    static void settle(JointNumbers& n) { n = with_inverses(n); }
+
     /// Stiffness that the curve asks for at the ends of its rising parts [Pa/m].
     [[nodiscard]] static double steepest(const JointNumbers& n, double normal)
     {
@@ -133,17 +137,25 @@ struct BartonBandis
         return most;
     }
 
-    /// dw/du_p while delta grows from `from` to `to`. dw = tan(m i / M) d delta, and of d delta the share 1 - (d tau_max/d delta) / K_S is slip.
-    /// No more than slip pays for.
-    /// @param t  tan(angle), not reduced
+    /// tan(m i / M) while delta grows from `from` to `to`.
     template <typename R>
-    [[nodiscard]] static R first_dilation(const BasicJointNumbers<R>& n, R from, R to, R i, R angle, R t, R normal)
+    [[nodiscard]] static R dilation_between(const BasicJointNumbers<R>& n, R from, R to, R i)
     {
-        const R one = 1.0, peak = n[peak_displacement], way = to - from;
-        const R turned = angle - friction_angle(n, from / peak, i);
+        return tan(mobilised(R(0.5) * (from + to) * n[per_displacement]) * i * n[damage]);
+    }
+
+    /// dw/du_p meanwhile: of d delta the share 1 - (d tau_max/d delta) / K_S is slip under constant stress. No more than slip pays for.
+    /// @param t     tan(angle), not reduced
+    /// @param left  what is left of dw [m]
+    template <typename R>
+    [[nodiscard]] static R rate_of_slip(const BasicJointNumbers<R>& n, R from, R to, R i, R angle, R t, R normal, R dilation,
+                                        R left)
+    {
+        const R one = 1.0, way = to - from;
+        const R turned = angle - friction_angle(n, from * n[per_displacement], i);
         const R gain = n[strength_share] * normal * turned * (one + t * t) * (one - t * turned);  // in the middle of the step
-        const R dilation = tan(mobilised(R(0.5) * (from + to) / peak) * i * n[damage]);
-        return min(safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way)), n[strength_share] * t);
+        const R rate = safe_ratio(dilation, one - safe_ratio(gain, n[shear_stiffness] * way));
+        return max(min(rate + left / max(R(left_within) * n[peak_displacement], way), n[strength_share] * t), R(0.0));
     }
 
     /// i [rad]
@@ -218,7 +230,9 @@ struct BartonBandis
         }
         const R angle = base_angle(n, x) + share * i, whole = tan(angle), t = n[strength_share] * whole;
         const R excess = magnitude(trial) - before.stress * t;
-        R mu = zero, dilation = zero, lambda = zero;
+        R mu = zero, dilation = zero, lambda = zero, rate = zero;
+        if (is_rough)
+            rate = select(grows, dilation_between(n, m.state, delta, i), zero);
         if (any(excess > zero))  // most points of most cycles stick
         {
             lambda = max(excess, zero) * n[shear_compliance];
@@ -228,7 +242,7 @@ struct BartonBandis
                 // d tau_max / d sigma; i falls as sigma grows.
                 const R falls = select(i == free_i, (R(1.0) + whole * whole) * share * n[roughness], zero);
                 mu = n[strength_share] * max(whole - falls, zero);
-                dilation = select(grows, first_dilation(n, m.state, delta, i, angle, whole, sigma), zero);
+                dilation = select(grows, rate_of_slip(n, m.state, delta, i, angle, whole, sigma, rate, m.turn), zero);
                 const R climbing = max(excess, zero) / (k + before.stiffness * mu * dilation);
                 lambda = select(dilation > zero, climbing, lambda);
             }
@@ -250,6 +264,7 @@ struct BartonBandis
         now.freed = zero;
         empty_where_open(open, step, w, now);
         m.slip += now.slid;
+        m.turn = select(open, m.turn, m.turn + rate * (delta - m.state) - (now.opening - w));
         m.opening = now.opening;
         m.state = select(open, m.state, delta);
         return now;

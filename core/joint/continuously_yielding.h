@@ -54,11 +54,15 @@ struct ContinuouslyYielding
         n[greatest_stiffness] = in.greatest_stiffness;
         n[friction_angle] = radians(in.friction);
         n[lost_angle] = radians(in.first_friction - in.friction);
-        n[friction] = tan(radians(in.friction));
-        n[first_friction] = tan(radians(in.first_friction));
         n[roughness] = 1.0 / in.roughness;
         n[strength_share] = 1.0;
+        settle(n);
         return n;
+    }
+    static void settle(JointNumbers& n)
+    {
+        n[friction] = tan(n[friction_angle]);
+        n[first_friction] = tan(n[friction_angle] + n[lost_angle]);
     }
 
     template <typename R>

@@ -47,11 +47,12 @@ struct Patton
         n[friction] = tan(radians(in.friction + in.roughness));
         n[residual_friction] = tan(radians(in.residual_friction));
         n[cohesion] = in.cohesion;
-        n[change_stress] = in.cohesion / (n[friction] - n[residual_friction]);
         n[dilation] = tan(radians(in.roughness));
         n[dilation_limit] = in.dilation_limit;
+        settle(n);
         return n;
     }
+    static void settle(JointNumbers& n) { n[change_stress] = n[cohesion] / (n[friction] - n[residual_friction]); }
 
     template <typename R>
     [[nodiscard]] static R strength(const BasicJointNumbers<R>& n, R normal)

@@ -37,21 +37,40 @@ double rim_speed(Index block, const Model& model, const Blocks& blocks)
 
 namespace
 {
+/// A sum of forces on a block [N].
+struct ForceSum
+{
+    Vec2 sum = Vec2::Zero();
+    double sizes = 0.0;  ///< of each force by itself
+
+    void add(const Vec2& force)
+    {
+        sum += force;
+        sizes += force.norm();
+    }
+    /// What is left of forces that cancel each other is round-off: it is no scale for anything.
+    [[nodiscard]] Vec2 net() const
+    {
+        constexpr double round_off = 1e-12;
+        return sum.norm() > round_off * sizes ? sum : Vec2(Vec2::Zero());
+    }
+};
+
 /// Loads on each block of `range` that acted in the last cycle [N]. Tractions on sides count only without gravity: they are part of the stress in the rock, beside which
 /// its weight is small.
-std::vector<Vec2> loads_on(IndexRange range, const Model& model, const State& state)
+std::vector<ForceSum> loads_on(IndexRange range, const Model& model, const State& state)
 {
-    std::vector<Vec2> loads(static_cast<std::size_t>(range.size()), Vec2::Zero());
+    std::vector<ForceSum> loads(static_cast<std::size_t>(range.size()));
     for (const Load& load : model.loads)
         if (const double factor = last_factor_of(load, model, state); factor != 0.0)
             for (const Index i : load.blocks)
                 if (i >= range.begin && i < range.end)
-                    loads[i - range.begin] += factor * (model.mass[i] * load.acceleration + load.force);
+                    loads[i - range.begin].add(factor * (model.mass[i] * load.acceleration + load.force));
     if (model.gravity.isZero())
         for (const Boundary& boundary : model.boundaries)
             for (const BoundaryForce& force : boundary.forces)
                 if (boundary.acts(state.stage) && force.block >= range.begin && force.block < range.end)
-                    loads[force.block - range.begin] += factor_of(boundary, model, state) * Vec2(force.x, force.y);
+                    loads[force.block - range.begin].add(factor_of(boundary, model, state) * Vec2(force.x, force.y));
     return loads;
 }
 }  // namespace
@@ -59,7 +78,7 @@ std::vector<Vec2> loads_on(IndexRange range, const Model& model, const State& st
 void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums)
 {
     const Blocks& blocks = state.blocks;
-    const std::vector<Vec2> loads = loads_on(range, model, state);
+    std::vector<ForceSum> loads = loads_on(range, model, state);
     const bool only_standing = which == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {
@@ -67,11 +86,13 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
             continue;
         const BlockInertia& inertia = blocks.inertia[i];
         const BlockForce& force = blocks.force[i];
-        const Vec2& load = loads[i - range.begin];
+        ForceSum& loaded = loads[i - range.begin];
+        const Vec2 load = loaded.net();
         sums.kinetic_energy += kinetic_energy(model, blocks, i);
         sums.unbalanced_force += Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0)
                                      .norm();
-        sums.applied_force += (model.mass[i] * model.gravity + load).norm();
+        loaded.add(model.mass[i] * model.gravity);
+        sums.applied_force += loaded.net().norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
         sums.unbalanced.add(unbalance(i, model, blocks) / reference_acceleration(i, model, load), i);

@@ -1,7 +1,7 @@
 #include "core/stage/properties.h"
 
 #include "core/boundary/resolve_boundaries.h"
-#include "core/joint/normal_closure.h"
+#include "core/joint/all_laws.h"
 #include "core/model/factor.h"
 #include "core/state/state_hash.h"
 
@@ -27,6 +27,18 @@ CoulombSlip between(const CoulombSlip& from, const CoulombSlip& to, double share
     return law;
 }
 
+/// After its law's numbers have changed each by itself: those that follow from others, as 1 / K_S.
+void settle(JointRow& row)
+{
+    if (row.has_memory())
+        with_law(row.kind,
+                 [&](auto law)
+                 {
+                     if constexpr (requires { decltype(law)::settle(row.numbers); })
+                         decltype(law)::settle(row.numbers);
+                 });
+}
+
 JointRow between(const JointRow& from, const JointRow& to, double share)
 {
     JointRow row = to;
@@ -35,6 +47,7 @@ JointRow between(const JointRow& from, const JointRow& to, double share)
         row.*value = between(from.*value, to.*value, share);
     for (int i = 0; i < joint_numbers; ++i)
         row.numbers[i] = between(from.numbers[i], to.numbers[i], share);
+    settle(row);
     row.is_bonded = from.is_bonded || to.is_bonded;
     return row;
 }

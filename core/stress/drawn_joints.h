@@ -9,10 +9,10 @@
 
 namespace hdem
 {
-/// Do two edges lie on each other, up to a gap of the length floor at either end? Two that only meet in a corner do not.
+/// Do two edges lie on each other, up to a gap of the length floor at either end? Two that only meet in a corner do not, whichever side of it round-off puts them.
 [[nodiscard]] inline bool lie_on_each_other(const EdgeTouch& touch, double length_floor)
 {
-    return touch.length > 0.0 && -std::min(touch.point[0].overlap, touch.point[1].overlap) < length_floor;
+    return touch.length > closed_gap * length_floor && -std::min(touch.point[0].overlap, touch.point[1].overlap) < length_floor;
 }
 
 /// By how much a point of a joint is preloaded that has cohesion or tension until it breaks: it is closed as drawn, also where numbers are rounded so that there is a

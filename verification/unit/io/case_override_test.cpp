@@ -74,9 +74,12 @@ TEST(Override, OfAStageIsNamedWhereItMakesTheCaseWrong)
                     HasSubstr("is greater than cohesion / tan(friction) = 0 Pa). Give less, or more cohesion."))));
     EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.friction_angle_deg = 60\"]\nset_cycles = 5\n")),
                 ElementsAre(HasSubstr("case.toml:21:7: stage \"cut\": set = \"joint.default.friction_angle_deg=60\": then joint")));
-    EXPECT_THAT(
-        problems_of(set(bonded, "set = [\"joint.default.tension = 5e4\"]\n")),
-        ElementsAre(testing::StartsWith("stage \"cut\": set joint.default.tension=5e4: joint \"default\": tension (is greater")));
+    EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.tension = 5e4\"]\n")),
+                ElementsAre(testing::StartsWith(
+                    "case.toml:21:7: stage \"cut\": set joint.default.tension=5e4: joint \"default\": tension (is greater")));
+    EXPECT_THAT(problems_of(set(bonded, "set = [\"material.rock.density = 0\"]\n")),
+                ElementsAre(testing::StartsWith(
+                    "case.toml:21:7: stage \"cut\": set material.rock.density=0: material \"rock\": density = 0")));
     EXPECT_THAT(problems_of(set(bonded, "set = [\"joint.default.tension = 5e3\"]\n[[stage]]\nname = \"open\"\ncycles = 5\n"
                                         "set = [\"joint.default.cohesion = 0\"]\n")),
                 ElementsAre(testing::StartsWith("case.toml:25:7: stage \"open\": set = \"joint.default.cohesion=0\": then joint")))

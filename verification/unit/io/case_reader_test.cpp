@@ -51,6 +51,9 @@ TEST(CaseReader, ReadsStressInEitherForm)
     complains("stress = [1.0, 2.0, 3.0]\nsurface = 1.0\nratio = 1.0", "contradicts stress");
     complains("stress = [1.0, 2.0, 3.0]\nratio = 1.0", "belongs to surface");
     complains("surface = 1.0\nratio = 1.0\ngradient = [0.0, 0.0, 0.0]", "belongs to stress");
+    EXPECT_THAT(test::problems_of(two_blocks + "[insitu]\nstress = [inf, 2.0, 3.0]\nreference = 1.0"),
+                ElementsAre(testing::HasSubstr("stress[0] = inf Pa (must be finite)")))
+        << "a number that is wrong is not missing";
     complains("surface = 1.0\nratio = 1.0\n[gravity]\nvector = [1.0, -9.81]", "straight down");
 }
 

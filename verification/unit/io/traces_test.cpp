@@ -120,6 +120,29 @@ TEST(TraceCells, CloseAtSlantedSides)
     }
 }
 
+/// Ends that lie on a side or on another trace, as they are mapped: turned, they are a rounding short of it or beyond it.
+TEST(TraceCells, CloseWhereTracesEndOnALine)
+{
+    for (const double away : {0.0, 1e4})
+        for (int turn = 0; turn < 90; ++turn)
+        {
+            const Vec2 by = unit_direction(turn);
+            const auto turned = [&](Polygon points)
+            {
+                for (Vec2& p : points)
+                    p = {by.x() * p.x() - by.y() * p.y() + away, by.y() * p.x() + by.x() * p.y() - away};
+                return points;
+            };
+            const std::vector<Polygon> traces = {turned({{0, 5}, {10, 6}}), turned({{3, 0}, {3, 5.3}}), turned({{7, 10}, {6, 5.6}}),
+                                                 turned({{3, 5.3}, {2, 7}, {0, 8}}), turned({{9, 1}, {9, 3}})};
+            const TraceCells cut = cut_into_cells(turned(square), traces, 0.0);
+            EXPECT_THAT(cut.cells, SizeIs(5)) << turn;
+            EXPECT_EQ(cut.dead_ends, 1) << turn;
+            EXPECT_NEAR(cut.trace_dropped, 2.0, 1e-9) << turn;
+            EXPECT_NEAR(total_area(cut.cells), 100.0, 1e-6);
+        }
+}
+
 TEST(TraceCells, ABlockAroundALoneRingComesInTriangles)
 {
     const Polygon ring = {{4, 4}, {6, 4}, {6, 6}, {4, 6}, {4, 4}};

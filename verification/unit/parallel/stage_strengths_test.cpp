@@ -1,8 +1,10 @@
 /// Strengths that change over some cycles.
 
+#include "core/joint/all_laws.h"
 #include "core/stage/load_changes.h"
 #include "core/stage/properties.h"
 #include "parallel/stages.h"
+#include "verification/scenes/sample_joints.h"
 #include "verification/unit/parallel/stage_changes.h"
 
 namespace hdem
@@ -53,6 +55,43 @@ TEST(StageStrengths, ComeDownOverCycles)
         run.advance(1);
         EXPECT_EQ(run.model().joints.laws[0].friction_coefficient, 0.0);
     }
+}
+
+/// Halfway, numbers of a law that follow from others still do. With K_S and 1 / K_S each halfway, a joint that slips would bear too much or too little, and even pull
+/// the other way.
+TEST(StageStrengths, KeepNumbersThatFollowFromOthers)
+{
+    const auto halfway = [](JointLaw law, const std::function<void(JointDef&)>& change)
+    {
+        CaseDef scene = scenes::block_on_ground();
+        scene.contact.method = Method::force;
+        for (const JointDef& joint : scenes::sample_joints())
+            if (joint.law == law)
+                scene.joints = {joint};
+        if (law == JointLaw::barton_bandis)
+            scene.joints[0].shear_stiffness = 1e6;  // so that K_S follows from the residual angle
+        scene = with_change(scene, change);
+        scene.stages[1].set_cycles = 1000;
+        CaseRun run(scene);
+        run.simulation.begin_stage(1);
+        run.advance(501);
+        return run.model().joints.rows[0].numbers;
+    };
+    const JointNumbers rough = halfway(JointLaw::barton_bandis, [](JointDef& j) { j.residual_friction_angle_deg = 10.0; });
+    EXPECT_NEAR(rough[BartonBandis::residual_friction], radians(20.0), 1e-15);
+    EXPECT_NEAR(rough[BartonBandis::shear_stiffness] * rough[BartonBandis::shear_compliance], 1.0, 1e-15);
+    const JointNumbers bilinear = halfway(JointLaw::patton,
+                                          [](JointDef& j)
+                                          {
+                                              j.cohesion = 0.0;
+                                              j.friction_angle_deg = 25.0;
+                                          });
+    EXPECT_NEAR(bilinear[Patton::cohesion], 0.5e6, 1e-6);
+    EXPECT_NEAR(bilinear[Patton::change_stress],
+                bilinear[Patton::cohesion] / (bilinear[Patton::friction] - bilinear[Patton::residual_friction]), 1e-6);
+    const JointNumbers yielding = halfway(JointLaw::continuously_yielding, [](JointDef& j) { j.friction_angle_deg = 10.0; });
+    EXPECT_NEAR(yielding[ContinuouslyYielding::friction_angle], radians(20.0), 1e-15);
+    EXPECT_NEAR(yielding[ContinuouslyYielding::friction], std::tan(radians(20.0)), 1e-15);
 }
 
 /// The same where a table says how much of the change is made: 0.2 of it after 4000 cycles, all after 10 000.

@@ -130,6 +130,56 @@ TEST(JointImpulses, LeaveNoResidualWhereALoadHangs)
     EXPECT_LT(test::ledger_residual(run), 1e-6);
 }
 
+/// The same where the load grows: on a block that is held along x, whichever way it is turned, and on one that hangs by shear alone.
+TEST(JointImpulses, LeaveNoResidualWhereALoadGrows)
+{
+    const std::string text = R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 2e9
+friction_angle_deg = 33.0
+cohesion = 2e6
+[contact]
+method = "impulse"
+[gravity]
+vector = [0, 0]
+[[block]]
+name = "base"
+polygon = [[-2, -1], [2, -1], [2, 0], [-2, 0]]
+fixed = true
+[[block]]
+name = "block"
+polygon = [[-0.5, 0], [0.5, 0], [0.5, 0.5], [-0.5, 0.5]]
+fixed = ["rotation"]
+[[load]]
+blocks = ["block"]
+force = [0.0, -1.3e6]
+ramp_cycles = [0, 1000]
+[[stage]]
+cycles = 1
+)";
+    for (const Vec2& force : {Vec2(0.0, -1.3e6), Vec2(1.3e6, 0.0)})
+        for (const bool is_held : {false, true})
+            for (const double angle : {0.0, 90.0, 37.0})
+            {
+                CaseDef scene = read_case_text(text, "case.toml").def;
+                scene.loads.front().force = force;
+                scene = scenes::turned(scene, angle);
+                scene.blocks.back().fix_x = is_held && force.x() == 0.0 && angle == 0.0;
+                scene.blocks.back().fix_y = is_held && force.x() == 0.0 && angle == 90.0;
+                CaseRun run(scene);
+                double worst = 0.0;
+                for (int i = 0; i < 30; ++i)
+                {
+                    run.advance(50);
+                    worst = std::max(worst, test::ledger_residual(run));
+                }
+                EXPECT_LT(worst, 1e-6) << force.transpose() << " N, turned by " << angle;
+            }
+}
+
 /// Pulled with 30 kN for a moment. Residual tension acts up to half of the skin.
 TEST(JointImpulses, AreLeftWithResidualTensionOnceTorn)
 {

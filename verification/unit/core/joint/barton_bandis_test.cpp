@@ -117,6 +117,35 @@ TEST(BartonBandis, GainsNoRoughnessOnReversalAndStaysOpen)
     EXPECT_LT(std::abs(p.now.shear), strength);
 }
 
+/// At constant height the normal stress grows by all that the joint opens. The opening is still the integral of tan(m i / M) d delta, and the stress that of the
+/// strength at it; found here by small steps of delta.
+TEST(BartonBandis, OpensAsFarBetweenStiffWalls)
+{
+    for (const double stiffness : {1e8, 1e9, 5e9})
+        for (const int steps : {2000, 8000})
+        {
+            BartonBandisInput in = rough();
+            in.normal_stress = 5e6;
+            const JointNumbers n = BartonBandis::numbers(in, Linear::numbers(stiffness));
+            const double peak = n[BartonBandis::peak_displacement], end = 3.0 * peak, closure = 1e6 / stiffness;
+            LawPoint<BartonBandis, Linear> p(n, 1e6);
+            double opening = 0.0, shear = 0.0;
+            const int fine = 20'000;
+            for (int k = 0; k < fine; ++k)
+            {
+                const double x = (k + 0.5) / fine * end / peak;
+                const double i = BartonBandis::roughness_angle(n, stiffness * (closure + opening));
+                opening += std::tan(BartonBandis::mobilised(x) * i * n[BartonBandis::damage]) * end / fine;
+            }
+            const double normal = stiffness * (closure + opening);
+            shear = normal * std::tan(BartonBandis::friction_angle(n, end / peak, BartonBandis::roughness_angle(n, normal)));
+            for (int k = 0; k < steps; ++k)
+                p.step(end / steps, closure);
+            EXPECT_NEAR(p.now.opening, opening, 1e-2 * opening) << stiffness << ", " << steps;
+            EXPECT_NEAR(p.now.shear, shear, 1e-2 * shear) << stiffness << ", " << steps;
+        }
+}
+
 TEST(BartonBandis, EnergyBalancesOverTenCycles)
 {
     expect_energy_balance<BartonBandis, Hyperbolic>(numbers(), 1e6, 5e9, 20000);

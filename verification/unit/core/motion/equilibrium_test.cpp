@@ -41,6 +41,26 @@ TEST(AppliedForce, IsWeightAndLoadsOfFreeBlocks)
     }
 }
 
+/// Tractions that cancel each other leave round-off, which is no scale: by it a block at rest was out of balance for ever.
+TEST(AppliedForce, IsNothingWhereLoadsCancel)
+{
+    for (const double angle : {0.0, 37.0, 90.0, 161.0})
+    {
+        CaseDef scene = scenes::stack(2);
+        scene.loads = {{.blocks = {"block1"}, .force = {2.1e6, 0.0}},
+                       {.blocks = {"block1"}, .force = {-0.7e6, 0.0}},
+                       {.blocks = {"block1"}, .force = {-1.4e6, 0.0}}};
+        scene = scenes::turned(scene, angle);
+        scene.gravity = {0.0, 0.0};
+        CaseRun run(scene);
+        run.advance(1);
+        const Equilibrium sums = run.simulation.equilibrium();
+        EXPECT_EQ(sums.applied_force, 0.0) << angle;
+        EXPECT_LT(sums.unbalanced.value, 1e-9) << angle;
+        EXPECT_LT(sums.unbalanced_force_ratio(), 1e-9) << angle;
+    }
+}
+
 TEST(UnbalancedForceRatio, IsOneInFreeFallAndNothingAtRest)
 {
     CaseDef scene = scenes::block_on_ground();
