@@ -1,9 +1,10 @@
 #include "core/detection/manifold.h"
 
 #include "core/detection/carried_history.h"
+#include "core/detection/edge_scan.h"
 #include "core/detection/edge_touch.h"
-#include "core/geometry/convex_part.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,73 +13,6 @@ namespace hdem
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Pose of block b as seen from block a's frame. Differences of positions come first, so that far from the origin
-/// nothing is lost.
-struct RelativePose
-{
-    double c, s, x, y;
-
-    RelativePose(const BlockMotion& a, const BlockMotion& b)
-    {
-        c = a.c * b.c + a.s * b.s;
-        s = a.c * b.s - a.s * b.c;
-        const double dx = b.x - a.x;
-        const double dy = b.y - a.y;
-        x = a.c * dx + a.s * dy;
-        y = a.c * dy - a.s * dx;
-    }
-    [[nodiscard]] Vec2 turned(const Vec2& v) const { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
-    [[nodiscard]] Vec2 moved(const Vec2& v) const { return turned(v) + Vec2(x, y); }
-};
-
-/// Result of scanning one part's edges against the other's vertices.
-struct Scan
-{
-    double distance = -infinity;  ///< greatest over all edges
-    double external_distance = -infinity;
-    Index edge = no_index;             ///< external edge that reaches it
-    double kept_distance = -infinity;  ///< of the edge asked for
-};
-
-bool is_external(const Shapes& shapes, Index edge)
-{
-    return shapes.edge_source[edge] != edge_internal;
-}
-
-/// Of part `other` from the line of `edge`, < 0 when it reaches behind it. `pose` is that of the other block in the frame of the edge's.
-double edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
-{
-    const Vec2 normal = -turned_left(shapes.edge_tangent[edge]);
-    // Least of n.(R v + d - p): turn the normal once rather than each vertex.
-    const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
-    double least = infinity;
-    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
-        least = std::min(least, seen.dot(shapes.vertex[v]));
-    return least + normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[edge]);
-}
-
-/// `other` in the frame of `part`: pose of the block of the other part.
-Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept)
-{
-    Scan scan;
-    for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
-    {
-        const double distance = edge_distance(shapes, e, other, pose);
-        scan.distance = std::max(scan.distance, distance);
-        if (!is_external(shapes, e))
-            continue;
-        if (e == kept)
-            scan.kept_distance = distance;
-        const bool longer = scan.edge != no_index && shapes.edge_length[e] > shapes.edge_length[scan.edge];
-        if (distance > scan.external_distance || (distance == scan.external_distance && longer))
-        {
-            scan.external_distance = distance;
-            scan.edge = e;
-        }
-    }
-    return scan;
-}
 
 /// Cosine of the angle between two pieces of one side.
 constexpr double in_line = 0.999;
@@ -197,7 +131,10 @@ Facing better_placed(const Shapes& shapes, const Pair& pair, const Facing& facin
         const Index other = on_a ? pair.b : pair.a;
         for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
         {
-            if (!may_take(on_a, e) || edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b) < best - pair.margin)
+            if (!may_take(on_a, e))
+                continue;
+            const Distance to_line = edge_distance(shapes, e, other, on_a ? pair.b_from_a : pair.a_from_b);
+            if (to_line.least < best - pair.margin || to_line.is_at_seam(pair.margin))
                 continue;
             if (const Facing f = face(shapes, pair, on_a, e); f.overlap > deepest.overlap)
                 deepest = f;
@@ -243,14 +180,22 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     const double floor = model.contact.length_floor * size;
     const double margin = 0.1 * floor;
     const Pair pair{.a = a, .b = b, .motion_a = motion[block_a], .motion_b = motion[block_b], .margin = margin};
-    const Scan on_a = scan_edges(shapes, a, b, pair.b_from_a, contact.ref_edge);
-    const Scan on_b = scan_edges(shapes, b, a, pair.a_from_b, contact.ref_edge);
-    const double distance = std::max(on_a.distance, on_b.distance);
-    if (on_a.edge == no_index || on_b.edge == no_index)
+    const auto scan = [&](double seam)
+    {
+        return std::array{scan_edges(shapes, a, b, pair.b_from_a, contact.ref_edge, seam),
+                          scan_edges(shapes, b, a, pair.a_from_b, contact.ref_edge, seam)};
+    };
+    std::array<Scan, 2> scans = scan(margin);
+    if (!scans[0].has_external || !scans[1].has_external)
         return infinity;
+    if (scans[0].edge == no_index && scans[1].edge == no_index)  // all at seams
+        scans = scan(infinity);
+    const auto& [on_a, on_b] = scans;
+    const double distance = std::max(on_a.distance, on_b.distance);
 
     // Near ties go to the longer edge.
-    const double lead = shapes.edge_length[on_a.edge] >= shapes.edge_length[on_b.edge] ? margin : -margin;
+    const auto length = [&](const Scan& on) { return on.edge != no_index ? shapes.edge_length[on.edge] : 0.0; };
+    const double lead = length(on_a) >= length(on_b) ? margin : -margin;
     bool ref_is_a = on_a.external_distance + lead >= on_b.external_distance;
     Index ref_edge = ref_is_a ? on_a.edge : on_b.edge;
     const double best = std::max(on_a.external_distance, on_b.external_distance);

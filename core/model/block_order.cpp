@@ -19,6 +19,7 @@ Shapes permuted(const std::vector<Index>& from, const Shapes& old)
                 shapes.edge_tangent.push_back(old.edge_tangent[v]);
                 shapes.edge_length.push_back(old.edge_length[v]);
                 shapes.edge_source.push_back(old.edge_source[v]);
+                shapes.is_reflex.push_back(old.is_reflex[v]);
             }
             shapes.vertex_begin.push_back(static_cast<Index>(shapes.vertex.size()));
             shapes.part_block.push_back(static_cast<Index>(i));

@@ -1,11 +1,13 @@
 #include "core/rock/model_blocks.h"
 
+#include "core/geometry/reflex_vertices.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
 #include "core/rock/resolve_names.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hdem
 {
@@ -91,6 +93,7 @@ void add_block(Model& model, const RockBlock& block, const BlockMoments& moments
     model.radius.push_back(moments.radius);
     for (const ConvexPart& part : block.parts)
         add_part(model.shapes, part, moments.of.centroid, number);
+    std::ranges::copy(reflex_vertices(block.parts), std::back_inserter(model.shapes.is_reflex));
     model.shapes.part_begin.push_back(model.shapes.parts());
 }
 }  // namespace

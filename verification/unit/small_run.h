@@ -5,14 +5,17 @@
 #include "core/check.h"
 #include "core/geometry/convex_part.h"
 #include "core/geometry/polygon.h"
+#include "core/geometry/reflex_vertices.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "verification/runs/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -79,6 +82,7 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
         model.shapes.part_block.push_back(number);
         model.shapes.vertex_begin.push_back(static_cast<Index>(model.shapes.vertex.size()));
     }
+    std::ranges::copy(reflex_vertices(parts), std::back_inserter(model.shapes.is_reflex));
     model.shapes.part_begin.push_back(model.shapes.parts());
     model.name.push_back(name);
     model.material.push_back(fixed ? 1 : 0);

@@ -61,6 +61,37 @@ TEST(ConcaveBlock, DoesNotPressBehindAThinEar)
     EXPECT_LT(deepest, 0.11);
 }
 
+/// The tip of a spike in a face that ends in a hollow corner, near this corner. It is pressed by the face, not by the corner across its own side: there the block goes on.
+TEST(ConcaveBlock, DoesNotPressWithAHollowCorner)
+{
+    const Polygon roof{{-2.0, 0.62}, {0.0, 0.0}, {0.2, -0.11}, {0.4, 1.6}, {-2.0, 1.6}};
+    const Polygon spike{{-0.01, 0.03}, {-0.205, -0.43}, {0.09, -0.57}};
+    for (const double turn : {0.0, 37.0, 200.0})
+    {
+        const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
+        const auto turned = [&](Polygon shape)
+        {
+            for (Vec2& p : shape)
+                p = p.x() * x + p.y() * turned_left(x);
+            return shape;
+        };
+        BlockPair pair = as_drawn(turned(roof), turned(spike));
+        pair.search();
+        double deepest = 0.0;
+        for (Index i = 0; i < pair.state.contacts.size(); ++i)
+            if (const EdgeTouch touch = pair.touch(pair.state.contacts.get(i)); touch.length > 0.0)
+            {
+                const double overlap = std::max(touch.point[0].overlap, touch.point[1].overlap);
+                if (overlap > 0.0)
+                {
+                    EXPECT_GT(std::abs(touch.ex * x.x() + touch.ey * x.y()), 0.9) << "turned by " << turn;
+                }
+                deepest = std::max(deepest, overlap);
+            }
+        EXPECT_NEAR(deepest, (0.03 - 0.0031) * 2.0 / std::hypot(2.0, 0.62), 1e-6);
+    }
+}
+
 /// A hook above a bar that hangs on a stem: the top of the bar is one side in two pieces, and a lip of the hook is above each. Both are known before they land, or the hook
 /// would land on one lip a cycle earlier and slip sideways.
 TEST(ConcaveBlock, LandsOnBothPiecesOfASplitSideAtOnce)

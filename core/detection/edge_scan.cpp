@@ -1,0 +1,48 @@
+#include "core/detection/edge_scan.h"
+
+#include <algorithm>
+
+namespace hdem
+{
+Distance edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+{
+    const Vec2 normal = -turned_left(shapes.edge_tangent[edge]);
+    // Least of n.(R v + d - p): turn the normal once rather than each vertex.
+    const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
+    Distance distance;
+    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+    {
+        const double d = seen.dot(shapes.vertex[v]);
+        distance.least = std::min(distance.least, d);
+        distance.plain = shapes.is_reflex[v] == 0 ? std::min(distance.plain, d) : distance.plain;
+    }
+    const double origin = normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[edge]);
+    return {distance.least + origin, distance.plain + origin};
+}
+
+Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
+{
+    Scan scan;
+    for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
+    {
+        const Distance to_line = edge_distance(shapes, e, other, pose);
+        const double distance = to_line.least;
+        const bool external = is_external(shapes, e);
+        scan.has_external = scan.has_external || external;
+        if (external && to_line.is_at_seam(margin))
+            continue;
+        scan.distance = std::max(scan.distance, distance);
+        if (!external)
+            continue;
+        if (e == kept)
+            scan.kept_distance = distance;
+        const bool longer = scan.edge != no_index && shapes.edge_length[e] > shapes.edge_length[scan.edge];
+        if (distance > scan.external_distance || (distance == scan.external_distance && longer))
+        {
+            scan.external_distance = distance;
+            scan.edge = e;
+        }
+    }
+    return scan;
+}
+}  // namespace hdem

@@ -1,0 +1,63 @@
+#pragma once
+/// Distances of one part of a block from the lines of another part's edges: the axes of the separating-axis search (manifold.h).
+
+#include "core/geometry/convex_part.h"
+#include "core/model/model.h"
+#include "core/state/blocks.h"
+
+#include <limits>
+
+namespace hdem
+{
+/// Pose of block b as seen from block a's frame. Differences of positions come first, so that far from the origin
+/// nothing is lost.
+struct RelativePose
+{
+    double c, s, x, y;
+
+    RelativePose(const BlockMotion& a, const BlockMotion& b)
+    {
+        c = a.c * b.c + a.s * b.s;
+        s = a.c * b.s - a.s * b.c;
+        const double dx = b.x - a.x;
+        const double dy = b.y - a.y;
+        x = a.c * dx + a.s * dy;
+        y = a.c * dy - a.s * dx;
+    }
+    [[nodiscard]] Vec2 turned(const Vec2& v) const { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
+    [[nodiscard]] Vec2 moved(const Vec2& v) const { return turned(v) + Vec2(x, y); }
+};
+
+[[nodiscard]] inline bool is_external(const Shapes& shapes, Index edge)
+{
+    return shapes.edge_source[edge] != edge_internal;
+}
+
+/// Of a part from the line of an edge.
+struct Distance
+{
+    double least = std::numeric_limits<double>::infinity();  ///< < 0 when it reaches behind it [m]
+    double plain = std::numeric_limits<double>::infinity();  ///< of its vertices that are no reflex corners of its block
+
+    /// Does only a reflex corner reach behind the line? There the block goes on in the next part: nothing lies against the line in that corner.
+    [[nodiscard]] bool is_at_seam(double margin) const { return least < -margin && plain > least + margin; }
+};
+
+/// Of part `other` from the line of `edge`. `pose` is that of the other block in the frame of the edge's.
+[[nodiscard]] Distance edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose);
+
+/// Result of scanning one part's edges against the other's vertices.
+struct Scan
+{
+    double distance = -std::numeric_limits<double>::infinity();  ///< greatest over all edges
+    double external_distance = -std::numeric_limits<double>::infinity();
+    Index edge = no_index;                                            ///< external edge that reaches it
+    double kept_distance = -std::numeric_limits<double>::infinity();  ///< of the edge asked for
+    bool has_external = false;
+};
+
+/// `other` in the frame of `part`: pose of the block of the other part. External edges at a seam do not count.
+/// @param kept    an edge whose distance is asked for
+/// @param margin  as of Distance::is_at_seam
+[[nodiscard]] Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin);
+}  // namespace hdem
