@@ -18,7 +18,6 @@ class NameCheck : public CaseCheck
         check_names();
         check_joints();
         check_use();
-        check_use_of_materials();
     }
 
   private:
@@ -38,22 +37,6 @@ class NameCheck : public CaseCheck
                     "joint." + joint.name, fmt::format("joint \"{}\"", joint.name), fmt::format("[joint.{}]", joint.name),
                     "no contact has it: nothing names it",
                     fmt::format("Give joint = \"{}\" to a joint set, a fault or the like, or materials here.", joint.name));
-    }
-
-    void check_use_of_materials()
-    {
-        Names used;
-        if (def_.domain.given)
-            used.insert(def_.domain.material);
-        for (const RegionDef& region : def_.regions)
-            used.insert(region.material);
-        for (const BlockDef& block : def_.blocks)
-            used.insert(block.material);
-        for (const MaterialDef& material : def_.materials)
-            if (!used.contains(material.name) && !problems_.has("material." + material.name))
-                problems_.warn("material." + material.name, fmt::format("material \"{}\"", material.name),
-                               fmt::format("[material.{}]", material.name), "no block has it: nothing names it",
-                               fmt::format("Give material = \"{}\" to the domain, a region or a block.", material.name));
     }
 
     /// Rules for names, and no name twice among those that the same key may refer to.

@@ -187,7 +187,7 @@ TEST(CaseReader, WarnsOfJointsThatNothingNames)
     EXPECT_EQ(warnings(domain + "[[fault]]\nname = \"f\"\npoints = [[9, 1], [15, 2]]\njoint = \"bedding\"\n" + joint), "");
 }
 
-TEST(CaseReader, WarnsOfMaterialsThatNoBlockHasAndOfLoadsOnFixedBlocks)
+TEST(CaseReader, WarnsOfForcesOnFixedBlocks)
 {
     const auto warnings = [](const std::string& more)
     {
@@ -196,11 +196,7 @@ TEST(CaseReader, WarnsOfMaterialsThatNoBlockHasAndOfLoadsOnFixedBlocks)
             texts += warning.text;
         return texts;
     };
-    const std::string ore = "[material.ore]\ndensity = 4000\n";
-    EXPECT_THAT(warnings(ore), testing::HasSubstr("material \"ore\": [material.ore] (no block has it: nothing names it). Give"));
     const std::string block = "[[block]]\nname = \"last\"\npolygon = [[20, 0], [21, 0], [21, 1], [20, 1]]\n";
-    EXPECT_EQ(warnings(ore + block + "material = \"ore\"\n"), "");
-
     const std::string load = "fixed = true\n[[load]]\nblocks = [\"last\"]\n";
     EXPECT_THAT(warnings(block + load + "force = [1e5, 0]\n"),
                 testing::HasSubstr("load 1: blocks names \"last\" (does not move it: it is fixed in all stages). Name"));
