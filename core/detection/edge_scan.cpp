@@ -4,32 +4,46 @@
 
 namespace hdem
 {
-Distance edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Only blocks of several parts have reflex corners.
+bool is_hollow(const Shapes& shapes, Index part)
+{
+    const Index block = shapes.part_block[part];
+    return shapes.part_begin[block + 1] - shapes.part_begin[block] > 1;
+}
+
+template <bool hollow>
+Distance distance_of(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
 {
     const Vec2 normal = -turned_left(shapes.edge_tangent[edge]);
     // Least of n.(R v + d - p): turn the normal once rather than each vertex.
     const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
-    Distance distance;
+    double least = infinity, plain = infinity;
     for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
     {
         const double d = seen.dot(shapes.vertex[v]);
-        distance.least = std::min(distance.least, d);
-        distance.plain = shapes.is_reflex[v] == 0 ? std::min(distance.plain, d) : distance.plain;
+        least = std::min(least, d);
+        if (hollow && shapes.is_reflex[v] == 0)
+            plain = std::min(plain, d);
     }
     const double origin = normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[edge]);
-    return {distance.least + origin, distance.plain + origin};
+    return {least + origin, (hollow ? plain : least) + origin};
 }
 
-Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
+template <bool hollow>
+Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
 {
     Scan scan;
     for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
     {
-        const Distance to_line = edge_distance(shapes, e, other, pose);
+        const Distance to_line = distance_of<hollow>(shapes, e, other, pose);
         const double distance = to_line.least;
         const bool external = is_external(shapes, e);
         scan.has_external = scan.has_external || external;
-        if (external && to_line.is_at_seam(margin))
+        if (hollow && external && to_line.is_at_seam(margin))
             continue;
         scan.distance = std::max(scan.distance, distance);
         if (!external)
@@ -44,5 +58,17 @@ Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePos
         }
     }
     return scan;
+}
+}  // namespace
+
+Distance edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
+{
+    return is_hollow(shapes, other) ? distance_of<true>(shapes, edge, other, pose) : distance_of<false>(shapes, edge, other, pose);
+}
+
+Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
+{
+    return is_hollow(shapes, other) ? scan<true>(shapes, part, other, pose, kept, margin)
+                                    : scan<false>(shapes, part, other, pose, kept, margin);
 }
 }  // namespace hdem

@@ -231,7 +231,7 @@ struct BartonBandis
         const R angle = base_angle(n, x) + share * i, whole = tan(angle), t = n[strength_share] * whole;
         const R excess = magnitude(trial) - before.stress * t;
         R mu = zero, dilation = zero, lambda = zero, rate = zero;
-        if (is_rough)
+        if (is_rough && any(grows))
             rate = select(grows, dilation_between(n, m.state, delta, i), zero);
         if (any(excess > zero))  // most points of most cycles stick
         {

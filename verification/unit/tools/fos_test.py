@@ -72,13 +72,14 @@ class Fos(unittest.TestCase):
         self.assertIn("Blocks that fail", page)
 
     def test_warns_of_a_toe_on_the_floor(self):
-        # Plane failure at 35 degrees, F = 1.2145. The floor before the slope holds the tip of the wedge at any strength.
+        # Plane failure at 35 degrees, F = 1.2145. The floor before the slope holds the tip of the wedge, until it slides out on the floor as the foot of a
+        # ladder does: of a rigid tip at F = 3.53 (equilibrium of forces and moments, the plane pressed at its upper end), here later, since the tip sinks in.
         case = self.folder.with_name("toe.toml")
         case.write_text(TOE, encoding="utf-8")
-        text = hdem("fos", case, "-o", self.folder, code=4)
-        self.assertIn("nothing fails", text)
+        text = hdem("fos", case, "-o", self.folder)
         self.assertIn("without them the factor is at most 1.21", text)
         found = answer(self.folder)
+        self.assertTrue(3.5 < found["factor"] < 5.0, found["factor"])
         self.assertIsNone(found["bound"])
         self.assertAlmostEqual(found["bound_without_corners"], 1.2145, delta=0.001)
         self.assertEqual(len(found["warnings"]), 1)
