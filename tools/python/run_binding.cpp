@@ -156,12 +156,14 @@ std::shared_ptr<DrivenRun> make_run(const BuiltCase& built, const std::optional<
                                     const std::optional<int>& threads, bool overwrite)
 {
     const RunOptions options = options_of(folder, threads, overwrite);
+    const WithoutPython free;  // here, and not as a call_guard: what pybind11 does with the result needs the lock
     return std::make_shared<DrivenRun>(start_loaded(*built.loaded, built.overrides, options), options);
 }
 
 std::shared_ptr<DrivenRun> make_restart(const std::string& checkpoint, bool writes, const std::optional<int>& threads)
 {
     RunOptions options = options_of(std::nullopt, threads, false);
+    const WithoutPython free;
     if (!writes)
         return std::make_shared<DrivenRun>(read_moment(checkpoint), options);
     options.restart = checkpoint;
@@ -189,10 +191,8 @@ void bind_run(py::module_& module)
     PYBIND11_NUMPY_DTYPE(ContactRow, blocks, joint, end, regime, point, normal, length, normal_force, shear_force, gap, closure,
                          slip, plastic_slip, broken);
     RunType type(module, "Run");
-    type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"),
-             py::call_guard<WithoutPython>());
-    type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"),
-             py::call_guard<WithoutPython>());
+    type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"));
+    type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"));
     type.def("_run", &run_piece, py::arg("cycles"), py::arg("stages"), py::arg("callback"), py::arg("every"));
     type.def(
         "contacts", [](const DrivenRun& run, bool also_open) { return contact_table(run.look(), also_open); },

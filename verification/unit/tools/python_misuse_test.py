@@ -147,6 +147,30 @@ def test_python_ends_while_cycles_run(callback):
         assert (done.returncode, done.stdout, done.stderr) == (0, "end\n", "")
 
 
+def test_simulations_are_made_in_many_threads_at_once(tmp_path):
+    """From cases and from checkpoints; in a process of its own: where they disturb each other, Python itself dies."""
+    script = """if True:
+        import sys, hdem
+        from concurrent.futures import ThreadPoolExecutor
+        case = hdem.Case({"domain": {"width": 1.0, "height": 1.0, "fixed": ["bottom"]}, "joint_set": [{"dip_deg": 0.0, "spacing": 0.5}],
+                          "material": {"rock": {"density": 2700.0}}, "stage": [{"cycles": 3}],
+                          "joint": {"default": {"normal_stiffness": 2e9, "shear_stiffness": 1e9, "friction_angle_deg": 32.0}}})
+        begun = hdem.Simulation(case, threads=1)
+        begun.run(cycles=1)
+        begun.write_checkpoint(sys.argv[1])
+
+        def make(number):
+            kept = [hdem.Simulation(case, threads=1) for _ in range(10)]
+            kept.append(hdem.Simulation.from_checkpoint(sys.argv[1] + "/checkpoint.h5", threads=1) if number % 10 == 0 else hdem.Simulation(hdem.Case(case.data), threads=1))
+            kept[-1].run()
+            return kept[-1].state_hash
+        with ThreadPoolExecutor(4) as pool:
+            print(len(set(pool.map(make, range(800)))))
+    """
+    done = subprocess.run([sys.executable, "-c", script, tmp_path], capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "1\n", ""), done.stderr
+
+
 def test_a_handler_of_a_signal_may_raise():
     class Enough(Exception):
         pass
