@@ -128,7 +128,10 @@ def packed_zeros(random, opened, name):
     """Stored in truth, and a thousand times as large in memory."""
     dtype = opened[name].dtype
     del opened[name]
-    opened.create_dataset(name, data=np.zeros(random.choice([1000, 1 << 20, 1 << 22]), dtype), chunks=True, compression=random.choice(["gzip", "lzf"]))
+    count, part = random.choice([1000, 1 << 20, 1 << 22]), max(1, (1 << 24) // dtype.itemsize)    # in parts: what the change takes is not counted
+    packed = opened.create_dataset(name, (count,), dtype, chunks=True, compression=random.choice(["gzip", "lzf"]))
+    for first in range(0, count, part):
+        packed[first:first + part] = np.zeros(min(part, count - first), dtype)
 
 
 def other_type(random, opened, name):
