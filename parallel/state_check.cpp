@@ -64,6 +64,8 @@ void refuse_overlap(const Model& model, const State& state)
     const Contacts& contacts = state.contacts;
     for (Index i = 0; i < contacts.size(); ++i)
     {
+        if (!is_closed_contact(state, i))  // overlaps of the others mean nothing: their edges may be beside each other
+            continue;
         const Index ref = contacts.ref[i], inc = contacts.inc[i];
         const Contact contact = contacts.get(i);
         const double overlap = std::max(contact.point[0].overlap, contact.point[1].overlap);

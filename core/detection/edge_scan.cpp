@@ -47,7 +47,14 @@ Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pos
             continue;
         scan.distance = std::max(scan.distance, distance);
         if (!external)
+        {
+            if (distance > scan.internal_distance)
+            {
+                scan.internal_distance = distance;
+                scan.internal_edge = e;
+            }
             continue;
+        }
         if (e == kept)
             scan.kept_distance = distance;
         const bool longer = scan.edge != no_index && shapes.edge_length[e] > shapes.edge_length[scan.edge];
@@ -66,9 +73,19 @@ Distance edge_distance(const Shapes& shapes, Index edge, Index other, const Rela
     return is_hollow(shapes, other) ? distance_of<true>(shapes, edge, other, pose) : distance_of<false>(shapes, edge, other, pose);
 }
 
-Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
+PairScan scan_pair(const Shapes& shapes, const PartPair& pair, Index kept)
 {
-    return is_hollow(shapes, other) ? scan<true>(shapes, part, other, pose, kept, margin)
-                                    : scan<false>(shapes, part, other, pose, kept, margin);
+    const auto scan_within = [&](double seam)
+    {
+        const auto on = [&](Index part, Index other, const RelativePose& pose)
+        {
+            return is_hollow(shapes, other) ? scan<true>(shapes, part, other, pose, kept, seam)
+                                            : scan<false>(shapes, part, other, pose, kept, seam);
+        };
+        return PairScan{{on(pair.a, pair.b, pair.b_from_a), on(pair.b, pair.a, pair.a_from_b)}};
+    };
+    const PairScan found = scan_within(pair.margin);
+    const bool all_at_seams = found.has_external() && found.on[0].edge == no_index && found.on[1].edge == no_index;
+    return all_at_seams ? scan_within(infinity) : found;
 }
 }  // namespace hdem

@@ -5,6 +5,8 @@
 #include "core/model/model.h"
 #include "core/state/blocks.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace hdem
@@ -51,13 +53,35 @@ struct Scan
 {
     double distance = -std::numeric_limits<double>::infinity();  ///< greatest over all edges
     double external_distance = -std::numeric_limits<double>::infinity();
-    Index edge = no_index;                                            ///< external edge that reaches it
+    Index edge = no_index;  ///< external edge that reaches it
+    double internal_distance = -std::numeric_limits<double>::infinity();
+    Index internal_edge = no_index;                                   ///< that reaches it
     double kept_distance = -std::numeric_limits<double>::infinity();  ///< of the edge asked for
     bool has_external = false;
 };
 
-/// `other` in the frame of `part`: pose of the block of the other part. External edges at a seam do not count.
+/// Two parts of a contact, and each block as seen from the other.
+struct PartPair
+{
+    Index a, b;
+    const BlockMotion& motion_a;
+    const BlockMotion& motion_b;
+    double margin;  ///< distances that differ by less are equal [m]
+    RelativePose b_from_a{motion_a, motion_b};
+    RelativePose a_from_b{motion_b, motion_a};
+};
+
+/// Each part's edges against the other's vertices.
+struct PairScan
+{
+    std::array<Scan, 2> on;  ///< 0: edges of part a
+
+    [[nodiscard]] bool has_external() const { return on[0].has_external && on[1].has_external; }
+    [[nodiscard]] double distance() const { return std::max(on[0].distance, on[1].distance); }
+    [[nodiscard]] double external_distance() const { return std::max(on[0].external_distance, on[1].external_distance); }
+};
+
+/// External edges at a seam do not count, unless there are no others.
 /// @param kept    an edge whose distance is asked for
-/// @param margin  as of Distance::is_at_seam
-[[nodiscard]] Scan scan_edges(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin);
+[[nodiscard]] PairScan scan_pair(const Shapes& shapes, const PartPair& pair, Index kept = no_index);
 }  // namespace hdem

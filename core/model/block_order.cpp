@@ -20,6 +20,7 @@ Shapes permuted(const std::vector<Index>& from, const Shapes& old)
                 shapes.edge_length.push_back(old.edge_length[v]);
                 shapes.edge_source.push_back(old.edge_source[v]);
                 shapes.is_reflex.push_back(old.is_reflex[v]);
+                shapes.to_twin.push_back(old.to_twin[v]);
             }
             shapes.vertex_begin.push_back(static_cast<Index>(shapes.vertex.size()));
             shapes.part_block.push_back(static_cast<Index>(i));

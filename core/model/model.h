@@ -33,6 +33,7 @@ struct Shapes
     std::vector<double> edge_length;        ///< per vertex [m]
     std::vector<std::int32_t> edge_source;  ///< per vertex: EdgeSource, or a number of EdgeSources (model/edge_sources.h)
     std::vector<std::uint8_t> is_reflex;    ///< per vertex: is the block's angle there above 180 degrees?
+    std::vector<Index> to_twin;             ///< per vertex: steps to the same internal edge of the part beyond it; 0: none
     std::vector<Vec2> part_centre;          ///< per part: centre of its bounding circle, body frame [m]
     std::vector<double> part_radius;        ///< per part: of that circle [m]
 

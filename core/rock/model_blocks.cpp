@@ -3,6 +3,7 @@
 #include "core/geometry/reflex_vertices.h"
 #include "core/geometry/smallest_rectangle.h"
 #include "core/geometry/space_curve.h"
+#include "core/geometry/twin_edges.h"
 #include "core/rock/resolve_names.h"
 
 #include <algorithm>
@@ -94,6 +95,7 @@ void add_block(Model& model, const RockBlock& block, const BlockMoments& moments
     for (const ConvexPart& part : block.parts)
         add_part(model.shapes, part, moments.of.centroid, number);
     std::ranges::copy(reflex_vertices(block.parts), std::back_inserter(model.shapes.is_reflex));
+    std::ranges::copy(twin_edges(block.parts), std::back_inserter(model.shapes.to_twin));
     model.shapes.part_begin.push_back(model.shapes.parts());
 }
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/geometry/convex_part.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/reflex_vertices.h"
+#include "core/geometry/twin_edges.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "verification/runs/scratch_folder.h"
@@ -83,6 +84,7 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
         model.shapes.vertex_begin.push_back(static_cast<Index>(model.shapes.vertex.size()));
     }
     std::ranges::copy(reflex_vertices(parts), std::back_inserter(model.shapes.is_reflex));
+    std::ranges::copy(twin_edges(parts), std::back_inserter(model.shapes.to_twin));
     model.shapes.part_begin.push_back(model.shapes.parts());
     model.name.push_back(name);
     model.material.push_back(fixed ? 1 : 0);

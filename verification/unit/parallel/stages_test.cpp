@@ -1,5 +1,6 @@
 #include "core/stage/rules.h"
 #include "parallel/stages.h"
+#include "parallel/state_check.h"
 #include "verification/unit/case_run.h"
 
 #include <gmock/gmock.h>
@@ -212,6 +213,34 @@ TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
     EXPECT_THAT(error, HasSubstr("contact.overlap_limit"));
     scene.contact.overlap_limit = 0.6;
     EXPECT_EQ(error_of(scene), "none");
+}
+
+/// Edges that are beside each other have an overlap too, of any size.
+TEST(RunChecks, DoNotNameBlocksThatDoNotTouch)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scenes::add_block(scene, "neighbour", scenes::rectangle({0.505, 0.0}, {1.5, 1.0}));
+    scene.stages[0].cycles = 10;
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state));
+    run_stages(simulation, {});
+    State state = simulation.state();
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        Contact contact = state.contacts.get(i);
+        contact.point[0].overlap = contact.point[0].regime == Regime::open ? 10.0 : 1.0;
+        state.contacts.put(i, contact);
+    }
+    try
+    {
+        refuse_overlap(simulation.model(), state);
+        FAIL();
+    }
+    catch (const RunError& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("overlap = 1 m"));
+        EXPECT_THAT(error.what(), HasSubstr("\"ground\""));
+    }
 }
 }  // namespace
 }  // namespace hdem

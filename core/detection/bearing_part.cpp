@@ -1,0 +1,71 @@
+#include "core/detection/bearing_part.h"
+
+#include "core/detection/facing_edges.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace hdem
+{
+namespace
+{
+/// Parts around one: two rings of neighbours, since a part without external edges may lie between two that can bear.
+constexpr int rings = 2;
+
+/// Times the depth: an external edge that lies farther behind is on the other side of the block. (A spike of 37 degrees along a seam lies three times as deep behind
+/// the face as behind the seam.)
+constexpr double farthest = 3.0;
+
+Index part_of(const Shapes& shapes, Index block, Index edge)
+{
+    const auto begin = shapes.vertex_begin.begin();
+    const auto first = begin + shapes.part_begin[block], last = begin + shapes.part_begin[block + 1];
+    return static_cast<Index>(std::upper_bound(first, last, edge) - begin) - 1;
+}
+
+/// The part itself is the first.
+std::vector<Index> parts_around(const Shapes& shapes, Index part)
+{
+    std::vector<Index> around{part};
+    std::size_t at = 0;
+    for (int ring = 0; ring < rings; ++ring)
+        for (const std::size_t end = around.size(); at < end; ++at)
+        {
+            const Index of = around[at];
+            for (Index e = shapes.vertex_begin[of]; e < shapes.vertex_begin[of + 1]; ++e)
+            {
+                if (shapes.to_twin[e] == 0)
+                    continue;
+                const Index beyond = part_of(shapes, shapes.part_block[part], e + shapes.to_twin[e]);
+                if (std::ranges::find(around, beyond) == around.end())
+                    around.push_back(beyond);
+            }
+        }
+    return around;
+}
+}  // namespace
+
+bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, double tolerance)
+{
+    const auto leaves_it = [&](const PairScan& s) { return s.distance() > s.external_distance() + pair.margin + tolerance; };
+    if (!leaves_it(scan))
+        return true;
+    bool is_deepest = scan.external_distance() > farthest * scan.distance();
+    const std::vector<Index> around_b = parts_around(shapes, pair.b);
+    for (const Index a : parts_around(shapes, pair.a))
+        for (const Index b : around_b)
+        {
+            const PartPair other{.a = a, .b = b, .motion_a = pair.motion_a, .motion_b = pair.motion_b, .margin = pair.margin};
+            const PairScan found = scan_pair(shapes, other);
+            const double depth = -found.distance();
+            if ((a == pair.a && b == pair.b) || !found.has_external() || depth < pair.margin)
+                continue;
+            if (!leaves_it(found) && choose_facing(shapes, other, found).overlap > 0.0)
+                return false;
+            const bool comes_first = a != pair.a ? a < pair.a : b < pair.b;  // of pairs that are equally deep
+            if (leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))
+                is_deepest = false;
+        }
+    return is_deepest;
+}
+}  // namespace hdem

@@ -1,0 +1,22 @@
+#pragma once
+/// Which edges of two parts face each other.
+
+#include "core/detection/edge_scan.h"
+#include "core/state/contacts.h"
+
+namespace hdem
+{
+/// A reference edge with the edge that faces it.
+struct Facing
+{
+    bool ref_is_a;
+    Index ref_edge, inc_edge;
+    EdgePair edges;
+    double overlap;  ///< greatest where they face each other; -infinity: beside each other [m]
+};
+
+/// The external edge of least overlap, and the one of the other part that faces it.
+/// @param kept  an edge that is taken if no other's overlap is less by the margin
+/// @pre  both parts have an external edge
+[[nodiscard]] Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept = no_index);
+}  // namespace hdem
