@@ -13,6 +13,11 @@ def folder_of(folder, number):
     return folder / f"run_{number:06d}"
 
 
+def runs_in(folder):
+    """Folders of runs, of whatever plan."""
+    return sorted(folder.glob("run_" + "[0-9]" * 6))
+
+
 FACTOR = "factor_of_safety"    # in the summary of a search by hdem fos that is done; before, it is that of the stages alone
 
 

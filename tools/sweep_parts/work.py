@@ -128,7 +128,9 @@ def work(options):
     """Exit code: the worst of the runs of this worker; 0 when it stopped because enough is known."""
     if options.jobs < 1:
         raise SweepError(f"--jobs {options.jobs}: must be at least 1.")
-    worker = Worker(options, plans.read(options.folder))
+    plan = plans.read(options.folder)
+    plans.require_same_case(plan)
+    worker = Worker(options, plan)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, worker.start.stop)
     with ThreadPoolExecutor(options.jobs) as pool:

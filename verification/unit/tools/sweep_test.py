@@ -156,6 +156,29 @@ class Sweep(unittest.TestCase):
         code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "generator.sed=1:3", "--program", "nowhere")
         self.assertEqual(code, 0, "planned where hdem is not: " + said)
 
+    def test_runs_of_another_plan_do_not_count(self):
+        self.plan("generator.seed=1:2")
+        (self.folder / "s/run_000001").mkdir()
+        (self.folder / "s/plan.json").unlink()
+        code, said = self.sweep("plan", "small.toml", "-o", "s", "--vary", "joint.default.friction_angle_deg=1:2")
+        self.assertEqual(code, 2)
+        self.assertIn("s/run_000001: is a run of another plan", said)
+        self.assertFalse((self.folder / "s/plan.json").exists())
+
+    def test_runs_of_a_case_that_has_changed_are_refused(self):
+        self.plan("generator.seed=1:2")
+        program = self.recorder()
+        self.assertEqual(self.sweep("run", "s", "1", "--program", program)[0], 0)
+        (self.folder / "small.toml").write_text(small_case.CASE + "# changed\n", encoding="utf-8")
+        (self.folder / "words").unlink()
+        for command in (["run", "s", "2"], ["work", "s"]):
+            code, said = self.sweep(*command, "--program", program)
+            self.assertEqual(code, 2)
+            self.assertIn("small.toml: has changed since the plan was made", said)
+        self.assertFalse((self.folder / "words").exists())
+        (self.folder / "small.toml").write_text(small_case.CASE, encoding="utf-8")
+        self.assertEqual(self.sweep("run", "s", "2", "--program", program)[0], 0)
+
     def test_errors_say_what_is_wrong(self):
         self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
         self.plan("generator.seed=1")
