@@ -288,6 +288,9 @@ int critical_command(const CriticalOptions& options)
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
                                                    : fs::path(options.folder);
     const RunLock lock(folder);
+    if (fs::exists(folder / "results.h5"))
+        refuse(fmt::format("{}: (holds the results of a run). Give another folder with -o.", printable(folder.string())));
+    remove_file(folder / "summary.json");  // of a search before
     if (options.overwrite)
         remove_file(folder / "trials.json");
     Log log(folder / "run.log", options.quiet, Log::Begin::anew);
@@ -296,9 +299,9 @@ int critical_command(const CriticalOptions& options)
     try
     {
         const Bracket found = search.find();
-        const Json summary = {{"case", fs::path(options.case_file).filename().string()},
-                              {"vary", vary.key},
-                              {"fails", options.fails},
+        const Json summary = {{"case", printable(fs::path(options.case_file).filename().string())},
+                              {"vary", printable(vary.key)},
+                              {"fails", printable(options.fails)},
                               {"critical", found.middle()},
                               {"stands_at", *found.stands},
                               {"fails_at", *found.fails},
