@@ -29,6 +29,9 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
 
     /// @param options  threads; folder of the results, "" for none
     DrivenRun(RunStart start, RunOptions options);
+    ~DrivenRun();
+    DrivenRun(const DrivenRun&) = delete;
+    DrivenRun& operator=(const DrivenRun&) = delete;
 
     /// Until the piece is done, the callback says so, or an exception of Python. The GIL is free while cycles run.
     const std::vector<StageResult>& run(const Piece& piece);
@@ -75,7 +78,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     RunOptions options_;
     std::optional<Simulation> simulation_;
     std::unique_ptr<Log> log_;
-    std::optional<RunFiles> files_;
+    std::unique_ptr<RunFiles> files_;
     std::vector<StageResult> results_;
     std::optional<StageResult> over_;
     std::string failure_;  ///< why the run cannot go on; empty: it can
@@ -95,3 +98,8 @@ pybind11::array DrivenRun::view(const std::vector<T>& values)
     return array;
 }
 }  // namespace hdem
+
+template <>
+class pybind11::detail::type_caster<hdem::DrivenRun> : public hdem::CasterOfMade<hdem::DrivenRun>
+{
+};

@@ -3,12 +3,11 @@ from __future__ import annotations
 
 import operator
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _core
-from ._toml import to_toml, toml_value
+from ._toml import from_toml, to_toml, toml_value
 
 
 def override_texts(changes: Mapping[str, Any] | Iterable[str]) -> list[str]:
@@ -66,7 +65,7 @@ class Case(_core.Case):
     @property
     def data(self) -> dict[str, Any]:
         """The text as a dict of its own, without what `set` says."""
-        return tomllib.loads(self.text)
+        return from_toml(self.text)
 
     @property
     def blocks(self) -> int:

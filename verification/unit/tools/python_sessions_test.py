@@ -1,0 +1,219 @@
+#!/usr/bin/python3
+"""The Python module hdem in notebooks and in many processes, by pytest: debuggers, forks, other folders, cases from Windows, values laid over a case.
+
+    python_sessions_test.py CASE    any case of some blocks, with the package on PYTHONPATH; exit code 77: it was not built, or there is no pytest
+"""
+import enum
+import os
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+try:
+    import numpy as np
+    import pytest
+
+    import hdem
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+CASE = sys.argv[1] if __name__ == "__main__" else os.environ["HDEM_TEST_CASE"]
+COLUMN = {"block": [{"name": "floor", "polygon": [[-2, -1], [3, -1], [3, 0], [-2, 0]], "fixed": True},
+                    *({"name": f"b{i}", "polygon": [[0, i], [1, i], [1, i + 1], [0, i + 1]]} for i in range(3))],
+          "material": {"rock": {"density": 2000.0}},
+          "joint": {"default": {"normal_stiffness": 1e9, "shear_stiffness": 1e9, "friction_angle_deg": 30.0}},
+          "stage": [{"cycles": 100}, {"cycles": 200}]}
+
+
+def column(folder=None, over=(), **keys):
+    return hdem.Simulation(hdem.Case(COLUMN | keys, set=over), threads=1, folder=folder)
+
+
+def in_child(act, longest=30):
+    """Exit code of a forked process: 0, or 1 where `act` raised; None where it did not end."""
+    child = os.fork()
+    if child == 0:
+        try:
+            act()
+            os._exit(0)
+        finally:
+            os._exit(1)
+    end = time.monotonic() + longest
+    while time.monotonic() < end:
+        ended, status = os.waitpid(child, os.WNOHANG)
+        if ended:
+            return os.waitstatus_to_exitcode(status)
+        time.sleep(0.01)
+    os.kill(child, 9)
+    os.waitpid(child, 0)
+    return None
+
+
+def never_made():
+    case, run = hdem.Case.__new__(hdem.Case), hdem.Simulation.__new__(hdem.Simulation)
+    failed = None
+    try:
+        hdem.Case({"no": "section"})
+    except hdem.CaseError as error:    # what a debugger shows afterwards
+        frame = error.__traceback__
+        while frame:
+            failed = frame.tb_frame.f_locals.get("self", failed)
+            frame = frame.tb_next
+    return [case, run, failed]
+
+
+def test_what_was_never_made_says_so():
+    for made in never_made():
+        assert "could not" in repr(made)
+        for name in ("names", "positions", "polygons", "joint_names"):
+            with pytest.raises(RuntimeError, match="never made"):
+                getattr(made, name)
+    case, run, _ = never_made()
+    for act in (run.run, run.contacts, lambda: run.cycle, lambda: run.is_over, lambda: run.motion_view, lambda: hdem.Simulation(case), lambda: case.title):
+        with pytest.raises(RuntimeError, match="never made"):
+            act()
+
+
+@pytest.mark.parametrize("answer", [False, np.False_, np.all([False])])
+def test_every_false_ends_a_run(answer):
+    run = column()
+    run.run(callback=lambda _: answer, every=10)
+    assert run.cycle == 10
+
+
+@pytest.mark.parametrize("answer", [None, True, np.True_, 0, "", np.zeros(3)])
+def test_nothing_else_ends_it(answer):
+    run = column()
+    run.run(callback=lambda _: answer, every=10)
+    assert run.is_done
+
+
+def test_a_run_stays_in_its_folder_when_the_script_goes_elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    run = column(folder="run")
+    run.run(cycles=10)
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    run.run()
+    del run
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["elsewhere", "run"] and not any((tmp_path / "elsewhere").iterdir())
+    assert (tmp_path / "run/summary.json").exists() and not (tmp_path / "run/.lock").exists()
+
+
+def test_a_forked_process_does_not_end_the_run_of_its_parent(tmp_path):
+    run = [column(folder=tmp_path / "run")]
+    run[0].run(cycles=10)
+    assert in_child(run.clear) == 0
+    assert (tmp_path / "run/.lock").exists()
+    with pytest.raises(hdem.CaseError, match="another run is in this folder"):
+        column(folder=tmp_path / "run")
+    run[0].run()
+    assert run[0].summary["cycles"] == 300
+
+
+def test_forked_processes_write_files_while_the_parent_does(tmp_path):
+    """A fork in the middle of a frame would leave the lock of the library for files closed in the child."""
+    run = column(folder=tmp_path / "run", output={"frame_every": 1}, stage=[{"cycles": 100_000_000}])
+    thread = threading.Thread(target=lambda: run.run(callback=lambda _: not ended.is_set(), every=1))
+    ended = threading.Event()
+    thread.start()
+
+    def work():
+        column(folder=tmp_path / f"child{os.getpid()}").run(cycles=3)
+    try:
+        assert [in_child(work, longest=20) for _ in range(12)] == [0] * 12
+    finally:
+        ended.set()
+        thread.join()
+
+
+def test_a_case_from_windows_can_be_changed(tmp_path):
+    file = tmp_path / "case.toml"
+    file.write_bytes(b"\xef\xbb\xbf" + hdem.to_toml(COLUMN).replace("\n", "\r\n").encode())
+    case = hdem.Case(file)
+    assert case.data["stage"] == COLUMN["stage"]
+    run = hdem.Simulation(case, threads=1)
+    run.add_stage(cycles=5)
+    assert len(run.case["stage"]) == 3 and not run.applied_forces.any()
+
+
+OVER = [{"stage": COLUMN["stage"]}, ["stage[1]={cycles=200}"], {"stage[1].cycles": 200}, ["stage.stage2.cycles=200"], {"stage[1].set": ["joint.default.cohesion = 0"]},
+        ["stage[1].name=second", "stage.second.cycles = 200"], {"load": [{"blocks": ["b0"], "force": [0.0, 0.0]}]}, {"generator.seed": 4}]
+
+
+@pytest.mark.parametrize("over", OVER)
+def test_changes_are_not_covered_by_what_is_laid_over_the_case(over):
+    def changed(over):
+        run = column(over=over)
+        run.run(stages=1)
+        run.set("joint.default.friction_angle_deg", 1.0)
+        run.applied_forces = [[0, 0], [0, 0], [0, 0], [9e3, 0]]
+        run.run(cycles=50)
+        run.end_stage()
+        run.add_stage(cycles=20)
+        run.run()
+        again = hdem.Simulation(hdem.Case(run.case, set=run.case_overrides), threads=1)
+        again.run()
+        assert again.state_hash == run.state_hash and run.applied_forces[3, 0] == 9e3
+        return run
+    plain, laid = changed(()), changed(over)
+    assert [stage["cycles"] for stage in laid.results] == [100, 50, 20]
+    np.testing.assert_array_equal(laid.positions, plain.positions)
+    assert laid.displacements[3, 0] > 1e-4
+
+
+def test_numbers_of_classes_of_their_own():
+    class Seed(enum.IntEnum):
+        three = 3
+    assert hdem.Case(CASE, set={"generator.seed": Seed.three}).overrides == ["generator.seed=3"]
+
+
+def test_a_run_in_another_thread_has_a_name_and_no_numbers():
+    run = column(stage=[{"cycles": 100_000_000}])
+    begun, ended = threading.Event(), threading.Event()
+
+    def tell(_):
+        begun.set()
+        return not ended.is_set()
+    thread = threading.Thread(target=lambda: run.run(callback=tell, every=200_000))
+    thread.start()
+    begun.wait()
+    asked = {}
+    while "is_over" not in asked:
+        assert "hdem.Simulation" in repr(run)
+        for name in ("cycle", "results", "is_done", "is_over", "summary"):
+            try:
+                getattr(run, name)
+            except RuntimeError as error:
+                asked[name] = str(error)
+    ended.set()
+    thread.join()
+    assert all("in another thread" in text for text in asked.values())
+
+
+def test_a_factor_of_safety_at_the_end_of_python():
+    """F = tan 30 deg / tan 20 deg."""
+    slab = COLUMN | {"block": [COLUMN["block"][0], {"name": "slab", "polygon": [[-1, 0], [2, 0], [2, 1], [-1, 1]]}], "gravity": {"tilt_deg": 20.0},
+                     "stage": [{"until": "converged"}], "factor_of_safety": {"check_stiffness": 1, "peak": False}}
+    script = f"""
+import atexit
+
+def last():
+    import hdem
+    seen = []
+    print(hdem.fos(hdem.Case({slab!r}), threads=1, callback=seen.append).factor, len(seen) > 0)
+
+atexit.register(last)
+import hdem
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    factor, told = done.stdout.split()
+    assert abs(float(factor) - 1.586) < 0.01 and told == "True", done.stderr
+
+
+if __name__ == "__main__":
+    os.environ["HDEM_TEST_CASE"] = CASE
+    sys.exit(pytest.main([__file__, "-q", "-p", "no:cacheprovider"]))
