@@ -72,8 +72,8 @@ class Case(_core.Case):
         """How many there are."""
         return len(self.names)
 
-    def __reduce__(self) -> tuple[Any, ...]:    # for other processes: it is read again there
-        return _read_again, (self.text, self.file, self.overrides)
+    def __reduce__(self) -> tuple[Any, ...]:    # for other processes: it is made again there, of the same texts
+        return _make_again, (self.text, self.file, self.overrides, self._files)
 
     def __repr__(self) -> str:
         if not getattr(self, "_is_read", False):
@@ -81,8 +81,8 @@ class Case(_core.Case):
         return f"<hdem.Case {self.file!r}: {self.blocks} blocks, stages {', '.join(self.stage_names)}>"
 
 
-def _read_again(text: str, file: str, overrides: list[str]) -> Case:
+def _make_again(text: str, file: str, overrides: list[str], files: dict[str, bytes]) -> Case:
     case = Case.__new__(Case)
-    _core.Case.__init__(case, text, file, overrides)
+    _core.Case.__init__(case, text, file, overrides, files)
     case._is_read = True
     return case

@@ -218,6 +218,7 @@ until = "converged"
         self.assertEqual(before, ((self.folder / "run/summary.json").read_bytes(), (self.folder / "run/run.log").read_bytes()))
 
     def test_critical_of_a_file_whose_name_is_not_utf8(self):
+        self.folder.mkdir()
         case = Path(os.fsdecode(bytes(self.folder) + b"/sl\xffab.toml"))
         case.write_bytes((CASES / "slab.toml").read_bytes())
         hdem("critical", case, "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "--tolerance", 10, "-q", "-o", self.folder / "search")

@@ -3,8 +3,10 @@
 
     python_sessions_test.py CASE    any case of some blocks, with the package on PYTHONPATH; exit code 77: it was not built, or there is no pytest
 """
+import copy
 import enum
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -163,6 +165,21 @@ def test_changes_are_not_covered_by_what_is_laid_over_the_case(over):
     assert [stage["cycles"] for stage in laid.results] == [100, 50, 20]
     np.testing.assert_array_equal(laid.positions, plain.positions)
     assert laid.displacements[3, 0] > 1e-4
+
+
+def test_a_case_is_the_same_in_another_process_whatever_has_become_of_its_files(tmp_path, monkeypatch):
+    keys = {key: value for key, value in COLUMN.items() if key != "block"} | {"blocks_file": "ä.csv"}
+    (tmp_path / "case.toml").write_text(hdem.to_toml(keys), encoding="utf-8")
+    rows = [f"{block['name']},{x},{y},," + ("fixed" if "fixed" in block else "") for block in COLUMN["block"] for x, y in block["polygon"]]
+    (tmp_path / "ä.csv").write_text("\n".join(rows), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    case = hdem.Case("case.toml")
+    sent = pickle.dumps(case)
+    (tmp_path / "ä.csv").unlink()
+    monkeypatch.chdir("/")
+    for again in (pickle.loads(sent), copy.deepcopy(case)):
+        np.testing.assert_array_equal(again.positions, case.positions)
+        assert again.file == "case.toml" and hdem.Simulation(again, threads=1).state_hash == hdem.Simulation(case, threads=1).state_hash
 
 
 def test_numbers_of_classes_of_their_own():
