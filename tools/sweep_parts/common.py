@@ -1,7 +1,7 @@
 """What all parts of tools/sweep share: the error that users see, folders of runs, what summary.json says."""
 import json
 
-DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 130, 143)    # exit codes of hdem
+DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 129, 130, 143)    # exit codes of hdem
 SUMMARY = "summary.json"
 
 

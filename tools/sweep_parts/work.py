@@ -1,7 +1,6 @@
 """Work off a plan: many runs at a time, shared with other workers, until all are done or enough is known."""
 import fcntl
 import os
-import signal
 import threading
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -131,8 +130,7 @@ def work(options):
     plan = plans.read(options.folder)
     plans.require_same_case(plan)
     worker = Worker(options, plan)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, worker.start.stop)
+    worker.start.listen()
     with ThreadPoolExecutor(options.jobs) as pool:
         for _ in range(options.jobs):
             pool.submit(worker.work)

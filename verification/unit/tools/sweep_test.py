@@ -8,10 +8,12 @@ import errno
 import fcntl
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -108,6 +110,23 @@ class Sweep(unittest.TestCase):
         for code, words in ((1, "1 not converged, 2 done, 1 failed"), (143, "1 not converged, 1 done, 1 interrupted, 1 not begun")):
             program.write_text(program.read_text().replace('"${CODE:-0}"', str(code)).replace("exit 1;;", f"exit {code};;"))
             self.assertEqual(self.sweep("run", "s", 1, 2, 3, 4, "--program", program), (code, f"4 runs: {words}\n"))
+
+    def test_signals_end_runs_and_are_told(self):
+        self.plan("generator.seed=1:3")
+        slow = self.folder / "slow"
+        slow.write_text(f'#!/bin/bash\nfor s in HUP INT TERM; do trap "kill \\$! 2> /dev/null; exit $((128 + $(kill -l $s)))" $s; done\necho >> "{self.folder}/begun"\nsleep 30 & wait $!\n')
+        slow.chmod(0o755)
+        for command, number, words in ((["run", "s", "1", "2"], signal.SIGINT, "2 runs: 1 interrupted, 1 not begun"), (["run", "s", "3"], signal.SIGHUP, "run 3: interrupted"),
+                                       (["work", "s", "--jobs", "1"], signal.SIGHUP, "3 runs: 1 interrupted; 3 without an outcome"),
+                                       (["work", "s", "--jobs", "1"], signal.SIGTERM, "3 runs: 1 interrupted; 3 without an outcome")):
+            (self.folder / "begun").unlink(missing_ok=True)
+            process = subprocess.Popen([TOOLS / "sweep", *command, "--program", slow], cwd=self.folder, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                       text=True)
+            while not (self.folder / "begun").exists():
+                time.sleep(0.02)
+            os.killpg(process.pid, number)    # as a terminal does
+            said, _ = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, said.strip()), (128 + number, words))
 
     def test_not_converged_is_said_of_a_run_that_was_done_before(self):
         case = small_case.CASE.replace("cycles = 1500", 'until = "converged"\nmax_cycles = 100')
