@@ -299,15 +299,15 @@ int critical_command(const CriticalOptions& options)
     try
     {
         const Bracket found = search.find();
-        const Json summary = {{"case", printable(fs::path(options.case_file).filename().string())},
-                              {"vary", printable(vary.key)},
-                              {"fails", printable(options.fails)},
+        const Json summary = {{"case", fs::path(options.case_file).filename().string()},
+                              {"vary", vary.key},
+                              {"fails", options.fails},
                               {"critical", found.middle()},
                               {"stands_at", *found.stands},
                               {"fails_at", *found.fails},
                               {"warnings", search.warnings()},
                               {"trials", search.trials()}};
-        write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+        write_atomically(folder / "summary.json", summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         log.line(fmt::format("critical {} = {:.6g} ({:.6g} stands, {:.6g} fails)", vary.key, found.middle(), *found.stands,
                              *found.fails));
         for (const std::string& warning : search.warnings())

@@ -222,7 +222,7 @@ until = "converged"
         case = Path(os.fsdecode(bytes(self.folder) + b"/sl\xffab.toml"))
         case.write_bytes((CASES / "slab.toml").read_bytes())
         hdem("critical", case, "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "--tolerance", 10, "-q", "-o", self.folder / "search")
-        self.assertEqual(json.loads((self.folder / "search/summary.json").read_text(encoding="utf-8"))["case"], r"sl\xffab.toml")
+        self.assertEqual(json.loads((self.folder / "search/summary.json").read_text(encoding="utf-8"))["case"], "sl\ufffdab.toml")
 
 
 if __name__ == "__main__":
