@@ -28,7 +28,7 @@ def whole(name: str, value: Any) -> int | None:
     except TypeError:
         raise TypeError(f"{name} = {value!r:.80}: a whole number is needed, or None") from None
     if abs(number) >= 2**31 and name != "cycles" or abs(number) >= 2**62:
-        raise ValueError(f"{name} = {number:.4g}: too great")
+        raise ValueError(f"{name} = {max(min(number, 10**300), -10**300):.4g}: too great")
     return number
 
 

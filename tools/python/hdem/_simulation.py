@@ -79,6 +79,8 @@ class Simulation(_core.Run):
         """
         if callback is not None and not callable(callback):
             raise TypeError(f"run(): callback must be a function of one simulation, not {callback!r:.80}")
+        if every is None:
+            raise TypeError("every = None: a whole number is needed")
         return self._run(whole("cycles", cycles), whole("stages", stages), callback, whole("every", every))
 
     def contacts(self, also_open: bool = False) -> Any:
