@@ -1,7 +1,6 @@
 #include "tools/python/driven_run.h"
 
 #include "core/history_sampler.h"
-#include "io/atomic_file.h"
 #include "io/summary.h"
 #include "tools/python/changed_case.h"
 #include "tools/python/driven_watch.h"
@@ -165,7 +164,6 @@ void DrivenRun::run_stages_of(Watch& watch, const StagePart& part)
     {
         summary_.clear();
         files_->keeper().go_on();
-        remove_file(start_.folder / "summary.json");
     }
     results_ = files_->run(*simulation_, {&watch}, &watch, part);
 }

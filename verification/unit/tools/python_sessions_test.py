@@ -105,6 +105,19 @@ def test_a_run_stays_in_its_folder_when_the_script_goes_elsewhere(tmp_path, monk
     assert (tmp_path / "run/summary.json").exists() and not (tmp_path / "run/.lock").exists()
 
 
+def test_a_finished_run_that_is_only_looked_at_keeps_its_summary(tmp_path):
+    column(folder=tmp_path / "run").run()
+    before = (tmp_path / "run/summary.json").read_bytes()
+    run = hdem.Simulation.restart(tmp_path / "run", threads=1)
+    assert run.cycle == 300
+    run.add_stage(cycles=20)
+    assert (tmp_path / "run/summary.json").read_bytes() == before
+    run.run(cycles=10)
+    assert not (tmp_path / "run/summary.json").exists()
+    run.run()
+    assert run.summary["cycles"] == 320 and (tmp_path / "run/summary.json").exists()
+
+
 def test_a_forked_process_does_not_end_the_run_of_its_parent(tmp_path):
     run = [column(folder=tmp_path / "run")]
     run[0].run(cycles=10)
