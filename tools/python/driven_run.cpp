@@ -192,6 +192,15 @@ void DrivenRun::write_checkpoint(const std::string& folder)
     const Simulation& now = simulation();
     if (!now.state().stage_begun)
         refuse("checkpoint: (no stage has begun: there is nothing to go on from). Run some cycles first.");
+    std::error_code different;
+    if (files_ && std::filesystem::equivalent(folder, start_.folder, different))
+    {
+        require_own_folder("write_checkpoint()");
+        if (!is_done())
+            files_->keeper().go_on();
+        files_->keeper().save_now(now);  // with the rows before it
+        return;
+    }
     RunRecord record = start_.record;
     record.finished = is_done();
     record.history_axes.clear();
@@ -200,10 +209,7 @@ void DrivenRun::write_checkpoint(const std::string& folder)
     else
         for (const HistoryDef& history : now.model().histories)
             record.history_axes.push_back(HistorySampler(now.model(), history).axis());
-    std::error_code obstacle;
-    std::filesystem::create_directories(folder, obstacle);
-    if (obstacle)
-        throw RunError(fmt::format("{}: cannot be made ({}). Give another folder.", folder, obstacle.message()));
+    const RunLock lock(folder);
     hdem::write_checkpoint(folder, record, now.model(), now.state());
 }
 

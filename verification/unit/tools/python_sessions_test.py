@@ -118,6 +118,36 @@ def test_a_finished_run_that_is_only_looked_at_keeps_its_summary(tmp_path):
     assert run.summary["cycles"] == 320 and (tmp_path / "run/summary.json").exists()
 
 
+def test_a_checkpoint_in_its_own_folder_has_the_rows_before_it(tmp_path):
+    history = {"name": "top", "block": "b2", "every": 7, "quantities": ["displacement_y"]}
+
+    def killed():
+        run = column(folder=tmp_path / "run", history=[history], output={"row_every": 10})
+        run.run(cycles=155)
+        run.write_checkpoint(tmp_path / "run")
+    assert in_child(killed) == 0
+    run = hdem.Simulation.restart(tmp_path / "run", threads=1)
+    assert run.cycle == 155
+    run.run()
+    plain = column(folder=tmp_path / "plain", history=[history], output={"row_every": 10})
+    plain.run()
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "run/results.h5") as ours, h5py.File(tmp_path / "plain/results.h5") as theirs:
+        for column_of in ("history/top/cycle", "history/top/displacement_y", "energy/cycle"):
+            np.testing.assert_array_equal(ours[column_of][()], theirs[column_of][()])
+
+
+def test_a_checkpoint_is_not_written_into_the_folder_of_another_run(tmp_path):
+    other, run = column(folder=tmp_path / "run"), column()
+    other.run(cycles=10)
+    run.run(cycles=20)
+    with pytest.raises(hdem.CaseError, match="another run is in this folder"):
+        run.write_checkpoint(tmp_path / "run")
+    run.write_checkpoint(tmp_path / "new/deep")
+    assert sorted(file.name for file in (tmp_path / "new/deep").iterdir()) == ["checkpoint.h5"]
+    assert hdem.Simulation.from_checkpoint(tmp_path / "new/deep/checkpoint.h5").cycle == 20
+
+
 def test_a_forked_process_does_not_end_the_run_of_its_parent(tmp_path):
     run = [column(folder=tmp_path / "run")]
     run[0].run(cycles=10)
