@@ -110,7 +110,7 @@ py::capsule DrivenRun::lend()
 
 bool DrivenRun::is_done() const
 {
-    return over_ && simulation_->state().stage + 1 == static_cast<Index>(simulation_->model().stages.size());
+    return is_over() && simulation_->state().stage + 1 == static_cast<Index>(simulation_->model().stages.size());
 }
 
 const std::vector<StageResult>& DrivenRun::run(const Piece& piece)

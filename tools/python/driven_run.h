@@ -48,7 +48,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     [[nodiscard]] Look look() const { return {simulation().model(), simulation().state()}; }
     [[nodiscard]] const std::vector<StageResult>& results() const { return results_; }
     /// The present stage has come to its end.
-    [[nodiscard]] bool is_over() const { return over_.has_value(); }
+    [[nodiscard]] bool is_over() const { return over_ || was_finished(); }
     /// And it is the last one.
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] const RunStart& start() const { return start_; }
@@ -68,6 +68,8 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     class Watch;
     class Guard;
 
+    /// It is of a checkpoint of a run that was done, and no cycle has run since.
+    [[nodiscard]] bool was_finished() const { return start_.restarted && start_.record.finished && results_.empty(); }
     void require_idle(const char* what) const;
     void require_no_view() const;
     void require_own_folder(const char* what) const;  ///< two processes would write the same files

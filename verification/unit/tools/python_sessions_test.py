@@ -109,7 +109,7 @@ def test_a_finished_run_that_is_only_looked_at_keeps_its_summary(tmp_path):
     column(folder=tmp_path / "run").run()
     before = (tmp_path / "run/summary.json").read_bytes()
     run = hdem.Simulation.restart(tmp_path / "run", threads=1)
-    assert run.cycle == 300
+    assert run.cycle == 300 and run.is_done
     run.add_stage(cycles=20)
     assert (tmp_path / "run/summary.json").read_bytes() == before
     run.run(cycles=10)
@@ -146,6 +146,18 @@ def test_a_checkpoint_is_not_written_into_the_folder_of_another_run(tmp_path):
     run.write_checkpoint(tmp_path / "new/deep")
     assert sorted(file.name for file in (tmp_path / "new/deep").iterdir()) == ["checkpoint.h5"]
     assert hdem.Simulation.from_checkpoint(tmp_path / "new/deep/checkpoint.h5").cycle == 20
+
+
+def test_a_checkpoint_of_a_run_that_is_done_is_done(tmp_path):
+    run = column()
+    run.run()
+    run.write_checkpoint(tmp_path / "done")
+    again = hdem.Simulation.from_checkpoint(tmp_path / "done/checkpoint.h5", threads=1)
+    assert again.is_done and again.is_over and again.state_hash == run.state_hash
+    again.add_stage(cycles=20)
+    assert again.is_over and not again.is_done
+    again.run()
+    assert again.is_done and [stage["cycles"] for stage in again.results] == [100, 200, 20]
 
 
 def test_a_forked_process_does_not_end_the_run_of_its_parent(tmp_path):
