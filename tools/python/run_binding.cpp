@@ -1,4 +1,5 @@
 #include "core/energy_ledger.h"
+#include "core/state/stage_cycles.h"
 #include "core/state/state_hash.h"
 #include "io/frame_writer.h"
 #include "tools/python/bindings.h"
@@ -104,6 +105,9 @@ void bind_progress(RunType& type)
         "stage_cycles",
         [=](const DrivenRun& run) { return state(run).stage_begun ? state(run).cycle - state(run).stage_begin_cycle : 0; },
         "Cycles that the stage has run.");
+    type.def(
+        "_cycles_since", [=](const DrivenRun& run, Index stage) { return cycles_since(stage < 0 ? no_index : stage, state(run)); },
+        py::arg("stage"));
     type.def_property_readonly(
         "is_over", [=](const DrivenRun& run) { return at_hand(run).is_over(); }, "The present stage has come to its end.");
     type.def_property_readonly(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._applied import applied_forces, apply_forces
+from ._applied import applied_forces, apply_forces, begin_with_stage, stage_name
 from ._case import Case, require_case, whole
 from ._overrides import take_in
 from ._toml import from_toml, to_toml, toml_value
@@ -140,6 +140,8 @@ class Simulation(_core.Run):
             table["set"] = [f"{key} = {toml_value(value, key)}" for key, value in table["set"].items()]
         case, overrides = self._present_case()
         case.setdefault("stage", []).append(table)
+        if self.is_done:
+            begin_with_stage(case, self.cycle, stage_name(case, len(case["stage"]) - 1))
         self._take_case(to_toml(case), overrides)
 
     def set(self, key: str, value: Any) -> None:
@@ -156,8 +158,9 @@ class Simulation(_core.Run):
         """What the user puts on each block's centroid, (n, 2) [N] per metre of thickness, beside weights, contacts and loads of the case. Zero at first.
 
         Reading gives a copy. What is assigned, between two calls of run(), acts from the next cycle on until other forces are assigned. It is written
-        into the case, as a [[load]] for each row that changes: checkpoints keep it, and `hdem run` of case_text has it at the same cycles. For forces
-        that change with time give the case a [[load]] with a table, or assign every hundred cycles or so, not in each one.
+        into the case, as a [[load]] for each row that changes: checkpoints keep it, and `hdem run` of case_text has it at the same cycles of its stage. A
+        stage that looks for rest waits for loads that are to come: assign before it begins, and the case gives the same bits. For forces that change
+        with time give the case a [[load]] with a table, or assign every hundred cycles or so, not in each one.
         """
         return applied_forces(self._present_case()[0], self.names)
 
@@ -170,7 +173,9 @@ class Simulation(_core.Run):
             raise ValueError(f"applied_forces: the number of block \"{names[number]}\" is not finite")
         for number in np.flatnonzero(np.any(values != 0.0, axis=1) & ~self.present):
             raise ValueError(f"applied_forces: block \"{names[number]}\" is removed: nothing can act on it. Give it 0.")
-        if apply_forces(case, names, values, self.cycle):
+        stages = [stage_name(case, number) for number in range(len(case.get("stage", [])))]
+        since = stage_name(case, self.stage + (1 if self.is_over else 0))
+        if apply_forces(case, names, values, since, lambda stage: self._cycles_since(-1 if stage is None else stages.index(stage))):
             self._take_case(to_toml(case), overrides)
 
     def end_stage(self) -> None:

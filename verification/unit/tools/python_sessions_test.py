@@ -237,6 +237,35 @@ def test_a_case_is_the_same_in_another_process_whatever_has_become_of_its_files(
         assert again.file == "case.toml" and hdem.Simulation(again, threads=1).state_hash == hdem.Simulation(case, threads=1).state_hash
 
 
+@pytest.mark.parametrize("stage_first", [True, False])
+def test_forces_on_rock_at_rest_are_in_the_case_with_their_stage(tmp_path, stage_first):
+    """A stage that looks for rest would wait for a load of which only the cycle is known."""
+    run = column(stage=[{"name": "rest", "until": "converged", "max_cycles": 5000}])
+    run.run()
+    force = np.zeros((4, 2))
+    force[3, 0] = 9e3
+    if stage_first:
+        run.add_stage(cycles=150)
+    run.applied_forces = 0.5 * force
+    run.applied_forces = force
+    if not stage_first:
+        run.add_stage(cycles=150)
+    run.run(cycles=100)
+    run.write_checkpoint(tmp_path)
+    again = hdem.Simulation.from_checkpoint(tmp_path / "checkpoint.h5", threads=1)
+    for same in (run, again):
+        np.testing.assert_array_equal(same.applied_forces, force)
+        same.add_stage(cycles=60)
+        same.run(cycles=70)
+        same.applied_forces = 0.0 * force    # in a later stage than it began
+        same.run()
+    told = hdem.Simulation(hdem.Case(run.case, set=run.case_overrides), threads=1)
+    told.run()
+    assert [stage["cycles"] for stage in told.results] == [stage["cycles"] for stage in run.results] == [run.results[0]["cycles"], 150, 60]
+    assert told.state_hash == run.state_hash == again.state_hash and run.displacements[3, 0] > 1e-5
+    assert [(load["since"], load["from_cycle"], load["until_cycle"]) for load in run.case["load"]] == [("stage2", 0, 170)]
+
+
 def test_numbers_of_classes_of_their_own():
     class Seed(enum.IntEnum):
         three = 3
