@@ -166,6 +166,7 @@ void DrivenRun::run_stages_of(Watch& watch, const StagePart& part)
         files_->keeper().go_on();
     }
     results_ = files_->run(*simulation_, {&watch}, &watch, part);
+    files_->recorder().await_frame();  // who goes on reads it, or moves the folder
 }
 
 void DrivenRun::take_case(const BuiltCase& next)

@@ -105,6 +105,13 @@ def test_a_run_stays_in_its_folder_when_the_script_goes_elsewhere(tmp_path, monk
     assert (tmp_path / "run/summary.json").exists() and not (tmp_path / "run/.lock").exists()
 
 
+def test_frames_are_there_when_cycles_have_run(tmp_path):
+    run = column(folder=tmp_path / "run", output={"frame_every": 1})
+    for cycle in range(1, 80):
+        run.run(cycles=1)
+        assert (tmp_path / f"run/frames/blocks_{cycle:06d}.hdf").exists()
+
+
 def test_a_finished_run_that_is_only_looked_at_keeps_its_summary(tmp_path):
     column(folder=tmp_path / "run").run()
     before = (tmp_path / "run/summary.json").read_bytes()
