@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 
@@ -19,12 +20,14 @@ struct Users
     int count = 0;
 };
 
+thread_local int own_uses = 0;  // the thread that forks does not wait for itself
+
 Users& users();
 
 void before_fork()
 {
     std::unique_lock lock(users().mutex);
-    users().gone.wait(lock, [] { return users().count == 0; });
+    users().gone.wait(lock, [] { return users().count <= std::max(own_uses, 0); });
     lock.release();  // nobody begins until the fork is done
 }
 
@@ -82,12 +85,14 @@ Hdf5Use::Hdf5Use()
 {
     const std::lock_guard lock(users().mutex);
     ++users().count;
+    ++own_uses;
 }
 
 Hdf5Use::~Hdf5Use()
 {
     const std::lock_guard lock(users().mutex);
     --users().count;
+    --own_uses;
     users().gone.notify_all();
 }
 

@@ -41,7 +41,7 @@ class Hdf5Handle
     Close close_ = nullptr;
 };
 
-/// The library is in use while this lives. A process is forked off only when nobody uses it: its own lock would stay closed there for ever.
+/// The library is in use while this lives. A process is forked off only when no other thread uses it: its own lock would stay closed there for ever.
 class Hdf5Use
 {
   public:

@@ -109,6 +109,20 @@ TEST(Hdf5File, AProcessIsForkedOffWhenNoFileIsOpen)
     EXPECT_EQ(Hdf5Reader(folder / "b.h5").read<double>("/x", {1}), std::vector<double>{1.0});
 }
 
+TEST(Hdf5File, AThreadThatForksDoesNotWaitForItself)
+{
+    const ScratchFolder folder("hdf5_own_fork");
+    Hdf5Writer file(folder / "a.h5");
+    ::alarm(20);  // it would wait for ever
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(0);
+    ::alarm(0);
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
 TEST(Hdf5File, SameContentGivesTheSameBytes)
 {
     const ScratchFolder folder("hdf5_bytes");
