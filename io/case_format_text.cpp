@@ -271,8 +271,8 @@ Holes, MULTIPOLYGON, Z and M are refused.
 A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
 other; a heading with these names may stand above them. `tools/import_dxf.py` makes such files from drawings.
 
-A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`. Coordinates are taken as they
-are, in metres. Other formats become GeoJSON by `ogr2ogr` (Debian: gdal-bin):
+A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`,
+in capitals or not; a name may be a whole number. Coordinates are taken as they are, in metres. Other formats become GeoJSON by `ogr2ogr` (Debian: gdal-bin):
 
 ```sh
 ogr2ogr -f GeoJSON blocks.geojson blocks.shp

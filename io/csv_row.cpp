@@ -15,11 +15,6 @@ char small(char c)
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-bool is_same(std::string_view text, std::string_view word)
-{
-    return std::ranges::equal(text, word, [](char a, char b) { return small(a) == small(b); });
-}
-
 /// Takes a column between quotes, and the second of two quotes that stand for one.
 std::string take_quoted(std::string_view& row)
 {
@@ -36,6 +31,11 @@ std::string take_quoted(std::string_view& row)
     return column;
 }
 }  // namespace
+
+bool is_same_word(std::string_view text, std::string_view word)
+{
+    return std::ranges::equal(text, word, [](char a, char b) { return small(a) == small(b); });
+}
 
 std::vector<std::string> csv_columns(std::string_view row)
 {
@@ -64,7 +64,7 @@ bool is_csv_heading(std::span<const std::string> columns, std::span<const CsvCol
     {
         if (column.name.empty())
             return true;
-        if (text.size() < column.name.size() || !is_same(text.substr(0, column.name.size()), column.name))
+        if (text.size() < column.name.size() || !is_same_word(text.substr(0, column.name.size()), column.name))
             return false;
         const std::string_view unit = trimmed(text.substr(column.name.size()));
         return unit.empty() ||
@@ -75,6 +75,6 @@ bool is_csv_heading(std::span<const std::string> columns, std::span<const CsvCol
 
 bool has_ending(std::string_view file_name, std::string_view ending)
 {
-    return file_name.size() >= ending.size() && is_same(file_name.substr(file_name.size() - ending.size()), ending);
+    return file_name.size() >= ending.size() && is_same_word(file_name.substr(file_name.size() - ending.size()), ending);
 }
 }  // namespace hdem

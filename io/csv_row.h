@@ -23,6 +23,9 @@ struct CsvColumn
 /// Heading of a table: the first of these columns, in this order, in capitals or not.
 [[nodiscard]] bool is_csv_heading(std::span<const std::string> columns, std::span<const CsvColumn> names);
 
+/// In capitals or not.
+[[nodiscard]] bool is_same_word(std::string_view text, std::string_view word);
+
 /// The file has this ending, in capitals or not.
 [[nodiscard]] bool has_ending(std::string_view file_name, std::string_view ending);
 }  // namespace hdem

@@ -41,6 +41,12 @@ class Walker
         {
             return Json::parse(text);
         }
+        catch (const Json::out_of_range&)
+        {
+            problems.push_back({Problem::Severity::error, key_,
+                                fmt::format("{}: {}: (has a number that is too large). Export it once more.", file_, what_)});
+            return {};
+        }
         catch (const Json::parse_error& error)
         {
             const auto line = 1 + std::count(text.begin(),
@@ -144,6 +150,29 @@ class Walker
     std::size_t points_ = 0;
 };
 
+/// A property by its name, which shapefiles have in capitals. Null where there is none.
+const Json& property_of(const Json& properties, std::string_view name)
+{
+    static const Json none;
+    const auto& members = properties.get_ref<const Json::object_t&>();
+    const auto found = std::ranges::find_if(members, [&](const auto& member) { return is_same_word(member.first, name); });
+    return found == members.end() ? none : found->second;
+}
+
+/// A name, or a code in its place: a whole number. Nothing where it is neither, which is said.
+std::string name_in(Walker& walk, const Json& properties, const char* key)
+{
+    const Json& value = property_of(properties, key);
+    const double number = value.is_number() ? value.get<double>() : 0.5;
+    if (value.is_string())
+        return value.get<std::string>();
+    if (std::abs(number) < 1e15 && number == std::floor(number))
+        return fmt::format("{:.0f}", number);
+    if (!value.is_null())
+        walk.complain(fmt::format("{} is neither a text nor a whole number", key), "Write the name.");
+    return "";
+}
+
 /// fixed = true, or text as in files of WKT: "fixed", "x rotation". Shapefiles know no truth values: they come back as "true" or 1.
 bool read_fixed(const Json& value, BlockDef& block)
 {
@@ -238,14 +267,14 @@ PolygonFile read_geojson_blocks(const std::string& text, const std::string& file
     {
         BlockDef block;
         block.polygon = ring_of(walk, polygon);
-        block.name = Walker::text_of(properties, "name");
+        block.name = name_in(walk, properties, "name");
         if (block.name.empty())
             block.name = "block" + std::to_string(first_number + result.blocks.size() + 1);
         else if (part > 0)
             block.name += "." + std::to_string(part + 1);
-        if (const std::string material = Walker::text_of(properties, "material"); !material.empty())
+        if (const std::string material = name_in(walk, properties, "material"); !material.empty())
             block.material = material;
-        if (properties.contains("fixed") && !read_fixed(properties["fixed"], block))
+        if (!read_fixed(property_of(properties, "fixed"), block))
             walk.complain("fixed does not say what is fixed", "Write true, \"fixed\", or a list of x, y, rotation.");
         if (!block.polygon.empty())
             result.blocks.push_back({std::move(block), 0});

@@ -3,11 +3,48 @@
 #include "core/check.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
 
 namespace hdem
 {
 namespace
 {
+struct Users
+{
+    std::mutex mutex;
+    std::condition_variable gone;
+    int count = 0;
+};
+
+thread_local int own_uses = 0;  // the thread that forks does not wait for itself
+
+Users& users();
+
+void before_fork()
+{
+    std::unique_lock lock(users().mutex);
+    users().gone.wait(lock, [] { return users().count <= std::max(own_uses, 0); });
+    lock.release();  // nobody begins until the fork is done
+}
+
+/// In both processes.
+void after_fork()
+{
+    users().mutex.unlock();
+}
+
+Users& users()
+{
+    static Users& all = *new Users;  // threads may outlive main()
+    static const int registered = ::pthread_atfork(before_fork, after_fork, after_fork);
+    static_cast<void>(registered);
+    return all;
+}
+
 struct StoredType
 {
     hid_t native;
@@ -43,6 +80,21 @@ herr_t append_reason(unsigned, const H5E_error2_t* error, void* data)
     return 0;
 }
 }  // namespace
+
+Hdf5Use::Hdf5Use()
+{
+    const std::lock_guard lock(users().mutex);
+    ++users().count;
+    ++own_uses;
+}
+
+Hdf5Use::~Hdf5Use()
+{
+    const std::lock_guard lock(users().mutex);
+    --users().count;
+    --own_uses;
+    users().gone.notify_all();
+}
 
 void prepare_hdf5()
 {

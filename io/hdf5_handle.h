@@ -41,6 +41,16 @@ class Hdf5Handle
     Close close_ = nullptr;
 };
 
+/// The library is in use while this lives. A process is forked off only when no other thread uses it: its own lock would stay closed there for ever.
+class Hdf5Use
+{
+  public:
+    Hdf5Use();
+    ~Hdf5Use();
+    Hdf5Use(const Hdf5Use&) = delete;
+    Hdf5Use& operator=(const Hdf5Use&) = delete;
+};
+
 /// Errors become exceptions here: the library itself prints nothing and loads no filter plugins.
 void prepare_hdf5();
 

@@ -29,6 +29,7 @@ std::string describe(const Shape& shape)
 
 struct Hdf5Reader::Handles
 {
+    Hdf5Use use;
     std::filesystem::path name;
     Hdf5Handle file;
 

@@ -145,6 +145,7 @@ constexpr std::size_t longest_text = 1U << 30U;
 
 struct Hdf5Writer::Handles
 {
+    Hdf5Use use;
     MemoryFile memory;  // outlives the file, which closes into it
     Hdf5Handle file;
     Hdf5Handle links;

@@ -162,12 +162,14 @@ void RunLock::refuse(int descriptor, bool trust_system) const
 {
     ::close(descriptor);
     const std::optional<Owner> owner = read_owner(file_);
-    const std::string who = owner ? fmt::format("process {} on {} since {}", owner->process, owner->host, owner->start)
+    const bool is_ours = owner && owner->host == host_name() && owner->process == ::getpid();
+    const std::string who = owner ? fmt::format("process {} on {} since {}{}", owner->process, owner->host, owner->start,
+                                                is_ours ? ", which is this one" : "")
                                   : "it has just begun";
     throw InputError(Problem{
         .key = {},
-        .text = fmt::format("{}: (another run is in this folder: {}). Wait for its end, or write to another folder with -o.{}",
-                            folder_.string(), who,
+        .text = fmt::format("{}: (another run is in this folder: {}). {}, or write to another folder with -o.{}", folder_.string(),
+                            who, is_ours ? "Delete that simulation first, in Python by del" : "Wait for its end",
                             trust_system ? "" : fmt::format(" If that run is over, remove {}.", file_.string()))});
 }
 

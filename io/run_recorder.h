@@ -35,6 +35,8 @@ class RunRecorder : public Observer
     [[nodiscard]] std::vector<Vec2> history_axes() const;
     /// A frame of this state, unless the last one shows the same cycle. Throws RunError, also of the frame before.
     void write_frame(const Model& model, const State& state);
+    /// Until the last frame is on the disk. Throws RunError where it could not be written.
+    void await_frame();
     /// Last words: a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
     /// to go on from a checkpoint: it would not have these rows without the break.
     void finish(const Model& model, const State& state);
@@ -47,7 +49,6 @@ class RunRecorder : public Observer
     void sample_all(const Model& model, const State& state);
     void add_energy_row(const Model& model, const State& state);
     void write_results();
-    void await_frame();
 
     FrameWriter frames_;
     ResultsWriter results_;

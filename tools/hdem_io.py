@@ -26,7 +26,7 @@ import numpy as np
 
 from checked_hdf5 import ANY, ResultError, open_checked
 from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts, read_liners
-from plain_text import one_line
+from plain_text import one_line, reason_of
 from run_lock import is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
@@ -50,8 +50,10 @@ def tell(command, result, make):
         return 0
     except (ResultError, ValueError) as error:
         why, code = error, 2
+    except PermissionError as error:
+        why, code = f"{reason_of(error)}. Give another file with -o.", 1
     except OSError as error:
-        why, code = error, 1
+        why, code = reason_of(error), 1
     except MemoryError:
         why, code = f"{result}: there is not enough memory for it. Free some, or look at it on another machine.", 1
     print(f"error: {command}: {one_line(why)}", file=sys.stderr)

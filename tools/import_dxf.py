@@ -24,6 +24,7 @@ import ezdxf.path    # noqa: E402
 from plain_text import one_line, printable    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
+ROUND_OFF = 1e-12    # of coordinates, in the ends of arcs
 LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
 Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
 
@@ -68,7 +69,8 @@ def entities_of(space, outer=None):
     for entity in space:
         layer = outer if outer is not None and entity.dxf.layer == "0" else entity.dxf.layer
         if entity.dxftype() == "INSERT":
-            yield from entities_of(entity.virtual_entities(), layer)
+            for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
+                yield from entities_of(one.virtual_entities(), layer)
         else:
             yield entity, layer
 
@@ -76,15 +78,16 @@ def entities_of(space, outer=None):
 def points_of(entity, scale, arc):
     """Corners [m], without those that repeat, and whether the line is closed."""
     path = ezdxf.path.make_path(entity)
+    drawn = [(scale * vertex.x, scale * vertex.y) for vertex in path.flattening(arc / scale)]
+    farthest = max((abs(x) for point in drawn for x in point), default=0.0)
+    if not math.isfinite(farthest + sum(x for point in drawn for x in point)):
+        raise ValueError("not finite")
     points = []
-    for vertex in path.flattening(arc / scale):
-        point = (scale * vertex.x, scale * vertex.y)
-        if not all(map(math.isfinite, point)):
-            raise ValueError("not finite")
-        if not points or point != points[-1]:
+    for point in drawn:
+        if not points or math.dist(point, points[-1]) > ROUND_OFF * farthest:
             points.append(point)
     closed = path.is_closed and len(points) > 3
-    return (points[:-1] if closed and points[0] == points[-1] else points), closed
+    return (points[:-1] if closed and math.dist(points[0], points[-1]) <= ROUND_OFF * farthest else points), closed
 
 
 def name_of(layer):

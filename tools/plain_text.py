@@ -12,6 +12,11 @@ def one_line(text):
     return printable(" ".join(str(text).split()))
 
 
+def reason_of(error):
+    """What an OSError says, without its number."""
+    return f"{error.filename}: {error.strerror}" if error.filename is not None and error.strerror else error
+
+
 def as_file_name(text):
     """A name without a folder, neither hidden nor too long, for what is written beside a run."""
     name = printable(text).replace("/", "_")

@@ -290,6 +290,10 @@ def make_picture(options):
         folder = options.result if options.result.is_dir() else options.result.parent
         name = "factor_of_safety" if options.factor else options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
         output = folder / f"{as_file_name(name)}.png"
+    if output.is_dir():
+        raise ResultError(f"{output}: a folder. Give the name of a picture with -o.")
+    if not output.suffix:    # savefig would write this file, too, and say nothing
+        output = output.with_name(f"{output.name}.png")
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
     if run and not options.history and not options.factor and state_of(run):

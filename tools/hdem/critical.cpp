@@ -288,6 +288,9 @@ int critical_command(const CriticalOptions& options)
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
                                                    : fs::path(options.folder);
     const RunLock lock(folder);
+    if (fs::exists(folder / "results.h5"))
+        refuse(fmt::format("{}: (holds the results of a run). Give another folder with -o.", printable(folder.string())));
+    remove_file(folder / "summary.json");  // of a search before
     if (options.overwrite)
         remove_file(folder / "trials.json");
     Log log(folder / "run.log", options.quiet, Log::Begin::anew);
@@ -304,7 +307,7 @@ int critical_command(const CriticalOptions& options)
                               {"fails_at", *found.fails},
                               {"warnings", search.warnings()},
                               {"trials", search.trials()}};
-        write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+        write_atomically(folder / "summary.json", summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         log.line(fmt::format("critical {} = {:.6g} ({:.6g} stands, {:.6g} fails)", vary.key, found.middle(), *found.stands,
                              *found.fails));
         for (const std::string& warning : search.warnings())

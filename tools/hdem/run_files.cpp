@@ -1,5 +1,7 @@
 #include "tools/hdem/run_files.h"
 
+#include "io/atomic_file.h"
+
 #include <fmt/format.h>
 
 namespace hdem
@@ -44,6 +46,7 @@ RunFiles::RunFiles(const RunStart& start, const RunOptions& options, Simulation&
 std::vector<StageResult> RunFiles::run(Simulation& simulation, const std::vector<Observer*>& also, Keeper* keeper,
                                        const StagePart& part)
 {
+    remove_file(folder_ / "summary.json");  // no more the outcome
     TimedObserver timed_rows(rows_, session_.output_seconds);
     TimedObserver timed_recorder(*recorder_, session_.output_seconds);
     std::vector<Observer*> observers{&timed_rows, &timed_recorder};

@@ -221,10 +221,7 @@ void clear_for_run(const RunStart& start, bool overwrite)
 {
     const fs::path& folder = start.folder;
     if (start.restarted && !start.moved)
-    {
-        remove_file(folder / "summary.json");  // not yet the outcome
         return;
-    }
     const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
     if (!overwrite && fs::exists(checkpoints[0]))
     {

@@ -46,12 +46,13 @@ void bind_case(py::module_& module)
 {
     py::class_<BuiltCase> type(module, "Case");
     type.def(py::init(
-                 [](const std::optional<std::string>& text, const std::string& file, const std::vector<std::string>& overrides)
+                 [](const std::optional<std::string>& text, const std::string& file, const std::vector<std::string>& overrides,
+                    const std::optional<NamedFiles>& files)
                  {
                      const WithoutPython free;
-                     return build_case(text, file, overrides);
+                     return build_case(text, file, overrides, files ? &*files : nullptr);
                  }),
-             py::arg("text"), py::arg("file"), py::arg("overrides"));
+             py::arg("text"), py::arg("file"), py::arg("overrides"), py::arg("files") = py::none());
     type.def_property_readonly(
         "text", [](const BuiltCase& c) { return c.loaded->file.source.text(); }, "The case as TOML.");
     type.def_property_readonly(
@@ -59,6 +60,14 @@ void bind_case(py::module_& module)
     type.def_property_readonly(
         "overrides", [](const BuiltCase& c) { return c.overrides; },
         "key.path=value, laid over the text: as --set of the program.");
+    type.def_property_readonly("_files",
+                               [](const BuiltCase& c)
+                               {
+                                   py::dict files;
+                                   for (const auto& [name, text] : c.loaded->file.files)
+                                       files[py::str(name)] = py::bytes(text);
+                                   return files;
+                               });
     type.def_property_readonly(
         "warnings",
         [](const BuiltCase& c)

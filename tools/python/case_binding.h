@@ -3,6 +3,7 @@
 
 #include "io/load_case.h"
 #include "tools/python/block_arrays.h"
+#include "tools/python/made_only.h"
 
 #include <memory>
 #include <optional>
@@ -25,3 +26,8 @@ struct BuiltCase
 [[nodiscard]] BuiltCase build_case(const std::optional<std::string>& text, const std::string& file,
                                    std::vector<std::string> overrides, const NamedFiles* files = nullptr);
 }  // namespace hdem
+
+template <>
+class pybind11::detail::type_caster<hdem::BuiltCase> : public hdem::CasterOfMade<hdem::BuiltCase>
+{
+};

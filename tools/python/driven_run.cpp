@@ -1,9 +1,9 @@
 #include "tools/python/driven_run.h"
 
 #include "core/history_sampler.h"
-#include "io/atomic_file.h"
 #include "io/summary.h"
 #include "tools/python/changed_case.h"
+#include "tools/python/driven_watch.h"
 #include "tools/python/python_lock.h"
 
 #include <fmt/format.h>
@@ -23,98 +23,6 @@ namespace py = pybind11;
     throw InputError(Problem{.key = {}, .text = text});
 }
 }  // namespace
-
-/// Calls the callback, hears of signals, and ends the run in time. What Python throws is kept until the state is whole.
-class DrivenRun::Watch : public Observer, public Keeper
-{
-  public:
-    Watch(DrivenRun& run, const Piece& piece)
-        : run_(run),
-          piece_(piece),
-          first_(run.simulation_->state().cycle),
-          last_(piece.cycles ? first_ + std::min(*piece.cycles, never - first_) : never)
-    {
-    }
-
-    [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override
-    {
-        std::int64_t next = piece_.callback ? next_multiple(now, piece_.every) : never;
-        if (last_ > now)
-            next = std::min(next, last_);
-        return run_.files_ ? std::min(next, run_.files_->keeper().next_cycle(now)) : next;
-    }
-
-    void observe(const Model&, const State& state) override
-    {
-        if (!piece_.callback || state.cycle == first_ || state.cycle == called_ || state.cycle % piece_.every != 0)
-            return;
-        called_ = state.cycle;
-        const WithPython lock;
-        run_.phase_ = Phase::callback;
-        hold(
-            [&]
-            {
-                stops_ = !piece_.callback();
-                run_.require_no_view();
-            });
-        run_.phase_ = Phase::cycles;
-    }
-
-    [[nodiscard]] bool keep(const Simulation& simulation) override
-    {
-        const bool goes_on = !run_.files_ || run_.files_->keeper().keep(simulation);
-        hear_signals();
-        broke_off_ = !goes_on || error_ || stops_ || simulation.state().cycle >= last_;
-        return !broke_off_;
-    }
-
-    [[nodiscard]] bool is_to_stop() override
-    {
-        hear_signals();
-        return error_ != nullptr;
-    }
-
-    /// The present stage has not come to its end.
-    [[nodiscard]] bool broke_off() const { return broke_off_; }
-    [[nodiscard]] bool has_error() const { return error_ != nullptr; }
-    void rethrow() const
-    {
-        if (error_)
-            std::rethrow_exception(error_);
-    }
-
-  private:
-    template <typename Do>
-    void hold(const Do& act)
-    {
-        try
-        {
-            act();
-        }
-        catch (...)
-        {
-            error_ = std::current_exception();
-        }
-    }
-
-    void hear_signals()
-    {
-        if (error_)
-            return;
-        const WithPython lock;
-        if (PyErr_CheckSignals() != 0)
-            hold([] { throw py::error_already_set(); });
-    }
-
-    DrivenRun& run_;
-    const Piece& piece_;
-    std::int64_t first_;
-    std::int64_t last_;
-    std::int64_t called_ = -1;
-    bool stops_ = false;
-    bool broke_off_ = false;
-    std::exception_ptr error_;
-};
 
 /// While it lives cycles run.
 class DrivenRun::Guard
@@ -143,7 +51,17 @@ DrivenRun::DrivenRun(RunStart start, RunOptions options)
     if (options_.folder.empty())
         return;
     log_ = begin_log(start_, options_);
-    files_.emplace(start_, options_, *simulation_, *log_, begin);
+    files_ = std::make_unique<RunFiles>(start_, options_, *simulation_, *log_, begin);
+}
+
+/// In a process that was forked off, files and lock of the folder are those of the parent: they are left as they are.
+DrivenRun::~DrivenRun()
+{
+    if (process_ == ::getpid())
+        return;
+    static_cast<void>(files_.release());
+    static_cast<void>(log_.release());
+    static_cast<void>(start_.lock.release());
 }
 
 void DrivenRun::require_idle(const char* what) const
@@ -192,7 +110,7 @@ py::capsule DrivenRun::lend()
 
 bool DrivenRun::is_done() const
 {
-    return over_ && simulation_->state().stage + 1 == static_cast<Index>(simulation_->model().stages.size());
+    return is_over() && simulation_->state().stage + 1 == static_cast<Index>(simulation_->model().stages.size());
 }
 
 const std::vector<StageResult>& DrivenRun::run(const Piece& piece)
@@ -246,9 +164,9 @@ void DrivenRun::run_stages_of(Watch& watch, const StagePart& part)
     {
         summary_.clear();
         files_->keeper().go_on();
-        remove_file(start_.folder / "summary.json");
     }
     results_ = files_->run(*simulation_, {&watch}, &watch, part);
+    files_->recorder().await_frame();  // who goes on reads it, or moves the folder
 }
 
 void DrivenRun::take_case(const BuiltCase& next)
@@ -275,6 +193,15 @@ void DrivenRun::write_checkpoint(const std::string& folder)
     const Simulation& now = simulation();
     if (!now.state().stage_begun)
         refuse("checkpoint: (no stage has begun: there is nothing to go on from). Run some cycles first.");
+    std::error_code different;
+    if (files_ && std::filesystem::equivalent(folder, start_.folder, different))
+    {
+        require_own_folder("write_checkpoint()");
+        if (!is_done())
+            files_->keeper().go_on();
+        files_->keeper().save_now(now);  // with the rows before it
+        return;
+    }
     RunRecord record = start_.record;
     record.finished = is_done();
     record.history_axes.clear();
@@ -283,10 +210,7 @@ void DrivenRun::write_checkpoint(const std::string& folder)
     else
         for (const HistoryDef& history : now.model().histories)
             record.history_axes.push_back(HistorySampler(now.model(), history).axis());
-    std::error_code obstacle;
-    std::filesystem::create_directories(folder, obstacle);
-    if (obstacle)
-        throw RunError(fmt::format("{}: cannot be made ({}). Give another folder.", folder, obstacle.message()));
+    const RunLock lock(folder);
     hdem::write_checkpoint(folder, record, now.model(), now.state());
 }
 

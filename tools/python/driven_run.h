@@ -29,6 +29,9 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
 
     /// @param options  threads; folder of the results, "" for none
     DrivenRun(RunStart start, RunOptions options);
+    ~DrivenRun();
+    DrivenRun(const DrivenRun&) = delete;
+    DrivenRun& operator=(const DrivenRun&) = delete;
 
     /// Until the piece is done, the callback says so, or an exception of Python. The GIL is free while cycles run.
     const std::vector<StageResult>& run(const Piece& piece);
@@ -45,7 +48,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     [[nodiscard]] Look look() const { return {simulation().model(), simulation().state()}; }
     [[nodiscard]] const std::vector<StageResult>& results() const { return results_; }
     /// The present stage has come to its end.
-    [[nodiscard]] bool is_over() const { return over_.has_value(); }
+    [[nodiscard]] bool is_over() const { return over_ || was_finished(); }
     /// And it is the last one.
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] const RunStart& start() const { return start_; }
@@ -65,6 +68,8 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     class Watch;
     class Guard;
 
+    /// It is of a checkpoint of a run that was done, and no cycle has run since.
+    [[nodiscard]] bool was_finished() const { return start_.restarted && start_.record.finished && results_.empty(); }
     void require_idle(const char* what) const;
     void require_no_view() const;
     void require_own_folder(const char* what) const;  ///< two processes would write the same files
@@ -75,7 +80,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     RunOptions options_;
     std::optional<Simulation> simulation_;
     std::unique_ptr<Log> log_;
-    std::optional<RunFiles> files_;
+    std::unique_ptr<RunFiles> files_;
     std::vector<StageResult> results_;
     std::optional<StageResult> over_;
     std::string failure_;  ///< why the run cannot go on; empty: it can
@@ -95,3 +100,8 @@ pybind11::array DrivenRun::view(const std::vector<T>& values)
     return array;
 }
 }  // namespace hdem
+
+template <>
+class pybind11::detail::type_caster<hdem::DrivenRun> : public hdem::CasterOfMade<hdem::DrivenRun>
+{
+};

@@ -7,7 +7,10 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <future>
+#include <mutex>
+#include <optional>
 #include <stop_token>
 
 namespace hdem
@@ -60,19 +63,70 @@ catch (const SearchStopped&)
     return "";
 }
 
+/// What the thread of the search has to tell goes to the one that has asked for it, and the search waits until it is told: at Python's end no other thread gets
+/// Python's lock.
+class Messages
+{
+  public:
+    /// While it lives there may be messages.
+    struct Writer
+    {
+        Messages& to;
+        ~Writer() { to.end(); }
+    };
+
+    void tell(std::string text)
+    {
+        std::unique_lock lock(mutex_);
+        text_ = std::move(text);
+        changed_.notify_all();
+        changed_.wait(lock, [&] { return !text_; });
+    }
+    /// The next message; nothing after a while, or at the end.
+    std::optional<std::string> wait_for(std::chrono::milliseconds longest)
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, longest, [&] { return text_ || has_ended_; });
+        return text_;
+    }
+    void is_told()
+    {
+        const std::lock_guard lock(mutex_);
+        text_.reset();
+        changed_.notify_all();
+    }
+    [[nodiscard]] bool has_ended()
+    {
+        const std::lock_guard lock(mutex_);
+        return has_ended_;
+    }
+
+  private:
+    void end()
+    {
+        const std::lock_guard lock(mutex_);
+        has_ended_ = true;
+        changed_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<std::string> text_;
+    bool has_ended_ = false;
+};
+
 /// The search has a thread of its own: this one hears of signals, which Python takes in its main thread only.
 std::string find(const BuiltCase& built, const std::optional<int>& threads, const py::object& callback)
 {
     std::stop_source stop;
-    std::exception_ptr error;  // of the callback; written with the GIL
-    const Show show = [&](const FactorTrial& trial, const Model& model)
+    std::exception_ptr error;
+    const auto hold = [&](const auto& act)
     {
-        const WithPython lock;
-        if (callback.is_none() || error)
+        if (error)
             return;
         try
         {
-            callback(trial_json(trial, model).dump());
+            act();
         }
         catch (...)
         {
@@ -80,27 +134,38 @@ std::string find(const BuiltCase& built, const std::optional<int>& threads, cons
             stop.request_stop();
         }
     };
+    Messages messages;
+    const Show show = [&](const FactorTrial& trial, const Model& model)
+    {
+        if (!callback.is_none())
+            messages.tell(trial_json(trial, model).dump());
+    };
     const std::shared_ptr<const LoadedCase> loaded = built.loaded;
     std::future<std::string> answer;
     {
         const WithoutPython free;
         answer = std::async(std::launch::async,
-                            [&] { return factor_text_of(*loaded, thread_rule(threads), stop.get_token(), show); });
-        while (answer.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready)
+                            [&]
+                            {
+                                const Messages::Writer writer{messages};
+                                return factor_text_of(*loaded, thread_rule(threads), stop.get_token(), show);
+                            });
+        while (!messages.has_ended())
         {
+            const std::optional<std::string> text = messages.wait_for(std::chrono::milliseconds(50));
             const WithPython lock;
-            if (error || PyErr_CheckSignals() == 0)
-                continue;
-            try
-            {
-                throw py::error_already_set();
-            }
-            catch (...)
-            {
-                error = std::current_exception();
-            }
-            stop.request_stop();
+            if (text)
+                hold([&] { callback(*text); });
+            hold(
+                []
+                {
+                    if (PyErr_CheckSignals() != 0)
+                        throw py::error_already_set();
+                });
+            if (text)
+                messages.is_told();
         }
+        answer.wait();
     }
     if (error)
         std::rethrow_exception(error);

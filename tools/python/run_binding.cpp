@@ -1,4 +1,5 @@
 #include "core/energy_ledger.h"
+#include "core/state/stage_cycles.h"
 #include "core/state/state_hash.h"
 #include "io/frame_writer.h"
 #include "tools/python/bindings.h"
@@ -17,12 +18,20 @@ namespace py = pybind11;
 
 constexpr int most_threads = 4096;  // as of hdem run --threads
 
+/// A script may go to another folder while the run lives.
+std::string from_root(const std::string& path)
+{
+    std::error_code failed;
+    const std::filesystem::path found = std::filesystem::absolute(path, failed);
+    return failed ? path : found.string();
+}
+
 RunOptions options_of(const std::optional<std::string>& folder, const std::optional<int>& threads, bool overwrite)
 {
     if (threads && (*threads < 1 || *threads > most_threads))
         throw py::value_error(
             fmt::format("threads = {} (must be 1 to {}). Give None for as many as are fastest.", *threads, most_threads));
-    return {.folder = folder.value_or(""),
+    return {.folder = folder.value_or("").empty() ? "" : from_root(*folder),
             .overwrite = overwrite,
             .threads = threads,
             .quiet = true,
@@ -51,9 +60,10 @@ py::dict stage_dict(const StageResult& stage, bool is_over, const Model& model)
 py::list stage_list(const DrivenRun& run)
 {
     py::list list;
+    const Model& model = run.simulation().model();
     const std::vector<StageResult>& stages = run.results();
     for (const StageResult& stage : stages)
-        list.append(stage_dict(stage, run.is_over() || &stage != &stages.back(), run.simulation().model()));
+        list.append(stage_dict(stage, run.is_over() || &stage != &stages.back(), model));
     return list;
 }
 
@@ -74,6 +84,11 @@ py::dict energies(const DrivenRun& run)
 void bind_progress(RunType& type)
 {
     const auto state = [](const DrivenRun& run) -> const State& { return run.simulation().state(); };
+    const auto at_hand = [](const DrivenRun& run) -> const DrivenRun&
+    {
+        static_cast<void>(run.simulation());  // throws where cycles run
+        return run;
+    };
     type.def_property_readonly(
         "cycle", [=](const DrivenRun& run) { return state(run).cycle; }, "Cycles that have run.");
     type.def_property_readonly(
@@ -90,15 +105,13 @@ void bind_progress(RunType& type)
         "stage_cycles",
         [=](const DrivenRun& run) { return state(run).stage_begun ? state(run).cycle - state(run).stage_begin_cycle : 0; },
         "Cycles that the stage has run.");
-    type.def_property_readonly("is_over", &DrivenRun::is_over, "The present stage has come to its end.");
+    type.def(
+        "_cycles_since", [=](const DrivenRun& run, Index stage) { return cycles_since(stage < 0 ? no_index : stage, state(run)); },
+        py::arg("stage"));
     type.def_property_readonly(
-        "is_done",
-        [](const DrivenRun& run)
-        {
-            static_cast<void>(run.simulation());
-            return run.is_done();
-        },
-        "All stages of the case have run.");
+        "is_over", [=](const DrivenRun& run) { return at_hand(run).is_over(); }, "The present stage has come to its end.");
+    type.def_property_readonly(
+        "is_done", [=](const DrivenRun& run) { return at_hand(run).is_done(); }, "All stages of the case have run.");
     type.def_property_readonly(
         "threads", [](const DrivenRun& run) { return run.simulation().threads(); }, "At most.");
     type.def_property_readonly(
@@ -123,7 +136,7 @@ void bind_progress(RunType& type)
         "case_file", [](const DrivenRun& run) { return run.start().record.case_file; }, "Its name.");
     type.def_property_readonly(
         "folder", [](const DrivenRun& run) { return run.start().folder.string(); }, "Of the results; an empty text: none.");
-    type.def_property_readonly("_summary", &DrivenRun::summary);
+    type.def_property_readonly("_summary", [=](const DrivenRun& run) { return at_hand(run).summary(); });
 }
 
 void bind_files(RunType& type)
@@ -166,10 +179,17 @@ std::shared_ptr<DrivenRun> make_restart(const std::string& checkpoint, bool writ
     const WithoutPython free;
     if (!writes)
         return std::make_shared<DrivenRun>(read_moment(checkpoint), options);
-    options.restart = checkpoint;
+    options.restart = from_root(checkpoint);
     RunStart start = start_run(options);
     options.folder = start.folder.string();
     return std::make_shared<DrivenRun>(std::move(start), options);
+}
+
+/// That of Python or of numpy.
+bool is_false(const py::object& answer)
+{
+    const bool is_truth = py::isinstance<py::bool_>(answer) || py::isinstance(answer, py::module_::import("numpy").attr("bool_"));
+    return is_truth && PyObject_IsTrue(answer.ptr()) == 0;
 }
 
 py::list run_piece(const py::object& self, const std::optional<std::int64_t>& cycles, const std::optional<int>& stages,
@@ -179,7 +199,7 @@ py::list run_piece(const py::object& self, const std::optional<std::int64_t>& cy
         throw py::value_error("run(): cycles and stages must not be negative, every must be at least 1");
     DrivenRun::Piece piece{.cycles = cycles, .stages = stages, .every = every, .callback = {}};
     if (!callback.is_none())
-        piece.callback = [&self, &callback] { return !callback(self).is(py::bool_(false)); };
+        piece.callback = [&self, &callback] { return !is_false(callback(self)); };
     DrivenRun& run = self.cast<DrivenRun&>();
     run.run(piece);
     return stage_list(run);

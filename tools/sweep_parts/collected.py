@@ -31,7 +31,7 @@ def rows_of(folder, plan):
 
 def write_table(file, rows, columns=None):
     columns = columns or list(dict.fromkeys(itertools.chain.from_iterable(rows)))
-    with open(file, "w", newline="", encoding="utf-8") as out:
+    with open(file, "w", newline="", encoding="utf-8", errors="surrogateescape") as out:
         writer = csv.DictWriter(out, columns, restval="")
         writer.writeheader()
         writer.writerows(rows)

@@ -1,7 +1,7 @@
 """What all parts of tools/sweep share: the error that users see, folders of runs, what summary.json says."""
 import json
 
-DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 130, 143)    # exit codes of hdem
+DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 129, 130, 143)    # exit codes of hdem
 SUMMARY = "summary.json"
 
 
@@ -11,6 +11,11 @@ class SweepError(Exception):
 
 def folder_of(folder, number):
     return folder / f"run_{number:06d}"
+
+
+def runs_in(folder):
+    """Folders of runs, of whatever plan."""
+    return sorted(folder.glob("run_" + "[0-9]" * 6))
 
 
 FACTOR = "factor_of_safety"    # in the summary of a search by hdem fos that is done; before, it is that of the stages alone

@@ -1,12 +1,14 @@
 """The plan of a sweep: which values each run has."""
+import hashlib
 import itertools
 import json
 import random
 import subprocess
 from decimal import Decimal, InvalidOperation
+from pathlib import Path
 
 from . import designs
-from .common import FACTOR, SweepError
+from .common import FACTOR, SweepError, runs_in
 from .criterion import Criterion
 
 PLAN = "plan.json"
@@ -79,6 +81,28 @@ def try_first(options, values):
         raise SweepError(f"hdem refuses the first run:\n{done.stderr.strip()}")
 
 
+def digest_of(case):
+    """Of a case file; None where there is none: hdem says so."""
+    try:
+        return hashlib.sha256(case.read_bytes()).hexdigest()
+    except OSError:
+        return None
+
+
+def require_same_case(plan):
+    """Runs of a case that has changed would stand in one table with those before."""
+    now = digest_of(Path(plan["case"]))
+    if now is not None and plan.get("case_sha256", now) != now:
+        raise SweepError(f"{plan['case']}: has changed since the plan was made: its runs do not belong together. Put the case back, or make a new plan in another folder.")
+
+
+def require_free(folder):
+    if (folder / PLAN).exists():
+        raise SweepError(f"{folder / PLAN}: there is a plan already. Give another folder.")
+    for old in runs_in(folder):
+        raise SweepError(f"{old}: is a run of another plan, and would count as one of this plan. Give another folder.")
+
+
 def make(options):
     varied = [split_key("--vary", text) for text in options.vary]
     keys = [key for key, _ in varied]
@@ -93,17 +117,15 @@ def make(options):
     rows = designed(options, varied) if options.design else combinations(varied)
     if not options.case.exists():
         raise SweepError(f"{options.case}: no such file. Give a case.")
-    file = options.output / PLAN
-    if file.exists():
-        raise SweepError(f"{file}: there is a plan already. Give another folder, or remove it.")
+    require_free(options.output)
     try_first(options, dict(zip(keys, rows[0])) | {one["key"]: one["low"] for one in chain.values()})
     options.output.mkdir(parents=True, exist_ok=True)
-    plan = {"case": str(options.case.resolve()), "runs": [dict(zip(keys, row)) for row in rows], **chain}
+    plan = {"case": str(options.case.resolve()), "case_sha256": digest_of(options.case), "runs": [dict(zip(keys, row)) for row in rows], **chain}
     if options.command_of_hdem != "run":
         plan["command"] = options.command_of_hdem
     if options.design:
         plan["design"] = {"kind": options.design, "seed": options.design_seed}
-    file.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
+    (options.output / PLAN).write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
     print(f"{len(rows)} runs planned in {options.output}")
     return 0
 

@@ -1,4 +1,5 @@
 """One run of a plan: begun, gone on with, or left alone because it is done."""
+import signal
 import subprocess
 
 from . import chains
@@ -34,10 +35,17 @@ class Starter:
         if self.told.setdefault(process, me) is me:
             process.send_signal(self.stopped_by)
 
+    def listen(self):
+        """From now on signals stop it."""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) is not signal.SIG_IGN:    # nohup: go on
+                signal.signal(number, self.stop)
+
     def stop(self, number, _frame=None):
-        """A handler of signals."""
+        """A handler of signals. A run that is not apart hears of the first one itself: from the terminal, or from SLURM."""
+        passes_on = self.apart or self.stopped_by is not None
         self.stopped_by = number
-        for process in list(self.running):
+        for process in list(self.running) if passes_on else []:
             self.tell(process)
 
 

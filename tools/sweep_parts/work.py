@@ -1,7 +1,6 @@
 """Work off a plan: many runs at a time, shared with other workers, until all are done or enough is known."""
 import fcntl
 import os
-import signal
 import threading
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -128,9 +127,10 @@ def work(options):
     """Exit code: the worst of the runs of this worker; 0 when it stopped because enough is known."""
     if options.jobs < 1:
         raise SweepError(f"--jobs {options.jobs}: must be at least 1.")
-    worker = Worker(options, plans.read(options.folder))
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, worker.start.stop)
+    plan = plans.read(options.folder)
+    plans.require_same_case(plan)
+    worker = Worker(options, plan)
+    worker.start.listen()
     with ThreadPoolExecutor(options.jobs) as pool:
         for _ in range(options.jobs):
             pool.submit(worker.work)

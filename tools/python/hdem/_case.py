@@ -3,12 +3,11 @@ from __future__ import annotations
 
 import operator
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _core
-from ._toml import to_toml, toml_value
+from ._toml import from_toml, to_toml, toml_value
 
 
 def override_texts(changes: Mapping[str, Any] | Iterable[str]) -> list[str]:
@@ -29,7 +28,7 @@ def whole(name: str, value: Any) -> int | None:
     except TypeError:
         raise TypeError(f"{name} = {value!r:.80}: a whole number is needed, or None") from None
     if abs(number) >= 2**31 and name != "cycles" or abs(number) >= 2**62:
-        raise ValueError(f"{name} = {number:.4g}: too great")
+        raise ValueError(f"{name} = {max(min(number, 10**300), -10**300):.4g}: too great")
     return number
 
 
@@ -66,15 +65,15 @@ class Case(_core.Case):
     @property
     def data(self) -> dict[str, Any]:
         """The text as a dict of its own, without what `set` says."""
-        return tomllib.loads(self.text)
+        return from_toml(self.text)
 
     @property
     def blocks(self) -> int:
         """How many there are."""
         return len(self.names)
 
-    def __reduce__(self) -> tuple[Any, ...]:    # for other processes: it is read again there
-        return _read_again, (self.text, self.file, self.overrides)
+    def __reduce__(self) -> tuple[Any, ...]:    # for other processes: it is made again there, of the same texts
+        return _make_again, (self.text, self.file, self.overrides, self._files)
 
     def __repr__(self) -> str:
         if not getattr(self, "_is_read", False):
@@ -82,8 +81,8 @@ class Case(_core.Case):
         return f"<hdem.Case {self.file!r}: {self.blocks} blocks, stages {', '.join(self.stage_names)}>"
 
 
-def _read_again(text: str, file: str, overrides: list[str]) -> Case:
+def _make_again(text: str, file: str, overrides: list[str], files: dict[str, bytes]) -> Case:
     case = Case.__new__(Case)
-    _core.Case.__init__(case, text, file, overrides)
+    _core.Case.__init__(case, text, file, overrides, files)
     case._is_read = True
     return case

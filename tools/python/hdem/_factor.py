@@ -41,7 +41,7 @@ class FactorOfSafety:
 def fos(case: Case, *, threads: int | None = None, callback: Callable[[Trial], object] | None = None) -> FactorOfSafety:
     """Run all stages of a case, then divide the strength of its joints by F until blocks fail; as `hdem fos`, but nothing is written.
 
-    callback(trial) is called after each trial that counts, from another thread. Ctrl-C ends the search. `[factor_of_safety]` of the case
+    callback(trial) is called after each trial that counts; an exception of it ends the search. Ctrl-C ends the search. `[factor_of_safety]` of the case
     says which joints and how narrow the bracket is. Raises CaseError where the rock is never at rest, RunError where a run fails.
     """
     require_case(case, "fos")

@@ -3,19 +3,20 @@ from __future__ import annotations
 
 import json
 import os
-import tomllib
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._applied import applied_forces, apply_forces
+from ._applied import applied_forces, apply_forces, begin_with_stage, stage_name
 from ._case import Case, require_case, whole
-from ._toml import to_toml, toml_value
+from ._overrides import take_in
+from ._toml import from_toml, to_toml, toml_value
 
 ASSIGNED = ("positions", "velocities", "rotations", "angular_velocities", "applied_forces")
 RESULTS = ("forces", "moments", "stresses", "displacements", "turns")
+CHANGED = frozenset({"stage", "load"})    # sections of the case that change as it runs
 REGIMES = ("open", "stick", "slip", "impulse")    # by the number in contacts()["regime"]
 
 
@@ -78,6 +79,8 @@ class Simulation(_core.Run):
         """
         if callback is not None and not callable(callback):
             raise TypeError(f"run(): callback must be a function of one simulation, not {callback!r:.80}")
+        if every is None:
+            raise TypeError("every = None: a whole number is needed")
         return self._run(whole("cycles", cycles), whole("stages", stages), callback, whole("every", every))
 
     def contacts(self, also_open: bool = False) -> Any:
@@ -118,7 +121,12 @@ class Simulation(_core.Run):
     @property
     def case(self) -> dict[str, Any]:
         """The case as a dict of its own, with stages that were added, without its overrides."""
-        return tomllib.loads(self.case_text)
+        return from_toml(self.case_text)
+
+    def _present_case(self) -> tuple[dict[str, Any], list[str]]:
+        """The case as it is, and what is still laid over it: sections that change are as they run."""
+        case = self.case
+        return case, take_in(case, self.case_overrides, CHANGED)
 
     def add_stage(self, stage: Mapping[str, Any] | None = None, **keys: Any) -> None:
         """One more stage behind the last: the keys of [[stage]], as a dict or by name, e.g. add_stage(cycles=2000, set={"joint.default.cohesion": 0}).
@@ -130,44 +138,49 @@ class Simulation(_core.Run):
         table = {**(stage or {}), **keys}
         if isinstance(table.get("set"), Mapping):
             table["set"] = [f"{key} = {toml_value(value, key)}" for key, value in table["set"].items()]
-        case = self.case
+        case, overrides = self._present_case()
         case.setdefault("stage", []).append(table)
-        self._take_case(to_toml(case), self.case_overrides)
+        if self.is_done:
+            begin_with_stage(case, self.cycle, stage_name(case, len(case["stage"]) - 1))
+        self._take_case(to_toml(case), overrides)
 
     def set(self, key: str, value: Any) -> None:
         """A number of a joint or material from the next stage on, e.g. set("joint.default.friction_angle_deg", 25), as `set` of that stage."""
-        case = self.case
+        case, overrides = self._present_case()
         number = self.stage + (1 if self.stage_begun else 0)
         if number >= len(case.get("stage", [])):
             raise ValueError(f"set {key}: no stage is left to begin. Add one: add_stage(..., set={{{key!r}: {value!r}}}).")
         case["stage"][number].setdefault("set", []).append(f"{key} = {toml_value(value, key)}")
-        self._take_case(to_toml(case), self.case_overrides)
+        self._take_case(to_toml(case), overrides)
 
     @property
     def applied_forces(self) -> Any:
         """What the user puts on each block's centroid, (n, 2) [N] per metre of thickness, beside weights, contacts and loads of the case. Zero at first.
 
         Reading gives a copy. What is assigned, between two calls of run(), acts from the next cycle on until other forces are assigned. It is written
-        into the case, as a [[load]] for each row that changes: checkpoints keep it, and `hdem run` of case_text has it at the same cycles. For forces
-        that change with time give the case a [[load]] with a table, or assign every hundred cycles or so, not in each one.
+        into the case, as a [[load]] for each row that changes: checkpoints keep it, and `hdem run` of case_text has it at the same cycles of its stage. A
+        stage that looks for rest waits for loads that are to come: assign before it begins, and the case gives the same bits. For forces that change
+        with time give the case a [[load]] with a table, or assign every hundred cycles or so, not in each one.
         """
-        return applied_forces(self.case, self.names)
+        return applied_forces(self._present_case()[0], self.names)
 
     @applied_forces.setter
     def applied_forces(self, values: Any) -> None:
-        names, case = self.names, self.case
+        names, (case, overrides) = self.names, self._present_case()
         if values.shape != (len(names), 2):
             raise ValueError(f"applied_forces: an array of shape ({len(names)}, 2) is needed, one row a block")
         for number in np.flatnonzero(~np.all(np.isfinite(values), axis=1)):
             raise ValueError(f"applied_forces: the number of block \"{names[number]}\" is not finite")
         for number in np.flatnonzero(np.any(values != 0.0, axis=1) & ~self.present):
             raise ValueError(f"applied_forces: block \"{names[number]}\" is removed: nothing can act on it. Give it 0.")
-        if apply_forces(case, names, values, self.cycle):
-            self._take_case(to_toml(case), self.case_overrides)
+        stages = [stage_name(case, number) for number in range(len(case.get("stage", [])))]
+        since = stage_name(case, self.stage + (1 if self.is_over else 0))
+        if apply_forces(case, names, values, since, lambda stage: self._cycles_since(-1 if stage is None else stages.index(stage))):
+            self._take_case(to_toml(case), overrides)
 
     def end_stage(self) -> None:
         """The running stage ends with the present cycle; run() goes on with the next one."""
-        case = self.case
+        case, overrides = self._present_case()
         done = self.stage_cycles
         if not self.stage_begun or self.is_over or done < 1:
             raise ValueError("end_stage(): no stage is running. Run some cycles first.")
@@ -176,9 +189,6 @@ class Simulation(_core.Run):
         for limit in ("cycles", "duration", "max_cycles"):
             table.pop(limit, None)
         table[key] = done
-        prefix = f"stage[{self.stage}]."
-        overrides = [text for text in self.case_overrides
-                     if text.split("=")[0].strip() not in (prefix + "cycles", prefix + "duration", prefix + "max_cycles")]
         self._take_case(to_toml(case), overrides)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -195,4 +205,7 @@ class Simulation(_core.Run):
     def __repr__(self) -> str:
         if not getattr(self, "_is_there", False):
             return "<hdem.Simulation that could not begin>"
-        return f"<hdem.Simulation {self.case_file!r}: cycle {self.cycle}, stage {self.stage}>"
+        try:
+            return f"<hdem.Simulation {self.case_file!r}: cycle {self.cycle}, stage {self.stage}>"
+        except RuntimeError:    # cycles run in another thread
+            return f"<hdem.Simulation {self.case_file!r} that runs>"

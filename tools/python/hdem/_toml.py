@@ -4,10 +4,16 @@ from __future__ import annotations
 import json
 import os
 import re
+import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 _PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def from_toml(text: str) -> dict[str, Any]:
+    """The case in a text, which may begin with the mark that Windows puts there."""
+    return tomllib.loads(text.removeprefix("\ufeff"))
 
 
 def to_toml(case: Mapping[str, Any]) -> str:
@@ -68,7 +74,7 @@ def _value(value: Any, path: str) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
-        return repr(value)
+        return repr(int(value) if isinstance(value, int) else float(value))    # kinds of their own, as IntEnum, have a repr of their own
     if isinstance(value, (str, os.PathLike)):
         return _text(os.fspath(value))
     if isinstance(value, Mapping):

@@ -34,6 +34,39 @@ TEST(GeoJson, LinesAreTraces)
     EXPECT_THAT(file.traces[1], ElementsAre(Vec2(3, 0), Vec2(4, 3)));
 }
 
+TEST(GeoJson, NamesMayBeCodesAndKeysInCapitals)
+{
+    const PolygonFile file = read_geojson_blocks(R"({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"NAME": 12, "MATERIAL": 2.0, "FIXED": 1},
+         "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
+        {"type": "Feature", "properties": {"name": null, "Material": "soft", "fixed": null},
+         "geometry": {"type": "Polygon", "coordinates": [[[2, 0], [3, 0], [3, 1], [2, 0]]]}}]})",
+                                                 "b.geojson", 0);
+    EXPECT_THAT(file.problems, IsEmpty());
+    ASSERT_THAT(file.blocks, SizeIs(2));
+    EXPECT_EQ(file.blocks[0].block.name, "12");
+    EXPECT_EQ(file.blocks[0].block.material, "2");
+    EXPECT_TRUE(file.blocks[0].block.fix_rotation);
+    EXPECT_EQ(file.blocks[1].block.name, "block2");
+    EXPECT_EQ(file.blocks[1].block.material, "soft");
+}
+
+TEST(GeoJson, MaterialThatIsNoNameIsAnError)
+{
+    const PolygonFile file = read_geojson_blocks(R"({"type": "Feature", "properties": {"material": 2.5},
+         "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}})",
+                                                 "b.geojson", 0);
+    ASSERT_THAT(file.problems, SizeIs(1));
+    EXPECT_THAT(file.problems[0].text, HasSubstr("b.geojson: blocks: feature 1 (material is neither a text nor a whole number)"));
+}
+
+TEST(GeoJson, NumberThatIsTooLargeIsAnErrorOfTheFile)
+{
+    const PolygonFile file = read_geojson_blocks("[1e400]", "b.geojson", 0);
+    ASSERT_THAT(file.problems, SizeIs(1));
+    EXPECT_EQ(file.problems[0].text, "b.geojson: blocks: (has a number that is too large). Export it once more.");
+}
+
 TEST(GeoJson, PolygonsAreBlocks)
 {
     const PolygonFile file = read_geojson_blocks(R"({"type": "FeatureCollection", "features": [

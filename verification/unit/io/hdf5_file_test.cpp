@@ -4,8 +4,14 @@
 #include "verification/unit/small_run.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <numeric>
+#include <thread>
 
 #ifdef __SANITIZE_ADDRESS__
 /// HDF5 1.10.8 loses some memory when it cannot open a damaged file.
@@ -70,6 +76,51 @@ TEST(Hdf5File, GivesBackWhatWasWritten)
     EXPECT_FALSE(in.has("/deep/out"));
     EXPECT_FALSE(in.has("/floats/x"));
     EXPECT_FALSE(in.has_attribute("/deep", "nothing"));
+}
+
+TEST(Hdf5File, AProcessIsForkedOffWhenNoFileIsOpen)
+{
+    const ScratchFolder folder("hdf5_fork");
+    std::promise<void> opened;
+    std::atomic<bool> was_open_long = false;
+    std::thread other(
+        [&]
+        {
+            Hdf5Writer file(folder / "a.h5");
+            opened.set_value();
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            file.commit();
+            was_open_long = true;
+        });
+    opened.get_future().wait();
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+        ::alarm(20);  // it would wait for ever
+        Hdf5Writer file(folder / "b.h5");
+        file.write("/x", std::vector<double>{1.0});
+        file.commit();
+        ::_exit(was_open_long ? 0 : 1);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    other.join();
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(Hdf5Reader(folder / "b.h5").read<double>("/x", {1}), std::vector<double>{1.0});
+}
+
+TEST(Hdf5File, AThreadThatForksDoesNotWaitForItself)
+{
+    const ScratchFolder folder("hdf5_own_fork");
+    Hdf5Writer file(folder / "a.h5");
+    ::alarm(20);  // it would wait for ever
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(0);
+    ::alarm(0);
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
 }
 
 TEST(Hdf5File, SameContentGivesTheSameBytes)

@@ -4,6 +4,7 @@
     fos_test.py HDEM CASES    the program, and the folder of the cases
 """
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -201,6 +202,27 @@ until = "converged"
                                  ("gravity.tilt_deg=3:9", "speed:slab>0.1", "displacement:BLOCK>METRES"), ("gravity.tilt_deg=3:9", "displacement:slob>0.1", "no block is called"),
                                  ("gravity.tilt_deg=1:5", "displacement:slab>0.1", "begins to fail"), ("gravity.tlt_deg=20:60", "displacement:slab>0.1", "did you mean")):
             self.assertIn(why, hdem("critical", CASES / "slab.toml", "--vary", vary, "--fails", fails, "-o", self.folder, code=2))
+
+    def test_critical_leaves_no_answer_of_a_search_before(self):
+        arguments = ("critical", CASES / "slab.toml", "--fails", "displacement:slab>0.1", "--tolerance", 10, "-q", "-o", self.folder / "search")
+        hdem(*arguments, "--vary", "gravity.tilt_deg=20:60")
+        self.assertTrue((self.folder / "search/summary.json").exists())
+        hdem(*arguments, "--vary", "gravity.tilt_deg=1:20", code=2)
+        self.assertFalse((self.folder / "search/summary.json").exists())
+
+    def test_critical_leaves_a_run_alone(self):
+        hdem("run", CASES / "slab.toml", "-q", "--set", "stage[0].max_cycles=10", "-o", self.folder / "run", code=4)
+        before = (self.folder / "run/summary.json").read_bytes(), (self.folder / "run/run.log").read_bytes()
+        text = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder / "run", code=2)
+        self.assertIn("holds the results of a run", text)
+        self.assertEqual(before, ((self.folder / "run/summary.json").read_bytes(), (self.folder / "run/run.log").read_bytes()))
+
+    def test_critical_of_a_file_whose_name_is_not_utf8(self):
+        self.folder.mkdir()
+        case = Path(os.fsdecode(bytes(self.folder) + b"/sl\xffab.toml"))
+        case.write_bytes((CASES / "slab.toml").read_bytes())
+        hdem("critical", case, "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "--tolerance", 10, "-q", "-o", self.folder / "search")
+        self.assertEqual(json.loads((self.folder / "search/summary.json").read_text(encoding="utf-8"))["case"], "sl\ufffdab.toml")
 
 
 if __name__ == "__main__":

@@ -101,6 +101,24 @@ class Drawing(unittest.TestCase):
             self.assertEqual(list(zip(blocks["name"], materials, blocks["fixed"]))[1:],
                              [("BLOCKS_1", "rock", 1), ("BLOCKS_2", "rock", 1), ("Sand_ wet 1_1", "sand", 0), ("Sand_ wet 1_2", "sand", 0)])
 
+    def test_arrays_of_block_references_are_all_there(self):
+        drawing = ezdxf.new()
+        drawing.blocks.new("STONE").add_lwpolyline([(0, 0), (1, 0), (1, 1), (0, 1)], close=True)
+        drawing.modelspace().add_blockref("STONE", (0, 0), dxfattribs={"row_count": 2, "column_count": 3, "row_spacing": 2.0, "column_spacing": 3.0})
+        drawing.saveas(self.folder / "map.dxf")
+        code, said = self.convert("--blocks", self.folder / "b.wkt")
+        self.assertEqual(code, 0, said)
+        self.assertIn("6 blocks", said)
+        self.assertIn("POLYGON((6 2, 7 2, 7 3, 6 3, 6 2))", (self.folder / "b.wkt").read_text())
+
+    def test_ends_of_arcs_meet_but_for_round_off(self):
+        drawing = ezdxf.new()
+        drawing.modelspace().add_lwpolyline([(50.0, 0.0, 1.0), (52.0, 0.0, 1.0)], format="xyb", close=True)
+        drawing.saveas(self.folder / "map.dxf")
+        code, said = self.convert("--blocks", self.folder / "b.wkt", "--arc", "0.001")
+        self.assertEqual(code, 0, said)
+        self.assertIn("blocks            1 (1 free)", self.check('blocks_file = "b.wkt"\n'))
+
     def test_errors_say_what_is_wrong(self):
         blocks, traces = self.folder / "b.csv", self.folder / "t.wkt"
         for arguments, expected, words in (([], 2, "give --blocks or --traces"), (["--traces", traces, "--scale", "0"], 2, "must be positive"),

@@ -53,6 +53,14 @@ class SmallRun(unittest.TestCase):
         done = subprocess.run([HDEM, "plot", *map(str, arguments)], capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
+    def test_says_which_file_it_has_written(self):
+        self.assertEqual(self.plot(self.folder, "-o", self.folder / "shown"), (0, f"{self.folder / 'shown.png'}\n"))
+        self.assertTrue((self.folder / "shown.png").exists())
+        code, said = self.plot(self.folder, "-o", self.folder)
+        self.assertEqual(code, 2)
+        self.assertIn("a folder. Give the name of a picture with -o.", said)
+        self.assertEqual(self.plot(self.folder, "-o", "/proc/x.png"), (1, "error: hdem plot: /proc/x.png: No such file or directory\n"))
+
     def test_frames_are_those_of_the_ends_of_stages(self):
         self.assertEqual([(frame.cycle, frame.stage) for frame in self.run_.frames if frame.cycle > 0], [(200, "settle"), (1700, "fall")])
         self.assertEqual(hdem_io.open_run(self.folder / "results.h5").frames, self.run_.frames)

@@ -37,6 +37,7 @@ def simulation(**how):
     (lambda: hdem.fos(hdem.Case(CASE), callback=3), "callback must be a function"),
     (lambda: simulation().run(cycles=1.5), "cycles = 1.5: a whole number is needed"),
     (lambda: simulation().run(stages="all"), "stages = 'all': a whole number is needed"),
+    (lambda: simulation().run(every=None), "every = None: a whole number is needed"),
     (lambda: simulation().run(cycles=5, callback=3), "callback must be a function"),
     (lambda: setattr(simulation(), "positions", "left"), "positions: an array of numbers is needed, not 'left'"),
     (lambda: setattr(simulation(), "velocities", simulation().velocities.astype(complex)), "velocities: an array of numbers is needed")])
@@ -50,6 +51,7 @@ def test_wrong_types_are_named(make, words):
     (lambda: hdem.Simulation(hdem.Case(CASE), threads=5000), "threads = 5000 (must be 1 to 4096)"),
     (lambda: hdem.Simulation(hdem.Case(CASE), threads=10**12), "threads = 1e+12: too great"),
     (lambda: simulation().run(cycles=10**30), "cycles = 1e+30: too great"),
+    (lambda: simulation().run(cycles=-10**400), "too great"),
     (lambda: simulation().run(cycles=-1), "must not be negative")])
 def test_wrong_numbers_are_named(make, words):
     with pytest.raises(ValueError) as told:

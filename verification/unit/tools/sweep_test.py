@@ -8,10 +8,12 @@ import errno
 import fcntl
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -109,6 +111,23 @@ class Sweep(unittest.TestCase):
             program.write_text(program.read_text().replace('"${CODE:-0}"', str(code)).replace("exit 1;;", f"exit {code};;"))
             self.assertEqual(self.sweep("run", "s", 1, 2, 3, 4, "--program", program), (code, f"4 runs: {words}\n"))
 
+    def test_signals_end_runs_and_are_told(self):
+        self.plan("generator.seed=1:3")
+        slow = self.folder / "slow"
+        slow.write_text(f'#!/bin/bash\nfor s in HUP INT TERM; do trap "kill \\$! 2> /dev/null; exit $((128 + $(kill -l $s)))" $s; done\necho >> "{self.folder}/begun"\nsleep 30 & wait $!\n')
+        slow.chmod(0o755)
+        for command, number, words in ((["run", "s", "1", "2"], signal.SIGINT, "2 runs: 1 interrupted, 1 not begun"), (["run", "s", "3"], signal.SIGHUP, "run 3: interrupted"),
+                                       (["work", "s", "--jobs", "1"], signal.SIGHUP, "3 runs: 1 interrupted; 3 without an outcome"),
+                                       (["work", "s", "--jobs", "1"], signal.SIGTERM, "3 runs: 1 interrupted; 3 without an outcome")):
+            (self.folder / "begun").unlink(missing_ok=True)
+            process = subprocess.Popen([TOOLS / "sweep", *command, "--program", slow], cwd=self.folder, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                       text=True)
+            while not (self.folder / "begun").exists():
+                time.sleep(0.02)
+            os.killpg(process.pid, number)    # as a terminal does
+            said, _ = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, said.strip()), (128 + number, words))
+
     def test_not_converged_is_said_of_a_run_that_was_done_before(self):
         case = small_case.CASE.replace("cycles = 1500", 'until = "converged"\nmax_cycles = 100')
         (self.folder / "small.toml").write_text(case, encoding="utf-8")
@@ -155,6 +174,29 @@ class Sweep(unittest.TestCase):
             self.assertFalse((self.folder / "t").exists())
         code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "generator.sed=1:3", "--program", "nowhere")
         self.assertEqual(code, 0, "planned where hdem is not: " + said)
+
+    def test_runs_of_another_plan_do_not_count(self):
+        self.plan("generator.seed=1:2")
+        (self.folder / "s/run_000001").mkdir()
+        (self.folder / "s/plan.json").unlink()
+        code, said = self.sweep("plan", "small.toml", "-o", "s", "--vary", "joint.default.friction_angle_deg=1:2")
+        self.assertEqual(code, 2)
+        self.assertIn("s/run_000001: is a run of another plan", said)
+        self.assertFalse((self.folder / "s/plan.json").exists())
+
+    def test_runs_of_a_case_that_has_changed_are_refused(self):
+        self.plan("generator.seed=1:2")
+        program = self.recorder()
+        self.assertEqual(self.sweep("run", "s", "1", "--program", program)[0], 0)
+        (self.folder / "small.toml").write_text(small_case.CASE + "# changed\n", encoding="utf-8")
+        (self.folder / "words").unlink()
+        for command in (["run", "s", "2"], ["work", "s"]):
+            code, said = self.sweep(*command, "--program", program)
+            self.assertEqual(code, 2)
+            self.assertIn("small.toml: has changed since the plan was made", said)
+        self.assertFalse((self.folder / "words").exists())
+        (self.folder / "small.toml").write_text(small_case.CASE, encoding="utf-8")
+        self.assertEqual(self.sweep("run", "s", "2", "--program", program)[0], 0)
 
     def test_errors_say_what_is_wrong(self):
         self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
