@@ -100,10 +100,16 @@ void add_names(const CaseDef& def, Model& model)
 }
 
 /// Laws of the joints, densities of the materials, and what stages make of both.
-void add_joints_and_densities(const CaseDef& def, const PlacedRock& placed, Model& model)
+void add_joints_and_densities(const CaseDef& def, const RockMass& rock, const PlacedRock& placed, Model& model)
 {
-    const JointSurroundings around{.normal_stress = expected_stress(def, model.insitu, placed.box.low.y() - placed.origin.y(),
-                                                                    placed.box.high.y() - placed.origin.y(), model.mean_size),
+    RockExtent extent{.low = placed.box.low.y() - placed.origin.y(),
+                      .high = placed.box.high.y() - placed.origin.y(),
+                      .along_gravity = extent_along(tilted_gravity(def), rock, placed),
+                      .along_loads = {},
+                      .block_size = model.mean_size};
+    for (const LoadDef& load : def.loads)
+        extent.along_loads.push_back(extent_along(load.acceleration, rock, placed));
+    const JointSurroundings around{.normal_stress = expected_stress(def, model.insitu, extent),
                                    .block_size = model.mean_size,
                                    .restitution = def.contact.restitution,
                                    .reach = 0.5 * def.contact.skin * model.mean_size};
@@ -158,7 +164,7 @@ Setup build_model(const CaseDef& def)
         model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, tilted_gravity(def),
                                   model.origin);
     }
-    add_joints_and_densities(def, placed, model);
+    add_joints_and_densities(def, rock, placed, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
     setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory() || is_stiffness_changed(model);
 

@@ -193,23 +193,27 @@ double greatest_factor(const FactorDef& factor)
 }
 }  // namespace
 
-double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high, double block_size)
+double expected_stress(const CaseDef& def, const InsituField& insitu, const RockExtent& rock)
 {
     double density = 0.0;
     for (const MaterialDef& material : def.materials)
         density = std::max(density, material.density);
-    double stress = density * def.gravity.norm() * (high - low);
+    double stress = density * def.gravity.norm() * rock.along_gravity;
     if (insitu.given)
-        for (const double y : {low, high})
+        for (const double y : {rock.low, rock.high})
         {
             const StressDef s = stress_at(insitu, y);
             stress = std::max(stress, std::max(std::abs(s.xx), std::abs(s.yy)) + std::abs(s.xy));
         }
     constexpr double concentration = 2.0, of_loads = 4.0;
     stress *= concentration;
-    for (const LoadDef& load : def.loads)
-        stress = std::max(stress, greatest_factor(load.factor) * of_loads *
-                                      (load.force.norm() / block_size + density * load.acceleration.norm() * (high - low)));
+    for (std::size_t i = 0; i < def.loads.size(); ++i)
+    {
+        const LoadDef& load = def.loads[i];
+        stress = std::max(stress,
+                          greatest_factor(load.factor) * of_loads *
+                              (load.force.norm() / rock.block_size + density * load.acceleration.norm() * rock.along_loads[i]));
+    }
     for (const BoundaryDef& boundary : def.boundaries)
         stress = std::max(stress, greatest_factor(boundary.factor) * of_loads *
                                       std::max(boundary.stress.value_or(Vec2(0.0, 0.0)).lpNorm<1>(), std::abs(boundary.target)));
