@@ -199,7 +199,7 @@ Setup build_model(const CaseDef& def)
     model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock, placed, model.mean_size);
 
-    std::ranges::move(resolve_names(def, model, setup.state.blocks), std::back_inserter(problems));
+    std::ranges::move(resolve_names(def, model, setup.state.blocks, free_at_times), std::back_inserter(problems));
     if (!std::isfinite(smallest))
         problems.push_back({.key = "domain.fixed",
                             .text = "rock mass: free blocks = 0 (every block is fixed, and no stage frees one: nothing can move). "
