@@ -119,6 +119,10 @@ Law law_of(const JointDef& joint, const JointSurroundings& around, const JointNu
     return law;
 }
 
+/// As a share of the block size: a bond without tension breaks as its joint opens, but not by a gap that is round-off, or that the springs leave which press it where it is
+/// drawn (core/stress/drawn_joints.h). As much as leaves plain contacts closed (closed_gap, core/detection/edge_touch.h).
+constexpr double round_off_gap = 1e-9;
+
 JointRow row_of(const JointDef& joint, const JointSurroundings& around)
 {
     const Curve curve = curve_of(joint, joint.normal_stress.value_or(around.normal_stress));
@@ -133,6 +137,9 @@ JointRow row_of(const JointDef& joint, const JointSurroundings& around)
     row.torn_reach = joint.residual_tension.value_or(0.0) > 0.0 ? around.reach : 0.0;
     row.is_bonded = joint.cohesion > 0.0 || row.tension > 0.0;
     row.begins_broken = joint.initially == JointStart::broken;
+    if (row.is_bonded && row.tension == 0.0 && CoulombResidual::loses_strength(row.numbers))
+        row.numbers[CoulombResidual::tension] = std::min(row.numbers[curve_stiffness] * round_off_gap * around.block_size,
+                                                         joint.cohesion);
     return row;
 }
 
