@@ -179,11 +179,11 @@ Setup build_model(const CaseDef& def)
     model.holds_mean = def.domain.hold == DomainHold::mean;
     add_initial_state(rock, placed, model, setup.state);
     std::vector<Problem> problems = resolve_boundaries(def, rock, placed.origin, model, setup.state.blocks);
-    std::ranges::move(resolve_water(def, model.origin, setup.state.blocks, model), std::back_inserter(problems));
+    const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
+    std::ranges::move(resolve_water(def, model.origin, free_at_times, model), std::back_inserter(problems));
     std::ranges::move(resolve_support(def, setup.state.blocks, model, setup.state.support), std::back_inserter(problems));
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
-    const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
     std::vector<double> masses = least_masses(model);
     std::swap(masses, model.mass);  // the step must be good in all stages
     const double smallest = smallest_free_mass(model, free_at_times);
