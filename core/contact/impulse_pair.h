@@ -25,7 +25,8 @@ namespace hdem
     const auto& [k_a, k_b, k_ab] = k;
     if (k_ab > 0.0)  // both stop it: only a sum is known, and each change is shared
     {
-        const double ratio = std::sqrt(k_b / k_a), share = 1.0 / (1.0 + ratio * ratio);
+        constexpr double alike = 1e-3;  // blocks that cannot turn, or a contact so short that its points are as good as one
+        const double ratio = std::abs(k_b - k_a) <= alike * k_a ? 1.0 : std::sqrt(k_b / k_a), share = 1.0 / (1.0 + ratio * ratio);
         const double change = share * (std::max(r[0], r[1] / ratio) / k_a - a.impulse_normal - ratio * b.impulse_normal);
         return {std::max(0.0, a.impulse_normal + change), std::max(0.0, b.impulse_normal + ratio * change)};
     }
