@@ -128,18 +128,18 @@ void HistorySampler::add_memories(const Model& model, const State& state, PairSa
     double length = 0.0;
     for (const Index i : contacts_)
     {
-        if (!model.joints.has_memory(state.contacts.law[i]) || state.blocks.present[first_] == 0 ||
-            state.blocks.present[second_] == 0)
+        const Index law = state.contacts.law[i];
+        const bool counts = have_met(model.joints, law) ? is_closed_contact(state, i) : model.joints.has_memory(law);
+        if (!counts || state.blocks.present[first_] == 0 || state.blocks.present[second_] == 0)
             continue;
         const ContactReport contact = report_contact(state, i);
-        const JointRow& row = model.joints.rows[state.contacts.law[i]];
         const double half = 0.5 * contact.length;
         for (const JointMemory& point : contact.memory)
         {
             sums.plastic_slip += half * point.slip;
             sums.opening += half * point.opening;
-            sums.damage += half * damage(row, point);
-            sums.broken += half * point.broken;
+            sums.damage += half * damage_share(model.joints, law, point);
+            sums.broken += half * broken_share(model.joints, law, point);
         }
         length += contact.length;
     }

@@ -209,7 +209,7 @@ SectionSpec damping_section()
               .range = {.low = 0, .high = 1, .high_included = false}}),
          field<&DampingDef::global_damping_ratio>({.name = "global_damping_ratio",
                                                    .effect = "ξ_g of Eq. (22): blocks with an impulse contact lose the share 2 ξ_g "
-                                                             "ω_avg Δt of their velocity in a cycle.",
+                                                             "ω_avg Δt of their velocity in a cycle, at most all of it.",
                                                    .range = {.low = 0, .high = 1e6}}),
          field<&DampingDef::average_frequency>(
              {.name = "average_frequency", .unit = "rad/s", .effect = "ω_avg of Eq. (22).", .range = {.low = 0, .high = 1e9}})},

@@ -263,8 +263,9 @@ SectionSpec history_section()
                             "a hinge; "
                             "length that has come off the rock. `pore_pressure` (of the water in joints, from table, field or "
                             "cracks) belongs to `point`. "
-                            "A vector such as `velocity` becomes two columns. What joints remember is the mean over the closed "
-                            "contacts, by their length; 0 where a joint has no memory.",
+                            "A vector such as `velocity` becomes two columns. What joints remember is the mean by their length, "
+                            "of open joints too; 0 where a joint has no memory. Blocks that have met since the start count as "
+                            "broken while they touch.",
                   .example = "[\"velocity\"]",
                   .choices = std::move(quantities),
                   .required = true}),

@@ -19,15 +19,18 @@ void write_memories(Hdf5Writer& file, const Model& model, const State& state, co
     const std::size_t n = contacts.size();
     const auto mean = [&](double JointMemory::*field)
     { return [&contacts, field](std::size_t i) { return 0.5 * (contacts[i].memory[0].*field + contacts[i].memory[1].*field); }; };
-    const auto damage_of = [&](std::size_t i)
+    const auto mean_of = [&](double (*share)(const JointTable&, Index, const JointMemory&))
     {
-        const JointRow& row = model.joints.rows[state.contacts.law[numbers[i]]];
-        return 0.5 * (damage(row, contacts[i].memory[0]) + damage(row, contacts[i].memory[1]));
+        return [&, share](std::size_t i)
+        {
+            const Index law = state.contacts.law[numbers[i]];
+            return 0.5 * (share(model.joints, law, contacts[i].memory[0]) + share(model.joints, law, contacts[i].memory[1]));
+        };
     };
     write_cell_data<float>(file, "plastic_slip", n, mean(&JointMemory::slip));
     write_cell_data<float>(file, "opening", n, mean(&JointMemory::opening));
-    write_cell_data<float>(file, "broken", n, mean(&JointMemory::broken));
-    write_cell_data<float>(file, "damage", n, damage_of);
+    write_cell_data<float>(file, "broken", n, mean_of(broken_share));
+    write_cell_data<float>(file, "damage", n, mean_of(damage_share));
 }
 }  // namespace
 

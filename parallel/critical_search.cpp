@@ -20,8 +20,7 @@ class ConditionWatch : public Observer
         for (const Index block : model.slot_of_user)
         {
             start_.push_back(state.blocks.motion[block]);
-            const bool named = std::ranges::find(condition.blocks, model.name[block]) != condition.blocks.end();
-            counts_.push_back(named || (condition.blocks.empty() && state.blocks.is_free(block)) ? 1 : 0);
+            named_.push_back(std::ranges::find(condition.blocks, model.name[block]) != condition.blocks.end() ? 1 : 0);
         }
     }
 
@@ -33,13 +32,15 @@ class ConditionWatch : public Observer
             return count_detached(model, state);
         for (std::size_t user = 0; user < start_.size(); ++user)
         {
-            if (counts_[user] == 0)
+            const Index block = model.slot_of_user[user];
+            if (named_[user] == 0 &&
+                !(condition_.blocks.empty() && state.blocks.is_free(block)))  // free now: stages may free blocks
                 continue;
-            const double value = value_of(start_[user], state.blocks.motion[model.slot_of_user[user]]);
+            const double value = value_of(start_[user], state.blocks.motion[block]);
             if (value > result_.greatest || result_.block.empty())
             {
                 result_.greatest = value;
-                result_.block = model.name[model.slot_of_user[user]];
+                result_.block = model.name[block];
             }
             result_.fails = result_.fails || value > condition_.limit;
         }
@@ -69,8 +70,8 @@ class ConditionWatch : public Observer
     }
 
     const FailureCondition& condition_;
-    std::vector<BlockMotion> start_;  ///< by the user's number
-    std::vector<std::uint8_t> counts_;
+    std::vector<BlockMotion> start_;   ///< by the user's number
+    std::vector<std::uint8_t> named_;  ///< likewise
     ConditionResult result_;
 };
 

@@ -4,6 +4,7 @@
 #include "core/boundary/switch_boundaries.h"
 #include "core/detection/edge_touch.h"
 #include "core/energy_ledger.h"
+#include "core/model/block_order.h"
 #include "core/motion/released_forces.h"
 #include "core/motion/rest.h"
 #include "core/rock/build_model.h"
@@ -131,11 +132,11 @@ void Simulation::change_sides(const BoundaryChange& sides)
 
 void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& sides)
 {
-    std::vector<std::uint8_t> was_fixed;
-    for (Index i = 0; i < model_.blocks(); ++i)
-        was_fixed.push_back(state_.blocks.is_free(i) ? 0 : 1);
+    std::vector<std::uint8_t> was_fixed;  // by the user's numbers: blocks may be sorted anew below
+    for (const Index slot : model_.slot_of_user)
+        was_fixed.push_back(state_.blocks.is_free(slot) ? 0 : 1);
     for (const Index wall : sides.begins)
-        was_fixed[wall] = 0;  // it touches the rock without force
+        was_fixed[model_.user_number[wall]] = 0;  // it touches the rock without force
     change_sides(sides);
     for (const std::string& name : stage.excavate)
         excavate(name);
@@ -148,7 +149,10 @@ void Simulation::change_blocks(const StageDef& stage, const BoundaryChange& side
     if (state_.contacts_outdated)
         renew_contacts();
     if (!stage.free.empty() || !sides.freed.empty())  // between two fixed blocks there was no contact
+    {
+        permute(model_.user_number, was_fixed);
         join_drawn_blocks(model_, was_fixed, state_);
+    }
 }
 
 void Simulation::change_water()
@@ -193,6 +197,8 @@ void Simulation::begin_stage(Index stage)
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
+    state_.method = def.method.value_or(state_.method);  // before all that asks for the rules of the stage
+    state_.damping = def.damping.value_or(state_.damping);
     change_properties();
     ends_.reset();
     forget_stage(def, model_.time_step, state_);
@@ -205,8 +211,6 @@ void Simulation::begin_stage(Index stage)
     if (bolted || lined)
         runner_.take_contacts();
     start_walls(model_, state_);
-    state_.method = def.method.value_or(state_.method);
-    state_.damping = def.damping.value_or(state_.damping);
     count_ways_anew(state_.blocks);
     statics_.reset();
     state_.statics_due = resolve_rules(model_, state_).tries_statics && can_solve_statics(model_, state_);

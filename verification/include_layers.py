@@ -5,7 +5,8 @@
 
 Between folders: parallel and io stand on core, and not on each other; verification, perf and tools stand on all three, perf
 also on verification/scenes. Inside core there are four floors (FLOOR); a file may include from its own floor and from those
-below. Only core/stage/rules tests method, damping preset, solver and "until converged". OpenMP appears in parallel only, HDF5 nowhere below io.
+below. Only core/stage/rules tests method, damping preset, solver and "until converged". Nothing that runs in cycles calls functions of libm
+but the square root and those that are exact. OpenMP appears in parallel only, HDF5 nowhere below io.
 """
 import re
 import sys
@@ -43,6 +44,12 @@ BANNED = {    # layer -> what its files may not include, and the reason
 # What follows from method, damping preset, solver and "until converged" is decided in core/stage/rules; the checks of what a file says test their range.
 MODES = re.compile(r"(==|!=|\bcase)\s*(Method|DampingPreset|RestSolver)::|[.>]until_converged\b(?!\s*=[^=])")
 MAY_TEST_MODES = ("core/stage/rules.h", "core/stage/rules.cpp")
+
+# Each libm has other last digits. core/joint/functions.h, core/geometry/tangent.h and unit_direction.h have what a cycle needs.
+LIBM = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|hypot|pow|cbrt|exp2?|expm1|log(2|10|1p)?|fma)\(")
+IN_CYCLES = ("core/boundary/", "core/contact/", "core/detection/", "core/joint/", "core/motion/", "core/stage/", "core/statics/", "core/support/",
+             "core/water/", "parallel/")
+BEFORE_CYCLES = ("core/support/bolt_pattern.cpp",)
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 PRAGMA_OMP = re.compile(r'^\s*#\s*pragma\s+omp\b|_Pragma\s*\(\s*"\s*omp\b')
@@ -115,6 +122,8 @@ def find_problems(root):
                     problems.append(f"{path}:{number}: OpenMP belongs to parallel")
                 if layer(path) in ("core", "parallel", "io", "tools") and path not in MAY_TEST_MODES and MODES.search(line):
                     problems.append(f"{path}:{number}: modes are tested in core/stage/rules")
+                if path.startswith(IN_CYCLES) and path not in BEFORE_CYCLES and (match := LIBM.search(line.split("//")[0])):
+                    problems.append(f"{path}:{number}: {match[0][:-1]} has other last digits in other libraries; a cycle takes the square root alone")
                 if not (match := INCLUDE.match(line)):
                     continue
                 target = match[2]

@@ -15,12 +15,12 @@ GOOD_TREE = {
     "core/joint/coulomb_slip.h": '#include "core/types.h"\n',
     "core/model/model.h": '#include "core/geometry/polygon.h"\n#include "core/joint/coulomb_slip.h"\n',
     "core/state/state.h": '#include "core/model/model.h"\n',
-    "core/rock/rock_mass.h": '#include "core/model/model.h"\n',
+    "core/rock/rock_mass.h": '#include "core/model/model.h"\ndouble f(double x) { return std::atan2(x, 1.0); }\n',
     "core/observer.h": '#include "core/state/state.h"\n',
     "core/stage/rules.cpp": "bool f() { return stage.until_converged && stage.solver == RestSolver::statics; }\n",
     "io/case_schema_run.cpp": "stage.until_converged = true;\n",
     "parallel/openmp.cpp": "#include <omp.h>\n#pragma omp parallel\n",
-    "parallel/cycle.h": '#include "core/rock/rock_mass.h"\n',
+    "parallel/cycle.h": '#include "core/rock/rock_mass.h"\ndouble g(double x) { return std::sqrt(x) + std::frexp(x, &n); }  // not std::hypot()\n',
     "io/case_reader.h": '#include "core/model/model.h"\n#include <hdf5.h>\n',
     "verification/scenes/tunnel.h": '#include "core/rock/rock_mass.h"\n',
     "verification/unit/tunnel_test.cpp": '#include "verification/scenes/tunnel.h"\n#include "io/case_reader.h"\n',
@@ -60,6 +60,8 @@ PLANTED = [
     ("core/rock/rock_mass.h", "return preset != DampingPreset::paper;", "modes are tested in core/stage/rules"),
     ("io/case_reader.h", "case RestSolver::statics:", "modes are tested in core/stage/rules"),
     ("tools/hdem/main.cpp", "if (stage.until_converged)", "modes are tested in core/stage/rules"),
+    ("parallel/cycle.h", "return std::hypot(v.x(), v.y());", "std::hypot has other last digits"),
+    ("parallel/cycle.h", "return std::exp2(n) + std::atan2(y, x);", "std::exp2 has other last digits"),
 ]
 
 

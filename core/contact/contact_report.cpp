@@ -27,6 +27,21 @@ void add(MeanStress& stress, const Vec2& arm, const Vec2& force, double area)
 }
 }  // namespace
 
+bool have_met(const JointTable& joints, Index law)
+{
+    return law >= static_cast<Index>(joints.names.size()) && law != joints.of_walls;
+}
+
+double broken_share(const JointTable& joints, Index law, const JointMemory& point)
+{
+    return have_met(joints, law) ? 1.0 : (joints.has_memory(law) ? point.broken : 0.0);
+}
+
+double damage_share(const JointTable& joints, Index law, const JointMemory& point)
+{
+    return have_met(joints, law) ? 1.0 : (joints.has_memory(law) ? damage(joints.rows[law], point) : 0.0);
+}
+
 bool is_closed_contact(const State& state, Index contact)
 {
     const Contacts& contacts = state.contacts;

@@ -33,6 +33,15 @@ struct ContactReport
 /// The shear axis turns with the normal, so shear_force and normal_force do not depend on which block is the first.
 [[nodiscard]] ContactReport report_contact(const State& state, Index contact);
 
+/// Have the blocks of a contact with this law met since the start? Then their joint has neither cohesion, tension nor roughness, and nothing to remember.
+[[nodiscard]] bool have_met(const JointTable& joints, Index law);
+
+/// 1 where a point is broken, or its blocks have met since the start [-].
+[[nodiscard]] double broken_share(const JointTable& joints, Index law, const JointMemory& point);
+
+/// How far a point has lost its roughness or its bond: 0 as drawn, 1 nothing left [-].
+[[nodiscard]] double damage_share(const JointTable& joints, Index law, const JointMemory& point);
+
 /// A point of it is closed, and neither block was excavated.
 [[nodiscard]] bool is_closed_contact(const State& state, Index contact);
 

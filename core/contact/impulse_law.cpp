@@ -1,12 +1,12 @@
 #include "core/contact/impulse_law.h"
 
 #include "core/contact/impulse_kick.h"
+#include "core/contact/impulse_pair.h"
 #include "core/contact/regime.h"
 #include "core/detection/edge_touch.h"
 #include "core/joint/impulse_strength.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace hdem
@@ -97,40 +97,6 @@ double coupling(const ImpulsePoint& a, const ImpulsePoint& b, const Blocks& bloc
            ref.inverse_inertia * a.ref_t * b.ref_t + inc.inverse_inertia * a.inc_t * b.inc_t;
 }
 
-/// Normal impulse of a point by itself.
-double single_normal(const ImpulsePoint& p, const Blocks& blocks)
-{
-    const double v_m = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).m;
-    return std::max(0.0, p.impulse_normal + p.mass_normal * (v_m - p.target));
-}
-
-/// Normal impulses of the two points of one contact, solved together: with one of them the other's velocity changes too.
-std::array<double, 2> pair_normal(const ImpulsePoint& a, const ImpulsePoint& b, const Blocks& blocks)
-{
-    const BlockMotion& ref = blocks.motion[a.ref];
-    const BlockMotion& inc = blocks.motion[a.inc];
-    const double k_a = 1.0 / a.mass_normal;
-    const double k_b = 1.0 / b.mass_normal;
-    const double k_ab = a.coupling;
-    // Approach velocities beyond the targets if neither had an impulse yet.
-    const double r_a = relative_velocity(a, ref, inc).m - a.target + k_a * a.impulse_normal + k_ab * b.impulse_normal;
-    const double r_b = relative_velocity(b, ref, inc).m - b.target + k_ab * a.impulse_normal + k_b * b.impulse_normal;
-    const double det = k_a * k_b - k_ab * k_ab;
-    if (det <= 1e-9 * k_a * k_b)  // neither block can turn: only the sum is known, and each change is shared
-    {
-        const double change = 0.5 * (std::max(r_a, r_b) / k_a - a.impulse_normal - b.impulse_normal);
-        const double j_a = std::max(0.0, a.impulse_normal + change);
-        return {j_a, std::max(0.0, b.impulse_normal + change)};
-    }
-    const std::array<double, 2> both{(k_b * r_a - k_ab * r_b) / det, (k_a * r_b - k_ab * r_a) / det};
-    if (both[0] >= 0.0 && both[1] >= 0.0)
-        return both;
-    const double only_a = std::max(0.0, r_a / k_a);
-    if (r_b - k_ab * only_a <= 0.0)
-        return {only_a, 0.0};
-    return {0.0, std::max(0.0, r_b / k_b)};
-}
-
 double solve_shear(ImpulsePoint& p, Blocks& blocks)
 {
     const double v_t = relative_velocity(p, blocks.motion[p.ref], blocks.motion[p.inc]).t;
@@ -170,9 +136,11 @@ double weight_demand(const std::vector<ImpulsePoint>& points)
     return sum;
 }
 
+/// (A point that cannot be moved across the joint has no impulse there: the axis of a block that only turns lies above or below it.)
 bool are_pair(const std::vector<ImpulsePoint>& points, std::size_t i)
 {
-    return i + 1 < points.size() && points[i + 1].contact == points[i].contact && points[i].mass_normal > 0.0;
+    return i + 1 < points.size() && points[i + 1].contact == points[i].contact && points[i].mass_normal > 0.0 &&
+           points[i + 1].mass_normal > 0.0;
 }
 }  // namespace
 

@@ -111,6 +111,8 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
     const Steps step = blocks.step;
     const Pack dt = step.kick(), after = 0.5 * step.next;
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
+    DampingRule bounded = rule;
+    bounded.global = min(rule.global, 1.0 / step.kick());  // it takes no more than the whole velocity in a cycle
     const bool has_global = rule.global != 0.0;
     WorkLanes works(sums);
     for_groups(range,
@@ -121,7 +123,7 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
                    hold_stopped(&blocks.rest[i], count, inertia);
                    Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
                    const Pack mass = load_some(&model.mass[i], count);
-                   const BasicBlockDamping<Pack> damping = conditional_damping(acting, rule);
+                   const BasicBlockDamping<Pack> damping = conditional_damping(acting, bounded);
                    const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
                    const Pack damped_moment = damp_rotation(acting, inertia, v.c, load_some(&model.radius[i], count), dt, damping);
                    const auto renew = [&](Pack velocity, const Component& c)

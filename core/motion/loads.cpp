@@ -33,10 +33,10 @@ double moment_of(const Vec2& force, const Vec2& arm, const BlockMotion& motion)
     return cross(turned, force);
 }
 
-/// Set one prescribed component. @return change of kinetic energy [J]
-double prescribe(double& velocity, const std::optional<double>& value, double mass)
+/// Set one prescribed component, unless a stage has freed it. @return change of kinetic energy [J]
+double prescribe(double& velocity, const std::optional<double>& value, double mass, double inverse_mass)
 {
-    if (!value)
+    if (!value || inverse_mass > 0.0)
         return 0.0;
     const double gain = 0.5 * mass * (*value * *value - velocity * velocity);
     velocity = *value;
@@ -54,9 +54,10 @@ void prescribe(const Load& load, double factor, const Model& model, State& state
         if (state.blocks.present[i] == 0)
             continue;
         BlockMotion& motion = state.blocks.motion[i];
-        state.ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i]);
-        state.ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i]);
-        state.ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i]);
+        const BlockInertia& free = state.blocks.inertia[i];
+        state.ledger.load_work += prescribe(motion.vx, now(load.velocity_x), model.mass[i], free.inverse_mass_x);
+        state.ledger.load_work += prescribe(motion.vy, now(load.velocity_y), model.mass[i], free.inverse_mass_y);
+        state.ledger.load_work += prescribe(motion.w, now(load.angular_velocity), model.inertia[i], free.inverse_inertia);
     }
 }
 }  // namespace

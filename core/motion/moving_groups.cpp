@@ -244,7 +244,7 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
         force.t_y = at->t_y;
         if (!at->flies)
             continue;
-        const double size = std::hypot(force.x, force.y);
+        const double size = std::sqrt(force.x * force.x + force.y * force.y);
         force.mobilised = 1.0F;
         force.t_x = size > 0.0 ? static_cast<float>(force.x / size) : 1.0F;  // across this there is no force to be damped
         force.t_y = size > 0.0 ? static_cast<float>(force.y / size) : 0.0F;

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hdem
@@ -18,7 +19,15 @@ namespace hdem
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double steps_an_octave = 8.0;  // between twice as long ones
+/// 2^(n/8): steps between twice as long ones. (By std::exp2 they would be those of the machine's libm.)
+constexpr std::array<double, 8> part_of_octave = {0x1p+0,
+                                                  0x1.172b83c7d517bp+0,
+                                                  0x1.306fe0a31b715p+0,
+                                                  0x1.4bfdad5362a27p+0,
+                                                  0x1.6a09e667f3bcdp+0,
+                                                  0x1.8ace5422aa0dbp+0,
+                                                  0x1.ae89f995ad3adp+0,
+                                                  0x1.d5818dcfba487p+0};
 constexpr double longest = 4096.0;       // times the case's step
 constexpr double slide_share = 1.5e-3;   // of the block's size a cycle
 constexpr double approach_share = 0.02;  // the same where it touches nothing
@@ -197,6 +206,15 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
 
 namespace
 {
+/// The greatest 2^(n/8) that is no more than the ratio, up to round-off.
+double in_steps(double ratio)
+{
+    constexpr double round_off = 1.0 + 8.7e-11;
+    int octave = 0;
+    const double part = 2.0 * std::frexp(ratio * round_off, &octave);
+    return std::ldexp(*(std::ranges::upper_bound(part_of_octave, part) - 1), octave - 1);
+}
+
 bool keeps_base(const StepBound& bound, const StepRule& rule, double base)
 {
     return rule.keeps_given && (bound.standing_moves || bound.least() < base);
@@ -208,7 +226,7 @@ double next_step(double last, const StepBound& bound, const StepRule& rule, doub
     if (keeps_base(bound, rule, base) || bound.least() == infinity)
         return base;
     const double most = std::min({bound.least(), (may_grow ? 2.0 : 1.0) * std::max(last, base), longest * base});
-    return base * std::exp2(std::floor(steps_an_octave * std::log2(most / base) + 1e-9) / steps_an_octave);
+    return base * in_steps(most / base);
 }
 
 bool flies_ahead(const StepBound& bound, const StepRule& rule, double base)

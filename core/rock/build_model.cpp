@@ -100,10 +100,16 @@ void add_names(const CaseDef& def, Model& model)
 }
 
 /// Laws of the joints, densities of the materials, and what stages make of both.
-void add_joints_and_densities(const CaseDef& def, const PlacedRock& placed, Model& model)
+void add_joints_and_densities(const CaseDef& def, const RockMass& rock, const PlacedRock& placed, Model& model)
 {
-    const JointSurroundings around{.normal_stress = expected_stress(def, model.insitu, placed.box.low.y() - placed.origin.y(),
-                                                                    placed.box.high.y() - placed.origin.y(), model.mean_size),
+    RockExtent extent{.low = placed.box.low.y() - placed.origin.y(),
+                      .high = placed.box.high.y() - placed.origin.y(),
+                      .along_gravity = extent_along(tilted_gravity(def), rock, placed),
+                      .along_loads = {},
+                      .block_size = model.mean_size};
+    for (const LoadDef& load : def.loads)
+        extent.along_loads.push_back(extent_along(load.acceleration, rock, placed));
+    const JointSurroundings around{.normal_stress = expected_stress(def, model.insitu, extent),
                                    .block_size = model.mean_size,
                                    .restitution = def.contact.restitution,
                                    .reach = 0.5 * def.contact.skin * model.mean_size};
@@ -158,7 +164,7 @@ Setup build_model(const CaseDef& def)
         model.insitu = make_field(def.insitu, def.materials[material_number(def, material)].density, tilted_gravity(def),
                                   model.origin);
     }
-    add_joints_and_densities(def, placed, model);
+    add_joints_and_densities(def, rock, placed, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
     setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory() || is_stiffness_changed(model);
 
@@ -173,11 +179,11 @@ Setup build_model(const CaseDef& def)
     model.holds_mean = def.domain.hold == DomainHold::mean;
     add_initial_state(rock, placed, model, setup.state);
     std::vector<Problem> problems = resolve_boundaries(def, rock, placed.origin, model, setup.state.blocks);
-    std::ranges::move(resolve_water(def, model.origin, setup.state.blocks, model), std::back_inserter(problems));
+    const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
+    std::ranges::move(resolve_water(def, model.origin, free_at_times, model), std::back_inserter(problems));
     std::ranges::move(resolve_support(def, setup.state.blocks, model, setup.state.support), std::back_inserter(problems));
     setup.state.method = def.contact.method;
     setup.state.damping = def.damping.preset;
-    const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
     std::vector<double> masses = least_masses(model);
     std::swap(masses, model.mass);  // the step must be good in all stages
     const double smallest = smallest_free_mass(model, free_at_times);
@@ -193,7 +199,7 @@ Setup build_model(const CaseDef& def)
     model.stable_fraction = def.time.stable_fraction;
     model.threshold_scale = def.contact.threshold_scale ? *def.contact.threshold_scale : size_ratio(rock, placed, model.mean_size);
 
-    std::ranges::move(resolve_names(def, model, setup.state.blocks), std::back_inserter(problems));
+    std::ranges::move(resolve_names(def, model, setup.state.blocks, free_at_times), std::back_inserter(problems));
     if (!std::isfinite(smallest))
         problems.push_back({.key = "domain.fixed",
                             .text = "rock mass: free blocks = 0 (every block is fixed, and no stage frees one: nothing can move). "

@@ -17,10 +17,19 @@ struct JointSurroundings
     double reach = 0.0;          ///< gap up to which a joint may bear tension: contacts must still be tracked there [m]
 };
 
+/// Where the rock lies, and how it is cut.
+struct RockExtent
+{
+    double low = 0.0, high = 0.0;     ///< y, local coordinates [m]
+    double along_gravity = 0.0;       ///< [m]
+    std::vector<double> along_loads;  ///< along the acceleration of each load [m]
+    double block_size = 0.0;          ///< [m]
+};
+
 /// Greatest normal stress that joints of a case are to be ready for: twice that of [insitu] or of the rock's weight, four times that of loads over the block
 /// size or of a boundary, 10 MPa where there is nothing [Pa].
-/// @param low, high  of the rock, local coordinates [m]
-[[nodiscard]] double expected_stress(const CaseDef& def, const InsituField& insitu, double low, double high, double block_size);
+/// @param rock  where it lies
+[[nodiscard]] double expected_stress(const CaseDef& def, const InsituField& insitu, const RockExtent& rock);
 
 /// Does the joint need a memory? Coulomb's law with friction and cohesion alone does not: it slips at the same strength for ever.
 [[nodiscard]] bool needs_memory(const JointDef& joint);

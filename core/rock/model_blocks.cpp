@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace hdem
 {
@@ -125,6 +126,23 @@ PlacedRock place_rock(RockMass& rock, Model& model)
     for (const RockBlock& block : rock.blocks)
         placed.moments.push_back(block_moments(block));
     return placed;
+}
+
+double extent_along(const Vec2& direction, const RockMass& rock, const PlacedRock& placed)
+{
+    if (direction.isZero(0.0))
+        return 0.0;
+    const Vec2 along = direction / direction.norm();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const RockBlock& block : rock_of(rock))
+        for (const ConvexPart& part : block.parts)
+            for (const Vec2& vertex : part.vertices)
+            {
+                low = std::min(low, vertex.dot(along));
+                high = std::max(high, vertex.dot(along));
+            }
+    const double origin = placed.origin.dot(along);
+    return (high - origin) - (low - origin);
 }
 
 void add_blocks(const CaseDef& def, const RockMass& rock, const PlacedRock& placed, Model& model)

@@ -33,6 +33,9 @@ struct PlacedRock
 /// Choose the model's origin, and find the moments of all blocks. Rock far from the user's origin is moved to the model's: else every centroid loses digits.
 [[nodiscard]] PlacedRock place_rock(RockMass& rock, Model& model);
 
+/// How far the rock extends along a direction; 0 where that is no direction [m].
+[[nodiscard]] double extent_along(const Vec2& direction, const RockMass& rock, const PlacedRock& placed);
+
 /// Put all blocks into the model, sorted along a Hilbert curve, and set its mean size.
 void add_blocks(const CaseDef& def, const RockMass& rock, const PlacedRock& placed, Model& model);
 

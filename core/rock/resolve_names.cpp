@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace hdem
 {
@@ -18,7 +19,11 @@ constexpr double most_cycles = 1e15;  ///< the most that a case may ask for by n
 class Resolver
 {
   public:
-    Resolver(const CaseDef& def, Model& model, const Blocks& blocks) : def_(def), model_(model), blocks_(blocks)
+    Resolver(const CaseDef& def, Model& model, const Blocks& blocks, const Blocks& free_at_times)
+        : def_(def),
+          model_(model),
+          blocks_(blocks),
+          free_at_times_(free_at_times)
     {
         for (Index i = 0; i < model.blocks(); ++i)
             slots_.emplace(model.name[i], i);
@@ -81,6 +86,11 @@ class Resolver
         return no_index;
     }
 
+    [[nodiscard]] bool is_fixed_by_a_stage(const std::string& name) const
+    {
+        return std::ranges::any_of(def_.stages, [&](const StageDef& stage) { return std::ranges::count(stage.fix, name) > 0; });
+    }
+
     void add_load(const LoadDef& from, const std::string& key, const std::string& object)
     {
         Load load{.blocks = {},
@@ -91,23 +101,30 @@ class Resolver
                   .velocity_x = from.velocity_x,
                   .velocity_y = from.velocity_y,
                   .angular_velocity = from.angular_velocity};
+        std::vector<std::uint8_t> is_loaded(static_cast<std::size_t>(model_.blocks()), 0);
+        const auto add = [&](Index block)
+        {
+            if (!std::exchange(is_loaded[static_cast<std::size_t>(block)], std::uint8_t{1}))
+                load.blocks.push_back(block);
+        };
         for (const std::string& name : from.blocks)
         {
-            if (name == "*")  // no walls: they are not free
+            if (name == "*")  // those that a stage frees too: while they are fixed it moves nothing. No walls: they are never free
             {
                 for (Index i = 0; i < model_.blocks(); ++i)
-                    if (blocks_.is_free(i))
-                        load.blocks.push_back(i);
+                    if (free_at_times_.is_free(i))
+                        add(i);
             }
             else if (const Index i = find(name, key + ".blocks", object); i != no_index)
-                load.blocks.push_back(i);
+                add(i);
         }
         for (const Index i : load.blocks)
         {
             const BlockInertia& inertia = blocks_.inertia[i];
+            const bool is_fixed_later = is_fixed_by_a_stage(model_.name[i]);
             const auto need_fixed = [&](bool given, double inverse, const char* component, const char* fix)
             {
-                if (given && inverse > 0.0)
+                if (given && inverse > 0.0 && !is_fixed_later)
                     fail(key, "load on block \"" + model_.name[i] + "\": " + component +
                                   " is prescribed (but the block is free to move in it). Add fixed = [\"" + fix +
                                   "\"] to the block.");
@@ -215,6 +232,7 @@ class Resolver
     const CaseDef& def_;
     Model& model_;
     const Blocks& blocks_;
+    const Blocks& free_at_times_;
     std::unordered_map<std::string, Index> slots_;
     std::set<std::string> excavated_;
     std::vector<Problem> problems_;
@@ -230,8 +248,8 @@ Index material_number(const CaseDef& def, const std::string& name)
                              .text = "material \"" + name + "\": not defined. Add [material." + name + "] with its density."});
 }
 
-std::vector<Problem> resolve_names(const CaseDef& def, Model& model, const Blocks& blocks)
+std::vector<Problem> resolve_names(const CaseDef& def, Model& model, const Blocks& blocks, const Blocks& free_at_times)
 {
-    return Resolver(def, model, blocks).run();
+    return Resolver(def, model, blocks, free_at_times).run();
 }
 }  // namespace hdem

@@ -298,7 +298,7 @@ void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Block
 {
     for (const BlockPush& push : pushes)
     {
-        const double pull = std::hypot(push.force.x, push.force.y);
+        const double pull = std::sqrt(push.force.x * push.force.x + push.force.y * push.force.y);
         if (push.block < range.begin || push.block >= range.end || !(push.reserve > 0.0) || !(pull > 0.0))
             continue;
         BlockForce& on = blocks.force[push.block];

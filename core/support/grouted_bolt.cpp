@@ -63,7 +63,8 @@ class Bar
 
     [[nodiscard]] double energy(std::span<const double> u) const
     {
-        double sum = 0.5 * plate_stiffness() * std::pow(std::max(u[0] - moved_[0], 0.0), 2);
+        const double pressed = std::max(u[0] - moved_[0], 0.0);
+        double sum = 0.5 * plate_stiffness() * (pressed * pressed);
         for (std::size_t e = 0; e < bolt_.segments.size(); ++e)
         {
             sum += bar(e).energy(stretch(e, u));

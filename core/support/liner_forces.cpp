@@ -96,7 +96,7 @@ void damp_blocks(const std::map<Index, Triple>& before, const std::map<Index, Tr
         const Triple& was = before.at(block);
         const BlockMotion& m = blocks.motion[block];
         const BlockInertia& inertia = blocks.inertia[block];
-        const double speed = std::hypot(m.vx, m.vy);
+        const double speed = Vec2(m.vx, m.vy).norm();
         const Vec2 along = speed > 0.0 ? Vec2(m.vx / speed, m.vy / speed) : Vec2(0.0, 0.0);
         const double rate = ((force.x - was.x) * along.x() + (force.y - was.y) * along.y()) / step;
         const double mobility = inertia.inverse_mass_x * along.x() * along.x() + inertia.inverse_mass_y * along.y() * along.y();
@@ -138,7 +138,8 @@ class Booking
         }
         count_hinges();
         for (std::size_t node = 0; node < liner_.nodes.size(); ++node)
-            record_.displacement = std::max(record_.displacement, std::hypot(memory_.moved[3 * node], memory_.moved[3 * node + 1]));
+            record_.displacement = std::max(record_.displacement,
+                                            Vec2(memory_.moved[3 * node], memory_.moved[3 * node + 1]).norm());
     }
 
   private:

@@ -182,7 +182,7 @@ LinerBalance LinerSolver::balance(const LinerLoad& load, const LinerMemory& memo
     for (std::size_t n = 0; n < liner_.nodes.size(); ++n)
     {
         const auto at = static_cast<Eigen::Index>(3 * n);
-        greatest = std::max(greatest, std::hypot(net_[at], net_[at + 1]));
+        greatest = std::max(greatest, Vec2(net_[at], net_[at + 1]).norm());
         whole += Vec2(net_[at], net_[at + 1]);
         applied += load.gravity.norm() * mass_[3 * n];
         borne += g * mass_[3 * n];
@@ -194,7 +194,7 @@ LinerBalance LinerSolver::balance(const LinerLoad& load, const LinerMemory& memo
         for (int end = 0; load.gone[s] == 0 && end < 2; ++end)
         {
             const TieAnswer held = tie(s, end, load, memory);
-            borne += std::hypot(held.normal, held.shear);
+            borne += Vec2(held.normal, held.shear).norm();
         }
         const BeamAnswer beam = this->beam(s, load, memory);
         const double moment = std::max(std::abs(beam.moment[0]), std::abs(beam.moment[1]));

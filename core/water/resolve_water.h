@@ -10,7 +10,7 @@
 namespace hdem
 {
 /// @param origin  of the model in the user's coordinates
-/// @param blocks  as drawn
+/// @param blocks  as drawn, with those free that a stage frees
 /// @pre the model has its gravity, joints, excavations and sizes
 [[nodiscard]] std::vector<Problem> resolve_water(const CaseDef& def, const Vec2& origin, const Blocks& blocks, Model& model);
 }  // namespace hdem

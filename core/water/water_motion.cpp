@@ -17,7 +17,7 @@ constexpr double noticed_way = 1e-5;   // of a block's size: shorter ways in `lo
 bool is_noticed(Index block, const Model& model, const State& state)
 {
     const BlockMotion& m = state.blocks.motion[block];
-    const double speed = std::hypot(m.vx, m.vy) + std::abs(m.w) * model.radius[block];
+    const double speed = std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block];
     return speed * static_cast<double>(longest) * state.blocks.step.next > noticed_way * model.size(block);
 }
 }  // namespace

@@ -69,7 +69,6 @@ class Table
         const Contacts& contacts = look_.state.contacts;
         const Index law = contacts.law[i];
         const Vec2 at = model.origin + report.point[static_cast<std::size_t>(k)];
-        const bool was_met_later = static_cast<std::size_t>(law) >= model.joints.names.size();
         const JointMemory& memory = history.memory;
         rows_.push_back({.blocks = {model.user_number[report.first], model.user_number[report.second]},
                          .joint = joint_[static_cast<std::size_t>(law)],
@@ -84,7 +83,7 @@ class Table
                          .closure = history.overlap - history.rest_overlap,
                          .slip = slip_of(look_.state.blocks, report),
                          .plastic_slip = memory.slip,
-                         .broken = model.joints.has_memory(law) ? memory.broken : (was_met_later ? 1.0 : 0.0)});
+                         .broken = broken_share(model.joints, law, memory)});
     }
 
     const Look& look_;

@@ -161,6 +161,7 @@ TEST(HistorySampler, IsDueAtMultiplesOfItsInterval)
 TEST(HistorySampler, TellsWhatJointsRemember)
 {
     SmallRun run = test::small_run();
+    run.model.joints.names = {"default"};
     run.model.joints.rows = {{.kind = kind_of<CoulombResidual>()}};
     Contact contact = run.state.contacts.get(0);
     run.state.contacts = {};
@@ -182,6 +183,13 @@ TEST(HistorySampler, TellsWhatJointsRemember)
     const auto open = sample(sampler, run);
     EXPECT_NEAR(open.at("broken"), 0.5, 1e-15) << "of a joint that is open too";
     EXPECT_EQ(open.at("mobilised_friction"), 0.0);
+    run.state.contacts.law[0] = static_cast<Index>(run.model.joints.names.size());
+    EXPECT_EQ(sample(sampler, run).at("broken"), 0.0) << "of blocks that have met and do not touch";
+    test::load_contact(run, 0, 1000.0, 0.0, Regime::stick);
+    const auto met = sample(sampler, run);
+    EXPECT_EQ(met.at("broken"), 1.0);
+    EXPECT_EQ(met.at("damage"), 1.0);
+    run.state.contacts.law[0] = 0;
     run.model.joints.rows.clear();
     run.state.contacts.has_memory = false;
     EXPECT_EQ(sample(sampler, run).at("plastic_slip"), 0.0) << "no memory";

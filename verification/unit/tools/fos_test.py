@@ -197,6 +197,12 @@ until = "converged"
         self.assertAlmostEqual(found["critical"], 30.0, delta=0.1)
         self.assertGreater(found["stands_at"], found["fails_at"])
 
+    def test_critical_sees_a_block_that_a_stage_frees(self):
+        hdem("critical", CASES / "slab.toml", "--set", "block[1].fixed=true", "--set", 'stage[0].free=["slab"]', "--vary", "joint.default.friction_angle_deg=10:50",
+             "--fails", "displacement:*>0.1", "--tolerance", "2", "-o", self.folder, "-q")
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(found["critical"], 30.0, delta=2.0)
+
     def test_critical_refuses(self):
         for vary, fails, why in (("gravity.tilt_deg", "displacement:slab>0.1", "KEY=LOW:HIGH"), ("gravity.tilt_deg=9:3", "displacement:slab>0.1", "lower number first"),
                                  ("gravity.tilt_deg=3:9", "speed:slab>0.1", "displacement:BLOCK>METRES"), ("gravity.tilt_deg=3:9", "displacement:slob>0.1", "no block is called"),

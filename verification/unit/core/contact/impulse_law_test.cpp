@@ -249,6 +249,26 @@ TEST(ImpulseFace, KeepsItsLoadOnBothEndsWhenTheBlockCannotTurn)
         EXPECT_NEAR(contacts.normal_force(k, 0), 0.5 * 2700.0 * 9.81, 1e-9);
 }
 
+/// A block that turns about its fixed centroid: the end of its face that goes into the ground stops it, in the first cycle, and throws it back unless the other end is on
+/// the ground too. Ends on both sides of the axis, one right below it, and both on one side.
+TEST(ImpulseFace, OfABlockThatOnlyTurnsStopsIt)
+{
+    for (const double left : {-2.0, 0.0, 0.1})
+        for (const double e : {0.0, 0.5})
+            for (const bool is_mirrored : {false, true})
+            {
+                CaseDef scene = without_gravity(scenes::block_on_ground(), e);
+                const double sense = is_mirrored ? -1.0 : 1.0;
+                scene.joints[0].friction_angle_deg = 0.0;
+                scene.blocks[0].polygon = is_mirrored ? rectangle({-3.0, -1.0}, {-left, 0.0}) : rectangle({left, -1.0}, {3.0, 0.0});
+                scene.blocks[1].fix_x = scene.blocks[1].fix_y = true;
+                scene.blocks[1].angular_velocity = -sense;
+                CaseRun run(scene);
+                run.advance(1);
+                EXPECT_NEAR(run.motion("block").w, left < 0.0 ? 0.0 : e * sense, 1e-12) << left << ", " << e;
+            }
+}
+
 /// A block that comes down under gravity, met by the ground a share of a cycle after it has touched it, flies on as if it had been turned there and then.
 TEST_F(Impact, LetsABlockFlyOnFromWhereItHit)
 {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hdem
@@ -133,6 +134,33 @@ TEST(JointForces, TensionHoldsABlockAtARoof)
 }
 
 /// The pull acts at once: the block swings to twice its stretch, less what damping takes.
+/// A block that hangs at a wall by cohesion alone: nothing presses the joint, and no tension holds it. A gap far below any real one is no opening.
+TEST(JointForces, CohesionWithoutTensionHoldsAJointThatNothingPresses)
+{
+    for (const int quarters : {0, 1, 2, 3})
+        for (const double strength : {0.5, 3.0})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scenes::add_fixed_block(scene, "wall", scenes::rectangle({1.0, -1.0}, {2.0, 2.0}));
+            scenes::add_block(scene, "block", scenes::rectangle({0.0, 0.0}, {1.0, 1.0})).fix_rotation = true;
+            scene.joints[0].cohesion = strength * 2700.0 * 9.81;
+            scene.joints[0].residual_cohesion = 0.0;
+            scene.contact.method = Method::force;
+            const auto turned = [&](Vec2 v)
+            {
+                for (int i = 0; i < quarters; ++i)
+                    v = Vec2(-v.y(), v.x());
+                return v;
+            };
+            for (BlockDef& block : scene.blocks)
+                std::ranges::transform(block.polygon, block.polygon.begin(), turned);
+            scene.gravity = turned({0.0, -9.81});
+            CaseRun run(scene);
+            run.advance(5000);
+            EXPECT_EQ(run.displacement("block").norm() < 1e-3, strength > 1.0) << quarters << ", " << strength;
+        }
+}
+
 TEST(JointForces, ABlockHungSuddenlyAsksForMore)
 {
     CaseDef scene = hung_block(50000.0, Method::force);

@@ -159,5 +159,18 @@ TEST(GlobalDamping, SlowsABlockWithImpulseContacts)
     run.advance(static_cast<std::int64_t>(0.1 / dt));
     EXPECT_NEAR(run.velocity("block").x(), std::exp(-2.0 * run.state().time), 1e-3) << "(1 - alpha_d dt)^n, to first order in dt";
 }
+
+/// Of a share above 1 the whole velocity is taken, and not turned round: a block that rests would be thrown up.
+TEST(GlobalDamping, TakesNoMoreThanTheVelocity)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.contact.method = Method::impulse;
+    scene.damping.global_damping_ratio = 1.0;
+    scene.damping.average_frequency = 1e6;
+    CaseRun run(scene);
+    run.advance(3000);
+    EXPECT_LT(run.displacement("block").norm(), 1e-6);
+    EXPECT_LT(std::abs(relative_residual(run.state().ledger, stored_energy(run.model(), run.state()))), 1e-9);
+}
 }  // namespace
 }  // namespace hdem

@@ -143,6 +143,37 @@ TEST(BuildModel, TakesJointsBySetByMaterialsOrByDefault)
     EXPECT_DOUBLE_EQ(model.joints.laws[2].friction_coefficient, std::tan(radians(40.0)));
 }
 
+/// A rough joint is made ready for twice the weight of the rock above it: the height of the rock is that along gravity, or along what a load accelerates.
+TEST(BuildModel, MakesJointsReadyForTheSameStressInATurnedModel)
+{
+    const auto stiffness = [](int quarters, bool is_load)
+    {
+        const auto turned = [&](Vec2 v)
+        {
+            for (int i = 0; i < quarters; ++i)
+                v = Vec2(-v.y(), v.x());
+            return v;
+        };
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "ground", rectangle({-30, -1}, {30, 0}));
+        scenes::add_block(scene, "block", rectangle({0, 0}, {1, 1}));
+        for (BlockDef& block : scene.blocks)
+            for (Vec2& vertex : block.polygon)
+                vertex = turned(vertex);
+        scene.joints[0] = {.name = "default", .law = JointLaw::barton_bandis, .normal_stiffness = 1e10, .shear_stiffness = 1.0};
+        scene.joints[0].jrc = 10.0;
+        scene.joints[0].jcs = 5e7;
+        scene.joints[0].residual_friction_angle_deg = 28.0;
+        scene.gravity = is_load ? Vec2(0.0, 0.0) : turned({0.0, -9.81});
+        if (is_load)
+            scene.loads.push_back({.blocks = {"block"}, .acceleration = turned({0.0, -9.81})});
+        return build_model(scene).model.joints.laws[0].shear_stiffness;
+    };
+    for (const bool is_load : {false, true})
+        for (int quarters = 1; quarters < 4; ++quarters)
+            EXPECT_EQ(stiffness(quarters, is_load), stiffness(0, is_load)) << quarters << ", " << is_load;
+}
+
 TEST(BuildModel, ScalesTheThresholdByModelAreaOverBlockArea)
 {
     CaseDef scene = scenes::grid(4, 3);

@@ -1,4 +1,5 @@
 #include "io/load_case.h"
+#include "parallel/stages.h"
 #include "verification/unit/case_run.h"
 
 #include <gmock/gmock.h>
@@ -63,6 +64,34 @@ TEST(Loads, ReachAllFreeBlocksByAStar)
     EXPECT_NEAR(run.velocity("block").x(), 0.1, 1e-14);
     EXPECT_NEAR(run.velocity("other").x(), 0.1, 1e-14);
     EXPECT_EQ(run.velocity("rock").norm(), 0.0);
+}
+
+/// The star stands for the blocks that are free when the load acts; a block that is named besides is no second one.
+TEST(Loads, ReachByAStarWhatAStageFreesAndEachBlockOnce)
+{
+    CaseDef scene = flyer();
+    scenes::add_fixed_block(scene, "rock", scenes::rectangle({-50, 0}, {-49, 1}));
+    scene.loads = {{.blocks = {"*", "block", "block"}, .acceleration = {1.0, 0.0}}};
+    scene.stages = {{.name = "held", .cycles = 60}, {.name = "freed", .cycles = 40, .free = {"rock"}}};
+    CaseRun run(scene);
+    static_cast<void>(run_stages(run.simulation, {}));
+    EXPECT_NEAR(run.velocity("block").x(), 0.1, 1e-14);
+    EXPECT_NEAR(run.velocity("other").x(), 0.1, 1e-14);
+    EXPECT_NEAR(run.velocity("rock").x(), 0.04, 1e-14);
+}
+
+/// A block that a stage fixes may be driven from there on, and one that a stage frees goes on with the velocity that it has.
+TEST(PrescribedVelocity, HoldsWhileABlockIsFixed)
+{
+    CaseDef scene = flyer();
+    scene.loads = {{.blocks = {"block"}, .velocity_x = 0.5, .factor = {.since = "driven"}},
+                   {.blocks = {"block"}, .acceleration = {1.0, 0.0}, .factor = {.since = "freed"}}};
+    scene.stages = {{.name = "free", .cycles = 10},
+                    {.name = "driven", .cycles = 20, .fix = {"block"}},
+                    {.name = "freed", .cycles = 30, .free = {"block"}}};
+    CaseRun run(scene);
+    static_cast<void>(run_stages(run.simulation, {}));
+    EXPECT_NEAR(run.velocity("block").x(), 0.53, 1e-14);
 }
 
 TEST(PrescribedVelocity, MovesABlockThatLongAndStopsIt)

@@ -15,9 +15,10 @@ struct Wall
     Model model;
     State state;
 
-    explicit Wall(int side = 75)
+    explicit Wall(int side = 75) : Wall(scenes::wall(side, side)) {}
+    explicit Wall(const CaseDef& scene)
     {
-        CaseRun run(scenes::wall(side, side));
+        CaseRun run(scene);
         run.advance(40);
         model = run.simulation.model();
         state = run.simulation.state();
@@ -76,6 +77,31 @@ TEST(BlockSorting, KeepsNamesNumbersStateAndContactHistory)
 }
 
 /// A run finds its order decayed, sorts its blocks, and goes on as the run whose blocks were never out of order.
+/// Between fixed blocks there are no contacts. Those of blocks that a stage frees are found anew, and blocks may be sorted then.
+TEST(BlockSorting, LeavesTheBondOfBlocksThatAStageFrees)
+{
+    CaseDef scene = scenes::wall(75, 75);
+    scene.joints[0].cohesion = 1e5;
+    scene.stages = {{.name = "hold", .cycles = 40}, {.name = "free", .cycles = 1}};
+    for (std::size_t i = 1; i < scene.blocks.size() / 2; ++i)
+    {
+        scene.blocks[i].fix_x = scene.blocks[i].fix_y = scene.blocks[i].fix_rotation = true;
+        scene.stages[1].free.push_back(scene.blocks[i].name);
+    }
+    const auto bonded = [&](bool is_shuffled)
+    {
+        Wall wall(scene);
+        if (is_shuffled)
+            wall.shuffle();
+        wall.state.contacts_outdated = false;  // else they are sorted before the stage
+        Simulation simulation(std::move(wall.model), std::move(wall.state));
+        simulation.begin_stage(1);
+        const Contacts& contacts = simulation.state().contacts;
+        return std::count(contacts.law.begin(), contacts.law.begin() + contacts.size(), 0);
+    };
+    EXPECT_EQ(bonded(true), bonded(false));
+}
+
 TEST(BlockSorting, HappensBetweenTwoCyclesOfARun)
 {
     Wall wall, shuffled;

@@ -76,6 +76,21 @@ TEST(FloatingBlocks, SinkWithTheWeightThatIsLeft)
     EXPECT_NEAR(run.velocity("raft").y(), -0.5 * 9.81 * run.state().time, 5e-3);
 }
 
+/// Water brakes in a stage that seeks rest, from its first cycle on, whatever the damping of the stage before.
+TEST(FloatingBlocks, AreBrakedFromTheStartOfAStageThatSeeksRest)
+{
+    CaseDef scene = raft(2.7);
+    scene.damping.preset = DampingPreset::dynamic;
+    scene.stages = {{.name = "swing", .cycles = 100},
+                    {.name = "settle", .until_converged = true, .damping = DampingPreset::automatic}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    run.advance(100);
+    run.simulation.begin_stage(1);
+    EXPECT_GT(run.velocity("raft").y(), 0.01);
+    EXPECT_LE(run.state().water_until, run.state().cycle + 16);
+}
+
 TEST(FloatingBlocks, GoOnFromACheckpoint)
 {
     const ScratchFolder folder("floating_checkpoint");

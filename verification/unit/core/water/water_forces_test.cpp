@@ -155,6 +155,13 @@ TEST(WaterForces, OfAFieldFollowItsGradientAndMustReachTheRock)
     EXPECT_NEAR(water_on(CaseRun(scene), {2.5, 2.5}).y, 1e4, 1e-3);
     scene.water.pressures[2] = {5.0, 5.0, 0.0};
     EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
+
+    // Also a block that a stage frees.
+    scene.water.pressures[2] = {7.0, 7.0, plane(7, 7)};
+    scenes::add_fixed_block(scene, "aside", scenes::rectangle({20, 0}, {21, 1}));
+    EXPECT_NO_THROW(static_cast<void>(build_model(scene)));
+    scene.stages = {{.name = "free", .cycles = 1, .free = {"aside"}}};
+    EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
 }
 
 /// The water of a crack goes with the faces on its line, until their block has moved a quarter of its size.
