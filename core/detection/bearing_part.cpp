@@ -50,15 +50,19 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, dou
     const auto leaves_it = [&](const PairScan& s) { return s.distance() > s.external_distance() + pair.margin + tolerance; };
     if (!leaves_it(scan))
         return true;
+    if (scan.distance() > -pair.margin)
+        return false;
     bool is_deepest = scan.external_distance() > farthest * scan.distance();
     const std::vector<Index> around_b = parts_around(shapes, pair.b);
     for (const Index a : parts_around(shapes, pair.a))
         for (const Index b : around_b)
         {
+            if (a == pair.a && b == pair.b)
+                continue;
             const PartPair other{.a = a, .b = b, .motion_a = pair.motion_a, .motion_b = pair.motion_b, .margin = pair.margin};
             const PairScan found = scan_pair(shapes, other);
             const double depth = -found.distance();
-            if ((a == pair.a && b == pair.b) || !found.has_external() || depth < pair.margin)
+            if (!found.has_external() || depth < pair.margin)
                 continue;
             if (!leaves_it(found) && choose_facing(shapes, other, found).overlap > 0.0)
                 return false;

@@ -27,6 +27,24 @@ BlockPair as_drawn(const Polygon& a, const Polygon& b)
     return pair;
 }
 
+/// About the origin.
+Polygon turned(Polygon shape, double degrees)
+{
+    const Vec2 x(std::cos(radians(degrees)), std::sin(radians(degrees)));
+    for (Vec2& p : shape)
+        p = p.x() * x + p.y() * turned_left(x);
+    return shape;
+}
+
+/// Left and right exchanged.
+Polygon mirrored(Polygon shape)
+{
+    for (Vec2& p : shape)
+        p.x() = -p.x();
+    std::ranges::reverse(shape);
+    return shape;
+}
+
 double force_between(BlockPair& pair)
 {
     pair.search();
@@ -69,13 +87,7 @@ TEST(ConcaveBlock, DoesNotPressWithAHollowCorner)
     for (const double turn : {0.0, 37.0, 200.0})
     {
         const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
-        const auto turned = [&](Polygon shape)
-        {
-            for (Vec2& p : shape)
-                p = p.x() * x + p.y() * turned_left(x);
-            return shape;
-        };
-        BlockPair pair = as_drawn(turned(roof), turned(spike));
+        BlockPair pair = as_drawn(turned(roof, turn), turned(spike, turn));
         pair.search();
         double deepest = 0.0;
         for (Index i = 0; i < pair.state.contacts.size(); ++i)
@@ -102,16 +114,14 @@ TEST(ConcaveBlock, BearsASpikeAtTheSeamOfTwoParts)
                         {-0.4221, 0.2671}, {-0.0068, 0.2237}, {-0.0303, 0.2637}};
     for (const double turn : {0.0, 37.0, 200.0})
     {
-        const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
-        const auto turned = [&](Polygon shape)
+        BlockPair drawn = as_drawn(turned(face, turn), turned(spike, turn));
+        BlockPair other = as_drawn(turned(mirrored(face), turn), turned(mirrored(spike), turn));
+        BlockPair exchanged = as_drawn(turned(spike, turn), turned(face, turn));
+        for (BlockPair* const pair : {&drawn, &other, &exchanged})
         {
-            for (Vec2& p : shape)
-                p = p.x() * x + p.y() * turned_left(x);
-            return shape;
-        };
-        BlockPair pair = as_drawn(turned(face), turned(spike));
-        pair.search();
-        EXPECT_NEAR(deepest_overlap(pair), 0.0083, 2e-4) << "turned by " << turn;
+            pair->search();
+            EXPECT_NEAR(deepest_overlap(*pair), 0.0083, 2e-4) << "turned by " << turn;
+        }
     }
 }
 
@@ -126,14 +136,7 @@ TEST(ConcaveBlock, LandsOnBothPiecesOfASplitSideAtOnce)
         p += Vec2(0.01, 0.005);
     for (const double turn : {0.0, 37.0, 200.0})
     {
-        const auto turned = [&](Polygon shape)
-        {
-            const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
-            for (Vec2& p : shape)
-                p = p.x() * x + p.y() * turned_left(x);
-            return shape;
-        };
-        BlockPair pair = as_drawn(turned(bar), turned(hook));
+        BlockPair pair = as_drawn(turned(bar, turn), turned(hook, turn));
         pair.search();
         std::vector<double> stretches;
         for (Index i = 0; i < pair.state.contacts.size(); ++i)
