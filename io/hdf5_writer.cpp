@@ -12,11 +12,12 @@ namespace hdem
 {
 namespace
 {
-constexpr std::size_t memory_step = 256U << 10U;     // [bytes] by which the file in memory grows
-constexpr std::uint64_t chunk_bytes = 1U << 20U;     // fits the library's chunk cache
-constexpr std::uint64_t least_deflated = 1U << 17U;  // bytes; the packer takes longer to begin than a smaller dataset is worth
-constexpr unsigned chunks_of_a_node = 4;             // of the index of a dataset; the usual 64 would be half of a small frame
-constexpr unsigned deflate_level = 1;                // higher levels cost much time for little
+constexpr std::size_t memory_step = 256U << 10U;      // [bytes] by which the file in memory grows
+constexpr std::uint64_t chunk_bytes = 1U << 20U;      // fits the library's chunk cache
+constexpr std::uint64_t least_deflated = 1U << 17U;   // bytes; the packer takes longer to begin than a smaller dataset is worth
+constexpr std::uint64_t largest_compact = 1U << 15U;  // bytes; a dataset in its header has no index of chunks, which would be
+                                                      // half of a small frame. HDF5 takes up to 64 kB of header
+constexpr unsigned deflate_level = 1;                 // higher levels cost much time for little
 
 /// The bytes of a file that exists in memory only; they are left here when HDF5 closes it.
 ///
@@ -68,6 +69,12 @@ herr_t keep_memory(void*)
     return 0;
 }
 
+/// The same content gives the same bytes: the library would keep the second in which each object was made.
+void keep_no_times(const Hdf5Handle& creation)
+{
+    H5Pset_obj_track_times(creation.id(), false);
+}
+
 Hdf5Handle open_in_memory(const std::string& name, MemoryFile& memory)
 {
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -77,15 +84,8 @@ Hdf5Handle open_in_memory(const std::string& name, MemoryFile& memory)
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18,
                          H5F_LIBVER_LATEST);  // checksums of metadata, compact links; readable since HDF5 1.8
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_istore_k(creation.id(), chunks_of_a_node / 2);
+    keep_no_times(creation);  // of the root group
     return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose};
-}
-
-Hdf5Handle link_properties()
-{
-    Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(properties.id(), 1);
-    return properties;
 }
 
 /// Links and attributes stay in the group's header: the library would begin trees and heaps for more than eight.
@@ -99,6 +99,7 @@ Hdf5Handle group_properties()
 {
     Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     keep_in_header(properties);
+    keep_no_times(properties);
     H5Pset_est_link_info(properties.id(), 16, 16);
     return properties;
 }
@@ -110,13 +111,19 @@ Hdf5Handle space_of(const Shape& shape)
             H5Sclose};
 }
 
-/// Chunks of whole rows; none for a dataset without elements, which cannot have any.
+/// In the header, whose checksum then covers the data too; chunks of whole rows where it is larger. None for a dataset without
+/// elements, which cannot have any.
 Hdf5Handle storage_of(const Shape& shape, std::uint64_t count, std::size_t size, Hdf5Writer::Packing packing)
 {
     Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(properties.id(), false);  // the same content gives the same bytes
+    keep_no_times(properties);
     if (shape.empty() || count == 0)
         return properties;
+    if (count * size <= largest_compact)
+    {
+        H5Pset_layout(properties.id(), H5D_COMPACT);
+        return properties;
+    }
     std::vector<hsize_t> chunk(shape.begin(), shape.end());
     const std::uint64_t row_bytes = count / shape[0] * size;
     chunk[0] = std::clamp<std::uint64_t>(chunk_bytes / row_bytes, 1, shape[0]);
@@ -148,14 +155,29 @@ struct Hdf5Writer::Handles
     Hdf5Use use;
     MemoryFile memory;  // outlives the file, which closes into it
     Hdf5Handle file;
-    Hdf5Handle links;
+
+    void make_group(const std::filesystem::path& name, const std::string& path) const
+    {
+        const Hdf5Handle group(H5Gcreate2(file.id(), path.c_str(), H5P_DEFAULT, group_properties().id(), H5P_DEFAULT), H5Gclose);
+        if (group.id() < 0)
+            fail_hdf5(name, path, "made", hdf5_reason());
+    }
+
+    /// Those that `path` lies in and that are not there yet. By hand: the library makes them with the time in them.
+    void make_groups_around(const std::filesystem::path& name, const std::string& path) const
+    {
+        for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1))
+            if (const std::string group = path.substr(0, end); H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) <= 0)
+                make_group(name, group);
+    }
 
     void write(const std::filesystem::path& name, const std::string& path, const void* values, std::uint64_t count,
                std::size_t size, hid_t in_memory, hid_t in_file, const Shape& shape, Packing packing) const
     {
+        make_groups_around(name, path);
         const Hdf5Handle space = space_of(shape);
         const Hdf5Handle storage = storage_of(shape, count, size, packing);
-        const Hdf5Handle dataset(H5Dcreate2(file.id(), path.c_str(), in_file, space.id(), links.id(), storage.id(), H5P_DEFAULT),
+        const Hdf5Handle dataset(H5Dcreate2(file.id(), path.c_str(), in_file, space.id(), H5P_DEFAULT, storage.id(), H5P_DEFAULT),
                                  H5Dclose);
         if (dataset.id() < 0 || (count > 0 && H5Dwrite(dataset.id(), in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail_hdf5(name, path, "written", hdf5_reason());
@@ -177,7 +199,6 @@ Hdf5Writer::Hdf5Writer(std::filesystem::path file) : name_(std::move(file)), han
 {
     prepare_hdf5();
     handles_->file = open_in_memory(name_.string(), handles_->memory);
-    handles_->links = link_properties();
     if (handles_->file.id() < 0)
         fail_hdf5(name_, "/", "made", hdf5_reason());
 }
@@ -187,10 +208,8 @@ Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
 
 void Hdf5Writer::make_group(const std::string& path)
 {
-    const Hdf5Handle group(
-        H5Gcreate2(handles_->file.id(), path.c_str(), handles_->links.id(), group_properties().id(), H5P_DEFAULT), H5Gclose);
-    if (group.id() < 0)
-        fail_hdf5(name_, path, "made", hdf5_reason());
+    handles_->make_groups_around(name_, path);
+    handles_->make_group(name_, path);
 }
 
 void Hdf5Writer::write_elements(const std::string& path, const void* values, std::uint64_t count, ElementType type,
@@ -233,7 +252,8 @@ void Hdf5Writer::set_text(const std::string& object, const std::string& name, st
 
 void Hdf5Writer::link(const std::string& path, const std::string& file, const std::string& object)
 {
-    if (H5Lcreate_external(file.c_str(), object.c_str(), handles_->file.id(), path.c_str(), handles_->links.id(), H5P_DEFAULT) < 0)
+    handles_->make_groups_around(name_, path);
+    if (H5Lcreate_external(file.c_str(), object.c_str(), handles_->file.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
         fail_hdf5(name_, path, "made", hdf5_reason());
 }
 
