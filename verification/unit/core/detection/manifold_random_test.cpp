@@ -106,6 +106,8 @@ Forces forces_of(BlockPair& pair, Contact contact, ContactLaw law)
     find_features(pair.model, pair.state.blocks, contact);
     pair.state.contacts.resize(1);
     pair.state.contacts.put(0, contact);
+    for (BlockForce& force : pair.state.blocks.force)  // closing springs ask for those of the last cycle
+        force = {};
     pair.evaluate(law);
     return {pair.force(pair.a), pair.force(pair.b), pair.moment(pair.a), pair.moment(pair.b)};
 }
