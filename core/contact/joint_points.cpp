@@ -76,7 +76,6 @@ void evaluate_joint_points(const ContactGroup& g, Mask impulsive, const std::arr
             evaluate_point<Contact4::any, Joints::laws>(g, k, impulsive, share[k], dt, place.lanes, place.regime[k], plain);
         sums.take(!rows.has_memory, plain);
     }
-    for (int k = 0; k < 2; ++k)
-        evaluate_point_by<MixedLaws, Pack>(g, k, impulsive, share[k], dt, place, last, sums);
+    evaluate_points_by<MixedLaws, Pack>(g, impulsive, share, dt, place, last, sums);
 }
 }  // namespace hdem

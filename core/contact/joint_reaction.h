@@ -105,9 +105,8 @@ template <bool has_all_lanes, typename Owner, typename P>
 
 /// A point of each contact of a pack. `last`: their lanes after the last cycle.
 template <typename React, typename P>
-[[gnu::noinline, gnu::flatten]] void evaluate_point_by(const BasicContactGroup<P>& g, int k, MaskOf<P> impulsive, P share, P dt,
-                                                       const BasicJointPlace<P>& place, const ContactLanes& last,
-                                                       BasicSums<P>& sums)
+[[gnu::always_inline]] inline void evaluate_one_point(const BasicContactGroup<P>& g, int k, MaskOf<P> impulsive, P share, P dt,
+                                                      const BasicJointPlace<P>& place, const ContactLanes& last, BasicSums<P>& sums)
 {
     using M = MaskOf<P>;
     constexpr bool all = React::has_all_lanes;
@@ -220,17 +219,30 @@ template <typename React, typename P>
     sums.moment_ref += mine(p.ref_t * normal + p.ref_m * shear);
 }
 
+/// Both of them: their chains of operations do not wait for each other (perf/measured.md).
+template <typename React, typename P>
+[[gnu::noinline, gnu::flatten]] void evaluate_points_by(const BasicContactGroup<P>& g, MaskOf<P> impulsive,
+                                                        const std::array<P, 2>& share, P dt, const BasicJointPlace<P>& place,
+                                                        const ContactLanes& last, BasicSums<P>& sums)
+{
+    BasicSums<P> own = sums;
+#pragma GCC unroll 2
+    for (int k = 0; k < 2; ++k)
+        evaluate_one_point<React, P>(g, k, impulsive, share[k], dt, place, last, own);
+    sums = own;
+}
+
 template <typename P>
-using EvaluatePoint = void (*)(const BasicContactGroup<P>& g, int k, MaskOf<P> impulsive, P share, P dt,
-                               const BasicJointPlace<P>& place, const ContactLanes& last, BasicSums<P>& sums);
+using EvaluatePoints = void (*)(const BasicContactGroup<P>& g, MaskOf<P> impulsive, const std::array<P, 2>& share, P dt,
+                                const BasicJointPlace<P>& place, const ContactLanes& last, BasicSums<P>& sums);
 
 /// One for each law and curve.
 template <typename P, std::size_t... at>
-constexpr std::array<EvaluatePoint<P>, sizeof...(at)> evaluators(std::index_sequence<at...>)
+constexpr std::array<EvaluatePoints<P>, sizeof...(at)> evaluators(std::index_sequence<at...>)
 {
-    return {&evaluate_point_by<OneLaw<typename std::tuple_element_t<at / curve_count, AllLaws>::Type,
-                                      typename std::tuple_element_t<at % curve_count, AllCurves>::Type>,
-                               P>...};
+    return {&evaluate_points_by<OneLaw<typename std::tuple_element_t<at / curve_count, AllLaws>::Type,
+                                       typename std::tuple_element_t<at % curve_count, AllCurves>::Type>,
+                                P>...};
 }
 
 /// Both points of contacts that are all of one law.
@@ -240,9 +252,8 @@ template <typename P, std::size_t laws>
                                                        BasicSums<P>& sums)
 {
     static constexpr auto evaluate_each = evaluators<P>(std::make_index_sequence<laws * curve_count>{});
-    const EvaluatePoint<P> evaluate = evaluate_each[static_cast<std::size_t>(place.rows.kind[0]) * curve_count +
-                                                    static_cast<std::size_t>(place.rows.curve[0])];
-    for (int k = 0; k < 2; ++k)
-        evaluate(g, k, impulsive, share[k], dt, place, place.lanes, sums);
+    const EvaluatePoints<P> evaluate = evaluate_each[static_cast<std::size_t>(place.rows.kind[0]) * curve_count +
+                                                     static_cast<std::size_t>(place.rows.curve[0])];
+    evaluate(g, impulsive, share, dt, place, place.lanes, sums);
 }
 }  // namespace hdem
