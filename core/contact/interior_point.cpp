@@ -278,7 +278,7 @@ IslandProblem InteriorPoint::solve(double goal)
             break;
         IslandProblem next = present();
         const double error = next.error();
-        if (error >= least)
+        if (!(error < least))
             continue;
         least = error;
         best = std::move(next);
@@ -319,7 +319,7 @@ IslandProblem solve_all_at_once(const IslandProblem& problem, double goal)
         }
         next.set_impulses(normal, shear);
         const double error = next.error();
-        if (error >= least)
+        if (!(error < least))
             continue;
         if (error < 0.5 * milestone)
         {

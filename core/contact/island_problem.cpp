@@ -7,23 +7,32 @@
 
 namespace hdem
 {
+namespace
+{
+/// The greater one, and no number where one is none: impulses that are none must not pass for right.
+double greater(double a, double b)
+{
+    return a > b || std::isnan(a) ? a : b;
+}
+}  // namespace
+
 double law_error(const ImpulsePoint& point, const PointVelocity& velocity)
 {
     double error = 0.0;
     if (point.mass_normal > 0.0)
     {
-        const double next = std::max(0.0, point.impulse_normal + point.mass_normal * (velocity.m - point.target));
+        const double next = std::max(point.impulse_normal + point.mass_normal * (velocity.m - point.target), 0.0);
         error = std::abs(next - point.impulse_normal) / point.mass_normal;
     }
     const double next = slip_limited(point.impulse_shear - point.mass_shear * velocity.t, shear_limit(point, point.impulse_normal));
-    return std::max(error, std::abs(next - point.impulse_shear) / point.mass_shear);
+    return greater(error, std::abs(next - point.impulse_shear) / point.mass_shear);
 }
 
 double IslandProblem::error() const
 {
     double worst = 0.0;
     for (const ImpulsePoint& p : points)
-        worst = std::max(worst, law_error(p, velocity_at(p)));
+        worst = greater(worst, law_error(p, velocity_at(p)));
     return worst;
 }
 

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace hdem
@@ -60,6 +61,18 @@ TEST(InteriorPoint, CarriesAColumnWhateverItsMasses)
 }
 
 /// Two light blocks between the ground and a heavy one that comes down; with a restitution it must leave upwards, and the light ones must stay.
+/// No number is no solution: neither what is asked nor what is found may pass for right.
+TEST(InteriorPoint, AVelocityThatIsNoNumberIsAnError)
+{
+    for (double Triple::*const axis : {&Triple::x, &Triple::y})
+    {
+        IslandProblem problem = column({1.0, 2.0, 3.0}, 0.5);
+        problem.blocks[1].velocity.*axis = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_TRUE(std::isnan(problem.error()));
+        EXPECT_TRUE(std::isnan(solve_all_at_once(problem, 1e-9).error()));
+    }
+}
+
 TEST(InteriorPoint, TurnsAHeavyBlockRoundThroughLightOnes)
 {
     IslandProblem start = column({2.7e-3, 2.7e-3, 2700.0});
