@@ -21,7 +21,9 @@ REGIMES = ("open", "stick", "slip", "impulse")    # by the number in contacts()[
 
 
 def numbers(name: str, value: Any) -> Any:
-    """As an array of float64."""
+    """As an array of float64. What a mask hides is no number to take."""
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name}: {np.ma.count_masked(value)} elements are masked; filled(...) gives them values")
     try:
         array = np.asarray(value)
         if array.dtype.kind == "c":

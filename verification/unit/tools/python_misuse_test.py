@@ -52,7 +52,9 @@ def test_wrong_types_are_named(make, words):
     (lambda: hdem.Simulation(hdem.Case(CASE), threads=10**12), "threads = 1e+12: too great"),
     (lambda: simulation().run(cycles=10**30), "cycles = 1e+30: too great"),
     (lambda: simulation().run(cycles=-10**400), "too great"),
-    (lambda: simulation().run(cycles=-1), "must not be negative")])
+    (lambda: simulation().run(cycles=-1), "must not be negative"),
+    (lambda: setattr(simulation(), "velocities", np.ma.masked_greater(simulation().velocities + [[0.0, 1.0]], 0.5)),
+     "elements are masked; filled(...) gives them values")])
 def test_wrong_numbers_are_named(make, words):
     with pytest.raises(ValueError) as told:
         make()
