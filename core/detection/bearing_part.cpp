@@ -43,6 +43,25 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
         }
     return around;
 }
+/// Would the parts of `pair` be apart if the parts around them that `facing` is of were drawn apart? By the least way, out of the edge that faces.
+bool are_freed(const Shapes& shapes, const PartPair& pair, const Facing& facing, double tolerance)
+{
+    const BlockMotion& ref = facing.ref_is_a ? pair.motion_a : pair.motion_b;
+    const Vec2 t = shapes.edge_tangent[facing.ref_edge];
+    const Vec2 outwards = -turned_left(Vec2(ref.c * t.x() - ref.s * t.y(), ref.s * t.x() + ref.c * t.y()));
+    const double way = facing.ref_is_a ? facing.overlap : -facing.overlap;
+    BlockMotion b = pair.motion_b;
+    b.x += way * outwards.x();
+    b.y += way * outwards.y();
+    const auto is_beyond = [&](Index part, Index other, const RelativePose& pose)
+    {
+        for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
+            if (edge_distance(shapes, e, other, pose).least > -tolerance)
+                return true;
+        return false;
+    };
+    return is_beyond(pair.a, pair.b, RelativePose(pair.motion_a, b)) || is_beyond(pair.b, pair.a, RelativePose(b, pair.motion_a));
+}
 }  // namespace
 
 bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, double tolerance)
@@ -64,8 +83,10 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, dou
             const double depth = -found.distance();
             if (!found.has_external() || depth < pair.margin)
                 continue;
-            if (!leaves_it(found) && choose_facing(shapes, other, found).overlap > 0.0)
-                return false;
+            if (!leaves_it(found))
+                if (const Facing facing = choose_facing(shapes, other, found);
+                    facing.overlap > 0.0 && are_freed(shapes, pair, facing, pair.margin + tolerance))
+                    return false;
             const bool comes_first = a != pair.a ? a < pair.a : b < pair.b;  // of pairs that are equally deep
             if (leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))
                 is_deepest = false;
