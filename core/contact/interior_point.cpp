@@ -11,6 +11,8 @@ namespace
 constexpr int patience = 20;     ///< steps in which the error must fall by half
 constexpr int most_rounds = 20;  ///< of Haslinger, in which the error must fall by half
 constexpr double kept = 0.9;     ///< share of the way to the boundary that a step may go
+/// Of impulses, over what could stop the heaviest block. A wedge that jams can be held by any impulses, or by none at all.
+constexpr double most_gain = 1e4;
 }  // namespace
 
 InteriorPoint::InteriorPoint(const IslandProblem& problem) : problem_(problem), points_(problem.points.size())
@@ -68,6 +70,7 @@ void InteriorPoint::start()
         now.shear = points_[i].shear_at == no_index ? p.impulse_shear : 0.0;
         now.against = now.along = impulse * speed / std::max(shear_limit(p, now.normal), 1e-300);
     }
+    greatest_ = most_gain * impulse;
     change_ = Vector::Zero(components_);
 }
 
@@ -278,7 +281,7 @@ IslandProblem InteriorPoint::solve(double goal)
             break;
         IslandProblem next = present();
         const double error = next.error();
-        if (!(error < least))
+        if (!(error < least) || next.greatest_impulse() > greatest_)
             continue;
         least = error;
         best = std::move(next);

@@ -31,7 +31,8 @@ class InteriorPoint
   public:
     explicit InteriorPoint(const IslandProblem& problem);
 
-    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met.
+    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met. (Without a bound, those of blocks that jam
+    /// in each other would grow to 1e18, and lose all digits of the energy.)
     [[nodiscard]] IslandProblem solve(double goal);
 
   private:
@@ -87,6 +88,7 @@ class InteriorPoint
     Matrix matrix_;
     Eigen::SparseLU<Matrix> factor_;
     double heaviest_ = 0.0;  ///< [kg]
+    double greatest_ = 0.0;  ///< impulse that a solution may have [N s]
     Index components_ = 0;   ///< of the blocks' velocities
     Index unknowns_ = 0;
     bool is_analysed_ = false;

@@ -36,6 +36,14 @@ double IslandProblem::error() const
     return worst;
 }
 
+double IslandProblem::greatest_impulse() const
+{
+    double greatest = 0.0;
+    for (const ImpulsePoint& p : points)
+        greatest = std::max(greatest, p.impulse_normal);
+    return greatest;
+}
+
 void IslandProblem::set_impulses(const std::vector<double>& normal, const std::vector<double>& shear)
 {
     for (std::size_t i = 0; i < points.size(); ++i)

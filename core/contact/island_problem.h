@@ -38,6 +38,9 @@ struct IslandProblem
     /// Greatest law_error of its points [m/s].
     [[nodiscard]] double error() const;
 
+    /// Of all points, normal to them [N s].
+    [[nodiscard]] double greatest_impulse() const;
+
     /// Gives points other impulses, and their blocks the velocities that follow from them.
     void set_impulses(const std::vector<double>& normal, const std::vector<double>& shear);
 };
