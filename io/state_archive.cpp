@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/model/block_order.h"
+#include "core/stage/properties.h"
 #include "core/state/state_tables.h"
 #include "io/state_checks.h"
 
@@ -154,7 +155,7 @@ State load_state(const Hdf5Reader& file, Model& model)
 {
     State state;
     state.contacts.has_memory = model.joints.has_memory();
-    state.contacts.has_preload = model.insitu.given || state.contacts.has_memory;
+    state.contacts.has_preload = needs_preload(model);
     state.water.resize(model.water.given ? static_cast<std::size_t>(model.blocks()) : 0);
     state.support.bolts.resize(model.support.bolts.size());
     state.support.liners.resize(model.support.liners.size());

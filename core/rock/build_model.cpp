@@ -7,6 +7,7 @@
 #include "core/rock/joint_table.h"
 #include "core/rock/model_blocks.h"
 #include "core/rock/resolve_names.h"
+#include "core/stage/properties.h"
 #include "core/stage/rules.h"
 #include "core/stress/insitu_stress.h"
 #include "core/support/resolve_support.h"
@@ -70,19 +71,6 @@ std::vector<double> least_masses(const Model& model)
         masses[b] *= least[static_cast<std::size_t>(model.material[b])] /
                      model.density[static_cast<std::size_t>(model.material[b])];
     return masses;
-}
-
-/// By a stage.
-bool is_stiffness_changed(const Model& model)
-{
-    const auto is_changed = [&](const StageLaws& stage)
-    {
-        for (std::size_t i = 0; i < stage.laws.size(); ++i)
-            if (stage.laws[i].normal_stiffness != model.joints.laws[i].normal_stiffness)
-                return true;
-        return false;
-    };
-    return std::ranges::any_of(model.stage_laws, is_changed);
 }
 
 void add_names(const CaseDef& def, Model& model)
@@ -166,7 +154,7 @@ Setup build_model(const CaseDef& def)
     }
     add_joints_and_densities(def, rock, placed, model);
     setup.state.contacts.has_memory = model.joints.has_memory();
-    setup.state.contacts.has_preload = def.insitu.given || model.joints.has_memory() || is_stiffness_changed(model);
+    setup.state.contacts.has_preload = needs_preload(model);
 
     model.gravity = tilted_gravity(def);
     model.contact = def.contact;

@@ -127,6 +127,18 @@ void keep_force(const StageLaws& before, const JointTable& now, Contact& contact
 }
 }  // namespace
 
+bool needs_preload(const Model& model)
+{
+    const auto sets_stiffness = [&](const StageLaws& stage)
+    {
+        for (std::size_t i = 0; i < stage.laws.size(); ++i)
+            if (stage.laws[i].normal_stiffness != model.joints.laws[i].normal_stiffness)
+                return true;
+        return false;
+    };
+    return model.insitu.given || model.joints.has_memory() || std::ranges::any_of(model.stage_laws, sets_stiffness);
+}
+
 bool changes_properties(const Model& model, Index stage)
 {
     const auto i = static_cast<std::size_t>(stage);

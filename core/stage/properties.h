@@ -6,6 +6,10 @@
 
 namespace hdem
 {
+/// Do contacts keep a preload besides the overlap of their blocks? For stress from the start, for a memory, and where a stage sets another normal
+/// stiffness, under which they go on with their forces. @pre no stage has changed numbers yet
+[[nodiscard]] bool needs_preload(const Model& model);
+
 /// Does the stage change numbers of joints or materials?
 [[nodiscard]] bool changes_properties(const Model& model, Index stage);
 

@@ -144,6 +144,18 @@ TEST(CheckpointOfFeatures, GivesTheUnbrokenRunOfTwoJointLaws)
     EXPECT_FALSE(std::ranges::is_sorted(order_by_parts(state.contacts)));
 }
 
+/// Contacts go on with their forces where a stage sets another stiffness: what they keep for that is in checkpoints before and after.
+TEST(CheckpointOfFeatures, GivesTheUnbrokenRunOfAStiffnessThatAStageSets)
+{
+    const ScratchFolder folder("checkpoint_stiffness");
+    CaseDef scene = tunnel(Method::hybrid);
+    scene.stages[1].joints = scene.joints;
+    scene.stages[1].joints[0].normal_stiffness *= 2.0;
+    const RunEnd unbroken = run_unbroken(scene);
+    const std::int64_t begin = unbroken.stage_cycles[0];
+    expect_to_go_on(scene, folder.path(), unbroken, {begin - 50, begin, begin + 1, begin + 310}, {1, 3});
+}
+
 TEST(CheckpointOfFeatures, GivesTheUnbrokenRunOfStepsThatVary)
 {
     const ScratchFolder folder("checkpoint_step");
