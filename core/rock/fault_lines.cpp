@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace hdem
 {
@@ -24,6 +26,28 @@ class Stretches
     [[nodiscard]] bool hold(const Vec2& a, const Vec2& b) const
     {
         return std::any_of(ends_.begin(), ends_.end(), [&](const Ends& on) { return holds(on, a) && holds(on, b); });
+    }
+
+    /// Points of an edge from a on, without b: those at which stretches end that it runs along.
+    [[nodiscard]] Polygon parted(const Vec2& a, const Vec2& b) const
+    {
+        const Ends edge{a, b};
+        const Vec2 way = b - a;
+        std::vector<std::pair<double, Vec2>> points{{0.0, a}};
+        const auto is_apart = [&](const Vec2& p, const Vec2& q) { return (p - q).norm() > near_; };
+        for (const Ends& on : ends_)
+            for (const auto& [end, other] : {std::pair(on.from, on.to), std::pair(on.to, on.from)})
+            {
+                const bool is_within = holds(edge, end) && is_apart(end, a) && is_apart(end, b);
+                if (is_within && ((holds(edge, other) && is_apart(end, other)) || holds(on, a) || holds(on, b)))
+                    points.emplace_back(way.dot(end - a), end);
+            }
+        std::ranges::stable_sort(points, {}, &std::pair<double, Vec2>::first);
+        Polygon line;
+        for (const auto& [at, point] : points)
+            if (line.empty() || is_apart(point, line.back()))
+                line.push_back(point);
+        return line;
     }
 
   private:
@@ -45,12 +69,16 @@ class Stretches
     std::vector<Ends> ends_;
 };
 
-void lengthen(Polygon& line, double by)
+/// A line whose ends are to lie beyond what they meet.
+/// @param keeps_first, keeps_last  others have these points, too: they stay, and what is beyond comes in addition
+Polygon lengthened(const Polygon& line, double by, bool keeps_first, bool keeps_last)
 {
     const Vec2 first = line.front() - line[1];
     const Vec2 last = line.back() - line[line.size() - 2];
-    line.front() += by * first / first.norm();
-    line.back() += by * last / last.norm();
+    Polygon out{line.front() + by * first / first.norm()};
+    out.insert(out.end(), line.begin() + (keeps_first ? 0 : 1), line.end() - (keeps_last ? 0 : 1));
+    out.push_back(line.back() + by * last / last.norm());
+    return out;
 }
 
 class LineCollector
@@ -63,8 +91,13 @@ class LineCollector
     }
 
     /// The stretches of a line that are new. A ring begins anywhere.
-    void add(std::int32_t source, const Polygon& points, bool is_ring)
+    void add(std::int32_t source, const Polygon& given, bool is_ring)
     {
+        Polygon points;
+        for (std::size_t i = 0; i + (is_ring ? 0 : 1) < given.size(); ++i)
+            std::ranges::copy(known_.parted(given[i], given[next(i, given.size())]), std::back_inserter(points));
+        if (!is_ring)
+            points.push_back(given.back());
         const std::size_t n = points.size();
         const std::size_t edges = is_ring ? n : n - 1;
         const auto is_old = [&](std::size_t edge) { return known_.hold(points[edge % n], points[(edge + 1) % n]); };
@@ -82,7 +115,21 @@ class LineCollector
             known_.add(points[edge], points[(edge + 1) % n]);
     }
 
-    [[nodiscard]] std::vector<SourceLine> take() { return std::move(lines_); }
+    /// Chains are made longer, so that round-off does not part them from what they meet.
+    [[nodiscard]] std::vector<SourceLine> take()
+    {
+        const auto place = [](const Vec2& p) { return std::pair(p.x(), p.y()); };
+        const auto is_ring = [](const SourceLine& line) { return line.points.front() == line.points.back(); };
+        std::map<std::pair<double, double>, int> lines_at;
+        for (const SourceLine& line : lines_)
+            for (std::size_t i = is_ring(line) ? 1 : 0; i < line.points.size(); ++i)
+                ++lines_at[place(line.points[i])];
+        const auto is_shared = [&](const Vec2& p) { return lines_at.at(place(p)) > 1; };
+        for (SourceLine& line : lines_)
+            if (!is_ring(line))
+                line.points = lengthened(line.points, slack_, is_shared(line.points.front()), is_shared(line.points.back()));
+        return std::move(lines_);
+    }
 
   private:
     template <class IsOld>
@@ -92,10 +139,7 @@ class LineCollector
         const auto end_chain = [&]
         {
             if (!chain.empty())
-            {
-                lengthen(chain, slack_);
                 lines_.push_back({source, std::move(chain)});
-            }
             chain.clear();
         };
         for (std::size_t edge = first; edge < first + edges; ++edge)

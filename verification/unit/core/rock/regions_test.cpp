@@ -87,6 +87,62 @@ TEST_P(Turned, AnOutlineAlongWhatIsThereIsNotCutAgain)
     EXPECT_THAT(areas(rock, "rock"), ElementsAre(2.0, 2.0, 2.0, 2.0, 8.0)) << "cut at 1 and 2 by the set, at 3 by the outline";
 }
 
+/// Layers of a map: the outline of one runs along those of two others, whatever their order. No sliver is left between them, and nothing is dropped.
+TEST(Regions, RunAlongSeveralOthersInAnyOrder)
+{
+    const std::map<std::string, std::string> outlines = {{"left", "[[0, 2], [1.5, 2.45], [1.5, 4], [0, 4]]"},
+                                                         {"right", "[[1.5, 2.45], [4, 3.2], [4, 4], [1.5, 4]]"},
+                                                         {"lower", "[[0, 0], [4, 0], [4, 3.2], [0, 2]]"}};
+    const std::string beds = "[[joint_set]]\ndip_deg = 16.69924423399362\nspacing = 0.5\norigin = [0, 2]\n"
+                             "[[joint_set]]\ndip_deg = 90.0\nspacing = 1.0\norigin = [1.5, 0]\n";
+    std::vector<std::string> order = {"left", "lower", "right"};
+    do
+        for (const double turn_deg : {0.0, 23.0, 45.0, 61.0, -60.0, 137.0})
+            for (const std::string& sets : {std::string(), beds})
+            {
+                std::string text = square;
+                for (const std::string& name : order)
+                    text += "[[region]]\nname = \"" + name + "\"\npolygon = " + outlines.at(name) + "\n";
+                SCOPED_TRACE(text + fmt::format("turned by {}", turn_deg));
+                const RockMass rock = generate_rock_mass(case_of(text + sets + laws, turn_deg));
+                expect_sound(rock);
+                EXPECT_TRUE(rock.warnings.empty()) << rock.warnings[0].text;
+                if (sets.empty())
+                {
+                    EXPECT_THAT(areas(rock, "rock"), ElementsAre(2.6625, 2.9375, 10.4));
+                }
+                for (const RockBlock& block : rock.blocks)
+                    EXPECT_GT(area(block), 1e-3);
+            }
+    while (std::ranges::next_permutation(order).found);
+}
+
+/// An outline that runs along another one for a part of its edge goes on from its corner.
+TEST(Regions, GoOnFromTheCornersOfOthers)
+{
+    const auto text = [](const char* first, const char* second)
+    {
+        return square +
+               fmt::format("[[region]]\nname = \"one\"\npolygon = {}\n[[region]]\nname = \"two\"\npolygon = {}\n", first, second) +
+               laws;
+    };
+    const char *const small = "[[1, 1], [2, 1], [2, 2], [1, 2]]", *const beside = "[[2, 0.5], [3, 0.5], [3, 3], [2, 3]]",
+                      *const across = "[[1.5, 2], [3, 2], [3, 3], [1.5, 3]]";
+    for (double turn_deg = 0.0; turn_deg < 180.0; turn_deg += 15.25)
+        for (const auto& [first, second, area_of_second] : {std::tuple(small, beside, 2.5), std::tuple(beside, small, 1.0),
+                                                            std::tuple(small, across, 1.5), std::tuple(across, small, 1.0)})
+        {
+            SCOPED_TRACE(fmt::format("{} {} turned by {}", first, second, turn_deg));
+            const RockMass rock = generate_rock_mass(case_of(text(first, second), turn_deg));
+            expect_sound(rock);
+            const double area_of_first = first == small ? 1.0 : (first == beside ? 2.5 : 1.5);
+            std::vector<double> expected = {area_of_first, area_of_second, 16.0 - area_of_first - area_of_second};
+            std::ranges::sort(expected);
+            EXPECT_THAT(areas(rock, "rock"), testing::ElementsAreArray(expected));
+            EXPECT_TRUE(rock.warnings.empty()) << rock.warnings[0].text;
+        }
+}
+
 TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
 {
     const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");
