@@ -87,17 +87,42 @@ bool leaves_short_edge(const ConvexCut& cut, double smallest)
     return false;
 }
 
+/// Around a piece, along x and y: no less than the length of its edges [m].
+double way_around(const CutPolygon& piece)
+{
+    double way = 0.0;
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i)
+    {
+        way += (piece.vertices[next(i, piece.vertices.size())] - piece.vertices[i]).lpNorm<1>();
+    }
+    return way;
+}
+
+/// Smaller than the user wants, or narrower than the distance below which a line goes through a vertex: as where a joint runs almost along an edge. Nothing
+/// would be left of such a piece.
+bool is_too_small(double area, double around, const Cutter& cutter)
+{
+    return area < cutter.generator.smallest_block_area || area < cutter.mass.tolerance * around;
+}
+
 bool leaves_small_piece(const Parts& side, const Cutter& cutter)
 {
     const std::vector<std::size_t> group = connected_groups(side, cutter.mass.chords, cutter.mass.tolerance);
-    std::vector<double> area(side.size(), 0.0);
+    std::vector<double> area(side.size(), 0.0), around(side.size(), 0.0);
     for (std::size_t p = 0; p < side.size(); ++p)
     {
         area[group[p]] += signed_area(side[p].vertices);
+        around[group[p]] += way_around(side[p]);
     }
     const std::size_t groups = *std::max_element(group.begin(), group.end()) + 1;
-    return *std::min_element(area.begin(), area.begin() + static_cast<std::ptrdiff_t>(groups)) <
-           cutter.generator.smallest_block_area;
+    for (std::size_t g = 0; g < groups; ++g)
+    {
+        if (is_too_small(area[g], around[g], cutter))
+        {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool is_refused(const BlockCut& cut, const Cutter& cutter)
@@ -109,14 +134,11 @@ bool is_refused(const BlockCut& cut, const Cutter& cutter)
             return true;
         }
     }
-    const double least = cutter.generator.smallest_block_area;
-    if (least <= 0.0)
-    {
-        return false;
-    }
     if (cut.cuts.size() == 1 && cut.left.empty() && cut.right.empty())
     {
-        return signed_area(cut.cuts[0].left.vertices) < least || signed_area(cut.cuts[0].right.vertices) < least;
+        const auto is_small = [&](const CutPolygon& piece)
+        { return is_too_small(signed_area(piece.vertices), way_around(piece), cutter); };
+        return is_small(cut.cuts[0].left) || is_small(cut.cuts[0].right);
     }
     Parts left = cut.left;
     Parts right = cut.right;

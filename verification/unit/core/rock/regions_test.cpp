@@ -143,6 +143,26 @@ TEST(Regions, GoOnFromTheCornersOfOthers)
         }
 }
 
+/// Faults typed with a few digits lie almost along joints of a set. A cut that leaves nothing on one side is none.
+TEST(Regions, BesideJointsAlmostAlongFaultsHaveAreas)
+{
+    const std::string sets = "[[joint_set]]\ndip_deg = 0.0\nspacing = 0.5\norigin = [0, 0]\n"
+                             "[[joint_set]]\ndip_deg = 90.0\nspacing = 1.0\norigin = [0, 0]\n";
+    std::mt19937 random(1);
+    for (int i = 0; i < 60; ++i)
+    {
+        const double off = std::pow(10.0, -9.0 + 6e-10 * static_cast<double>(random())), turn = 3.0 * i;
+        const std::string text = square + fmt::format("[[fault]]\nname = \"a\"\npoints = [[-1, 1.5], [5, {}]]\n", 1.5 + off) +
+                                 fmt::format("[[fault]]\nname = \"b\"\npoints = [[-1, {}], [5, {}]]\n", 2.5 + off, 2.5 - off) +
+                                 sets + laws;
+        SCOPED_TRACE(text + fmt::format("turned by {}", turn));
+        const RockMass rock = generate_rock_mass(case_of(text, turn));
+        for (const RockBlock& block : rock.blocks)
+            EXPECT_GT(area(block), 1e-12) << block.name;
+        EXPECT_NEAR(summed_area(rock), 16.0, 1e-9);
+    }
+}
+
 TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
 {
     const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");
