@@ -81,11 +81,13 @@ SectionSpec domain_section()
                                     .example = "-20.0",
                                     .range = coordinate,
                                     .default_note = "must be given with profile"}),
-         field<&DomainDef::fixed>({.name = "fixed",
-                                   .effect = "Sides of the rectangle: a block with an edge on one of them never moves.",
-                                   .example = "[\"left\", \"right\", \"bottom\"]",
-                                   .choices = {"left", "right", "bottom", "top"},
-                                   .default_note = "none"}),
+         field<&DomainDef::fixed>(
+             {.name = "fixed",
+              .effect = "Sides of the rectangle: a block with an edge on one of them never moves, nor does one inside of an "
+                        "excavation until it is removed.",
+              .example = "[\"left\", \"right\", \"bottom\"]",
+              .choices = {"left", "right", "bottom", "top"},
+              .default_note = "none"}),
          field<&DomainDef::fixed_edges>(
              {.name = "fixed_edges",
               .effect = "The same for edges of the polygon: edge 0 runs from the first vertex to the second.",

@@ -123,12 +123,11 @@ class BoundaryResolver
             boundary.forces.push_back(force);
     }
 
-    /// As domain.fixed: not blocks inside of excavations. What the case fixes otherwise stays fixed when the side ends.
+    /// As domain.fixed. What the case fixes otherwise stays fixed when the side ends.
     void add_held(Boundary& boundary) const
     {
         for (const BoundaryFace& face : boundary.faces)
-            if (model_.excavation[face.block] == no_index && blocks_.is_free(face.block) &&
-                std::ranges::find(boundary.holds, face.block) == boundary.holds.end())
+            if (blocks_.is_free(face.block) && std::ranges::find(boundary.holds, face.block) == boundary.holds.end())
                 boundary.holds.push_back(face.block);
     }
 

@@ -21,6 +21,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 namespace hdem
@@ -184,7 +185,7 @@ RockBlock finished(CutBlock& from, const Regions& regions, const Domain& domain)
         }
         block.parts.push_back(std::move(out));
     }
-    block.fix_x = block.fix_y = block.fix_rotation = is_fixed && from.excavation == no_index;
+    block.fix_x = block.fix_y = block.fix_rotation = is_fixed;
     return block;
 }
 
@@ -235,6 +236,27 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
                                                                        : excavation.name + "." + std::to_string(++inside[number]);
         }
         rock.blocks.push_back(std::move(block));
+    }
+}
+
+/// A block that is the whole inside of an excavation is called as the user wants: others may have that name already.
+void check_names(const CaseDef& def, const RockMass& rock)
+{
+    const auto is_whole = [](const ExcavationDef& excavation) { return excavation.inside == InsideOutline::one_block; };
+    if (std::ranges::none_of(def.excavations, is_whole))
+    {
+        return;
+    }
+    std::unordered_set<std::string> names;
+    for (const RockBlock& block : rock.blocks)
+    {
+        if (!names.insert(block.name).second)
+        {
+            const auto excavation = std::ranges::find(def.excavations, block.name, &ExcavationDef::name);
+            throw InputError(Problem{.key = "excavation[" + std::to_string(excavation - def.excavations.begin()) + "].name",
+                                     .text = "excavation: name = \"" + block.name +
+                                             "\" (a block cut from the domain is called so, too). Choose another."});
+        }
     }
 }
 
@@ -311,6 +333,7 @@ RockMass generate_rock_mass(const CaseDef& def)
         }
         cut_excavations(def, mass, rock);
         add_generated(def, domain, regions, mass, rock);
+        check_names(def, rock);
         warn_of_small_blocks(def, rock);
     }
     const double mean_size = std::sqrt(rock.domain_area / static_cast<double>(std::max<std::size_t>(rock.blocks.size(), 1)));

@@ -83,6 +83,25 @@ TEST(Boundary, FixedSideThatEndsFreesItsBlocks)
     EXPECT_LT(ledger_residual(run), 1e-9);
 }
 
+TEST(Boundary, FixedSideHoldsWhatIsToBeExcavated)
+{
+    CaseDef scene = square_pattern(3.0, 3.0);
+    ExcavationDef& pit = scene.excavations.emplace_back();
+    pit.name = "pit";
+    pit.shape = OutlineShape::rectangle;
+    pit.position = {1.5, 0.0};
+    pit.width = pit.height = 1.0;
+    scene.boundaries = {side("bottom", BoundaryKind::fixed)};
+    scene.stages = {{.name = "held", .cycles = 10}, {.name = "dig", .cycles = 10, .excavate = {"pit"}}};
+    CaseRun run(scene);
+    EXPECT_FALSE(run.state().blocks.is_free(run.slot("pit.1")));
+    run.advance(10);
+    run.simulation.begin_stage(1);
+    EXPECT_EQ(run.state().blocks.present[run.slot("pit.1")], 0);
+    run.advance(10);
+    EXPECT_EQ(run.displacement("pit.1"), Vec2(0.0, 0.0));
+}
+
 /// Blocks are sorted anew in memory while they move; sides keep theirs.
 TEST(Boundary, KeepsItsBlocksWhenTheyAreSorted)
 {

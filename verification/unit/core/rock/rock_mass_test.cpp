@@ -196,30 +196,56 @@ TEST(RockMass, FarFromTheOriginConservesAreaToTheDigitsOfItsCoordinates)
                 static_cast<double>(generate_rock_mass(tunnel_case(3, InsideOutline::jointed)).blocks.size()), 0.0);
 }
 
+/// Also those inside of an excavation: they would fall out of the model before they are removed.
 TEST(FixedSides, HoldTheBlocksWithAnEdgeThereAndNoOthers)
 {
-    const RockMass rock = generate_rock_mass(tunnel_case(1, InsideOutline::jointed));
-    std::size_t fixed = 0;
-    for (const RockBlock& block : rock.blocks)
+    for (const auto& [floor, inside] : {std::pair(12.5, InsideOutline::jointed), std::pair(0.0, InsideOutline::jointed),
+                                        std::pair(0.0, InsideOutline::one_block)})
     {
-        bool at_side = false;
-        for (const ConvexPart& part : block.parts)
+        CaseDef def = tunnel_case(1, inside);
+        def.excavations[0].position.y() = floor;
+        const RockMass rock = generate_rock_mass(def);
+        std::size_t fixed = 0, fixed_inside = 0;
+        for (const RockBlock& block : rock.blocks)
         {
-            for (std::size_t i = 0; i < part.vertices.size(); ++i)
+            bool at_side = false;
+            for (const ConvexPart& part : block.parts)
             {
-                const Vec2& a = part.vertices[i];
-                const Vec2& b = part.vertices[next(i, part.vertices.size())];
-                at_side = at_side || (a.x() == 0.0 && b.x() == 0.0) || (a.x() == 35.0 && b.x() == 35.0) ||
-                          (a.y() == 0.0 && b.y() == 0.0);
+                for (std::size_t i = 0; i < part.vertices.size(); ++i)
+                {
+                    const Vec2& a = part.vertices[i];
+                    const Vec2& b = part.vertices[next(i, part.vertices.size())];
+                    at_side = at_side || (a.x() == 0.0 && b.x() == 0.0) || (a.x() == 35.0 && b.x() == 35.0) ||
+                              (a.y() == 0.0 && b.y() == 0.0);
+                }
             }
+            EXPECT_EQ(block.fix_x, at_side) << block.name;
+            EXPECT_EQ(block.fix_y, at_side);
+            EXPECT_EQ(block.fix_rotation, at_side);
+            fixed += at_side ? 1 : 0;
+            fixed_inside += at_side && block.excavation == 0 ? 1 : 0;
         }
-        EXPECT_EQ(block.fix_x, at_side) << block.name;
-        EXPECT_EQ(block.fix_y, at_side);
-        EXPECT_EQ(block.fix_rotation, at_side);
-        fixed += at_side ? 1 : 0;
+        EXPECT_GT(fixed, 40u);
+        EXPECT_LT(fixed, 120u);
+        EXPECT_EQ(fixed_inside > 0, floor == 0.0);
     }
-    EXPECT_GT(fixed, 40u);
-    EXPECT_LT(fixed, 120u);
+}
+
+TEST(BlockNames, OfAWholeInsideAreNotThoseOfOthers)
+{
+    CaseDef def = tunnel_case(1, InsideOutline::one_block);
+    def.excavations[0].name = "b99999";
+    EXPECT_NO_THROW((void)generate_rock_mass(def));
+    def.excavations[0].name = "b7";
+    try
+    {
+        (void)generate_rock_mass(def);
+        ADD_FAILURE() << "two blocks are called b7";
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_EQ(error.problems()[0].key, "excavation[0].name");
+    }
 }
 
 TEST(FixedSides, OfAPolygonAreCountedInTheOrderGiven)
