@@ -113,7 +113,7 @@ void write_outlines(Hdf5Writer& file, const Model& model, const Blocks& blocks)
             ++part;
         const Index block = shapes.part_block[part];
         const bool by_outline = model.excavation[block] != no_index && shapes.edge_source[v] == edge_outline;
-        const bool by_name = model.excavation[block] == no_index && blocks.present[block] == 0 &&
+        const bool by_name = model.excavation[block] == no_index && blocks.present[block] == 0 && !model.is_wall(block) &&
                              shapes.edge_source[v] != edge_internal;
         if (!by_outline && !by_name)
             continue;

@@ -107,6 +107,17 @@ TEST(BlockFrame, LeavesOutExcavatedBlocksAndDrawsTheirOutline)
     EXPECT_NEAR(length, 8.0, 1e-12) << "of the l, without the edge inside it";
 }
 
+/// A wall is not there in stages in which its side does not act: nothing was excavated.
+TEST(BlockFrame, DrawsNoOutlineOfWallsThatDoNotAct)
+{
+    const ScratchFolder folder("frame_wall");
+    SmallRun run = test::small_run();
+    run.state.blocks.present[l] = 0;
+    run.model.mass[l] = 0.0;
+    write_block_frame(folder / "b.hdf", run.model, run.state);
+    EXPECT_THAT(Hdf5Reader(folder / "b.hdf").read<double>("/hdem/outline_segments", {any_extent, 2, 2}), testing::IsEmpty());
+}
+
 TEST(ContactFrame, HasALineForEachClosedContact)
 {
     const ScratchFolder folder("frame_contacts");
