@@ -132,9 +132,34 @@ class BoundaryCheck : public CaseCheck
         return a.stages.empty() || b.stages.empty() || std::ranges::find_first_of(a.stages, b.stages) != a.stages.end();
     }
 
-    [[nodiscard]] static bool share_a_side(const BoundaryDef& a, const BoundaryDef& b)
+    /// A side by its name; of a domain below a profile the edge that has this name: its polygon begins with the lower side.
+    [[nodiscard]] std::string side_named(const std::string& name) const
     {
-        return (!a.side.empty() && a.side == b.side) || std::ranges::find_first_of(a.edges, b.edges) != a.edges.end();
+        static const std::map<std::string, std::size_t> numbers = {{"bottom", 0}, {"right", 1}};
+        if (!given("domain.profile"))
+            return name;
+        const auto number = numbers.find(name);
+        return std::to_string(number != numbers.end() ? number->second : def_.domain.polygon.size() - 1);
+    }
+
+    [[nodiscard]] Names sides_of(const std::vector<std::string>& names, const std::vector<int>& edges) const
+    {
+        Names sides;
+        for (const std::string& name : names)
+            sides.insert(side_named(name));
+        for (const int edge : edges)
+            sides.insert(std::to_string(edge));
+        return sides;
+    }
+
+    [[nodiscard]] Names sides_of(const BoundaryDef& boundary) const
+    {
+        return sides_of(std::vector<std::string>(boundary.side.empty() ? 0 : 1, boundary.side), boundary.edges);
+    }
+
+    [[nodiscard]] static bool share_a_side(const Names& a, const Names& b)
+    {
+        return std::ranges::any_of(a, [&](const std::string& side) { return b.contains(side); });
     }
 
     /// Two that act on one side at the same time.
@@ -143,12 +168,12 @@ class BoundaryCheck : public CaseCheck
         const BoundaryDef& boundary = def_.boundaries[number];
         const std::string key = path + (boundary.side.empty() ? ".edges" : ".side");
         const std::string said = boundary.side.empty() ? "edges" : fmt::format("side = \"{}\"", printable(boundary.side));
-        const BoundaryDef fixed_sides{
-            .name = "", .side = "", .edges = def_.domain.fixed_edges, .stress = {}, .max_velocity = {}, .stages = {}};
-        if (std::ranges::find(def_.domain.fixed, boundary.side) != def_.domain.fixed.end() || share_a_side(boundary, fixed_sides))
+        const Names sides = sides_of(boundary);
+        if (share_a_side(sides, sides_of(def_.domain.fixed, def_.domain.fixed_edges)))
             problems_.add(key, object, said, "is fixed by [domain]", "Remove it there, or remove this boundary.");
         for (std::size_t i = 0; i < number; ++i)
-            if (const BoundaryDef& other = def_.boundaries[i]; share_a_side(boundary, other) && share_a_stage(boundary, other))
+            if (const BoundaryDef& other = def_.boundaries[i];
+                share_a_side(sides, sides_of(other)) && share_a_stage(boundary, other))
                 problems_.add(key, object, said, fmt::format("boundary \"{}\" acts there in the same stage", printable(other.name)),
                               "Keep one of them, or give stages.");
     }

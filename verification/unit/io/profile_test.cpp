@@ -76,6 +76,13 @@ TEST(Profile, SaysWhatIsWrongAndWhere)
                 HasSubstr("case.toml:3:10: [domain]: bottom = 12 m (is not below the profile, whose lowest point is at 10 m)"));
     EXPECT_THAT(problem_of("profile = \"none.csv\"\nbottom = 1\n"), HasSubstr("none.csv does not exist"));
     EXPECT_THAT(problem_of("profile = \"topo.csv\"\nbottom = 1\nwidth = 3\n"), HasSubstr("width (contradicts profile)"));
+    const std::string below = "profile = \"topo.csv\"\nbottom = -5\n", roller = "[[boundary]]\nkind = \"roller\"\n";
+    EXPECT_THAT(problem_of(below + roller + "side = \"bottom\"\n" + roller + "edges = [0]\n"),
+                HasSubstr("boundary \"boundary2\": edges (boundary \"boundary1\" acts there in the same stage)"));
+    EXPECT_THAT(problem_of(below + "fixed = [\"right\"]\n" + roller + "edges = [1]\n"), HasSubstr("edges (is fixed by [domain])"));
+    EXPECT_THAT(problem_of(below + "fixed_edges = [1]\n" + roller + "side = \"right\"\n"), HasSubstr("(is fixed by [domain])"));
+    EXPECT_THAT(problem_of(below + "fixed = [\"left\"]\n" + roller + "edges = [5]\n"), HasSubstr("edges (is fixed by [domain])"));
+    EXPECT_EQ(problem_of(below + "fixed = [\"left\"]\n" + roller + "edges = [1]\n" + roller + "side = \"bottom\"\n"), "");
     EXPECT_THAT(problem_of("width = 3\nheight = 2\nbottom = 1\n"), HasSubstr("bottom (belongs to profile, which is not given)"));
 }
 }  // namespace
