@@ -13,14 +13,11 @@ class SupportCheck : public CaseCheck
 
     void check()
     {
-        Names names;
         for (std::size_t i = 0; i < def_.bolts.size(); ++i)
         {
             const BoltDef& bolt = def_.bolts[i];
             const std::string path = fmt::format("bolt[{}]", i);
             const std::string object = fmt::format("bolt \"{}\"", printable(bolt.name));
-            if (!names.insert(bolt.name).second)
-                problems_.add(path + ".name", object, "name", "two bolts have it", "Give another name.");
             check_place(bolt, path, object);
             check_kind(bolt, path, object);
             if (!bolt.stage.empty())
@@ -34,8 +31,6 @@ class SupportCheck : public CaseCheck
   private:
     void check_liner(const LinerDef& liner, const std::string& path, const std::string& object)
     {
-        if (std::ranges::count(def_.liners, liner.name, &LinerDef::name) > 1)
-            problems_.add(path + ".name", object, "name", "two liners have it", "Give another name.");
         exclude(path, object, "around", "path");
         if (given(path + ".around"))
             check_reference(path + ".around", object, liner.around, "excavation", excavations_);

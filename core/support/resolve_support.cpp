@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace hdem
 {
@@ -170,6 +171,10 @@ class SupportResolver
             if (path[i + 1].from - path[i].to > least)
                 return fail(".from", "from " + place(path[i].to) + " to " + place(path[i + 1].from) +
                                          " m there is no block (it would have no rock around it). Move it, or end it there.");
+        if (!names_.insert(name).second)
+            return problems_.push_back({.key = key_ + ".name",
+                                        .text = object_ + "name (another bolt is called \"" + name +
+                                                "\"; those of a pattern are called NAME.1, NAME.2, ...). Give another name."});
         Bolt bolt = with_numbers(from, name, length);
         if (from.kind == BoltKind::grouted &&
             !may_have(key_ + (from.segment ? ".segment" : ".bond_stiffness"), object_, longest_piece(from, bolt), length))
@@ -279,7 +284,8 @@ class SupportResolver
     std::vector<Problem> problems_;
     std::string key_, object_;
     Index stage_ = 0;
-    double pieces_ = 0.0;  ///< of all bolts and liners so far
+    double pieces_ = 0.0;                    ///< of all bolts and liners so far
+    std::unordered_set<std::string> names_;  ///< of bolts
     std::vector<std::uint8_t> gone_;
 };
 }  // namespace

@@ -49,6 +49,20 @@ TEST(SupportErrors, TellWhatIsWrongAndWhatToDo)
                        "14:1: bolt \"bolt1\": shear_stiffness", "is missing");
 }
 
+/// Names of bolts and linings follow the rules of all names: histories and results call them so.
+TEST(SupportErrors, TellOfNames)
+{
+    const std::string
+        liner = "[[liner]]\npath = [[0.0, 4.0], [4.0, 4.0]]\nthickness = 0.1\nmodulus = 25e9\nnormal_stiffness = 1e9\n";
+    expect_one_problem(anchored + "area = 1e-4\nname = \"a/b\"\n", "18:8: bolt 1: name = \"a/b\"", "cannot be a name");
+    expect_one_problem(anchored + "area = 1e-4\nname = \"\"\n", "18:8: bolt 1: name = \"\"", "cannot be a name");
+    expect_one_problem(anchored + "area = 1e-4\nname = \"a\"\n" + anchored + "area = 1e-4\nname = \"a\"\n",
+                       "23:8: bolt 2: name = \"a\"", "bolt 1 has this name already");
+    expect_one_problem(liner + "name = \" a\"\n", "19:8: liner 1: name = \" a\"", "cannot be a name");
+    expect_one_problem(liner + "name = \"a\"\n" + liner + "name = \"a\"\n", "25:8: liner 2: name = \"a\"",
+                       "liner 1 has this name already");
+}
+
 TEST(SupportErrors, TellWhatIsWrongWithALiner)
 {
     const std::string beam = "thickness = 0.1\nmodulus = 25e9\nnormal_stiffness = 1e9\n";
@@ -73,6 +87,19 @@ std::string first_problem(const std::string& text)
         return error.problems().size() == 1 ? error.problems().front().text : "not one problem";
     }
     return "none";
+}
+
+/// Bolts of a pattern get their names when they are made.
+TEST(SupportErrors, TellOfABoltThatIsCalledAsOneOfAPattern)
+{
+    const std::string hole = "[[excavation]]\nname = \"hole\"\nshape = \"rectangle\"\nposition = [2, 1]\nwidth = 1\nheight = 1\n"
+                             "[[joint_set]]\ndip_deg = 0\nspacing = 0.7\n";
+    const std::string
+        pattern = "[[bolt]]\nname = \"row\"\naround = \"hole\"\nlength = 1.5\nalong = 0.5\narc = [60, 120]\narea = 1e-4\n";
+    const std::string single = "[[bolt]]\nname = \"row.1\"\nfrom = [0.5, 0.5]\nto = [0.5, 3.5]\narea = 1e-4\n";
+    EXPECT_EQ(first_problem(hole + pattern), "none");
+    EXPECT_THAT(first_problem(hole + pattern + single), HasSubstr("bolt \"row.1\": name (another bolt is called \"row.1\""));
+    EXPECT_THAT(first_problem(hole + single + pattern), HasSubstr("bolt \"row\": name (another bolt is called \"row.1\""));
 }
 
 /// A pattern, a bolt or a liner of more pieces than the memory holds is refused before it is made.
