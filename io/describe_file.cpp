@@ -149,6 +149,21 @@ void describe_hdf5(Page& page, const fs::path& file)
     refuse(file, "an HDF5 file, but none of hdem's");
 }
 
+/// When a stage ends.
+std::string end_of(const StageDef& stage)
+{
+    if (stage.cycles)
+        return fmt::format("{} cycles", *stage.cycles);
+    if (stage.duration)
+        return fmt::format("{:.6g} s", *stage.duration);
+    std::vector<std::string> ends;
+    if (ends_at_rest(stage))
+        ends.emplace_back("converged");
+    for (const StageEndDef& end : stage.ends)
+        ends.push_back(end.text);
+    return fmt::format("until {}, at most {} cycles", fmt::join(ends, " or "), stage.max_cycles);
+}
+
 void describe_case(Page& page, const fs::path& file)
 {
     const CaseFile read = read_case_file(file);
@@ -162,10 +177,7 @@ void describe_case(Page& page, const fs::path& file)
     page.add("explicit blocks", fmt::format("{}", def.blocks.size()));
     for (const StageDef& stage : def.stages)
         page.add("stage",
-                 fmt::format("{}: {}{}", stage.name,
-                             ends_at_rest(stage) ? fmt::format("until converged, at most {} cycles", stage.max_cycles)
-                             : stage.cycles      ? fmt::format("{} cycles", *stage.cycles)
-                                                 : fmt::format("{:.6g} s", stage.duration.value_or(0.0)),
+                 fmt::format("{}: {}{}", stage.name, end_of(stage),
                              stage.excavate.empty()
                                  ? ""
                                  : fmt::format(", excavates {}", fmt::join(stage.excavate, ", ")) +

@@ -22,7 +22,7 @@ def values_of(text):
         return text.split(",")
     try:
         begin, end, step = (list(map(Decimal, text.split(":"))) + [Decimal(1)])[:3]
-        count = int((end - begin) / step) + 1
+        count = int((end - begin) / step) + 1 if (end - begin) / step >= 0 else 0
     except (InvalidOperation, ZeroDivisionError, ValueError, OverflowError):
         count = 0
     if not 1 <= count <= MOST_RUNS or text.count(":") > 2:

@@ -52,6 +52,20 @@ TEST_F(TextFiles, ThatAreNoneAreNamedForWhatTheyAre)
     }
 }
 
+TEST_F(TextFiles, ThatAreCasesAreDescribedWithTheEndsOfTheirStages)
+{
+    std::ofstream(folder / "case.toml")
+        << "[material.rock]\ndensity = 2700.0\n[joint.default]\nnormal_stiffness = 1e9\nshear_stiffness = 1e9\n"
+           "friction_angle_deg = 30.0\n[[block]]\npolygon = [[0, 0], [1, 0], [1, 1]]\n"
+           "[[stage]]\ncycles = 5\n[[stage]]\nduration = 0.5\n"
+           "[[stage]]\nuntil = [\"speed > 3\", \"converged\"]\nmax_cycles = 70\n"
+           "[[stage]]\nuntil = \"cycles > 9\"\n";
+    const std::string page = describe_file(folder / "case.toml");
+    for (const char* line : {"stage1: 5 cycles\n", "stage2: 0.5 s\n", "stage3: until converged or speed > 3, at most 70 cycles\n",
+                             "stage4: until cycles > 9, at most 1000000 cycles\n"})
+        EXPECT_THAT(page, testing::HasSubstr(line));
+}
+
 TEST_F(TextFiles, ThatArePipesAreNotDescribedEither)
 {
     EXPECT_THROW(static_cast<void>(describe_file(silent_pipe())), InputError);

@@ -209,6 +209,8 @@ class Sweep(unittest.TestCase):
                                  (["plan", "small.toml", "-o", "t"], "nothing varies"), (["plan", "none.toml", "-o", "t", "--vary", "a=1"], "no such file"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:x"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:0"], "not a range"),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=3:2.5"], "not a range"),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:-3"], "not a range"),
                                  (["run", "s", "2"], "not in the plan"), (["collect", "u"], "cannot be read"),
                                  (["run", "u/t", "1", "--program", "nowhere"], "cannot be run")):
             code, said = self.sweep(*arguments)
