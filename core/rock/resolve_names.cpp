@@ -190,13 +190,34 @@ class Resolver
             else
                 find(name, key + ".excavate", object);
         }
+        note_removed(stage.excavate);
         for (const std::string& name : stage.fix)
-            find(name, key + ".fix", object);
+            find_present(name, key + ".fix", object);
         for (const std::string& name : stage.free)
-            find(name, key + ".free", object);
+            find_present(name, key + ".free", object);
         for (const StageEndDef& end : stage.ends)
             for (const std::string& name : end.blocks)
-                find(name, key + ".until", object);
+                find_present(name, key + ".until", object);
+    }
+
+    void note_removed(const std::vector<std::string>& names)
+    {
+        for (const std::string& name : names)
+        {
+            removed_.insert(name);
+            const auto excavation = std::ranges::find(model_.excavation_names, name) - model_.excavation_names.begin();
+            for (Index b = 0; b < model_.blocks(); ++b)
+                if (model_.excavation[b] == static_cast<Index>(excavation))
+                    removed_.insert(model_.name[b]);
+        }
+    }
+
+    /// A stage that names what it or an earlier one has removed is a likely slip.
+    void find_present(const std::string& name, const std::string& key, const std::string& object)
+    {
+        if (find(name, key, object) != no_index && removed_.contains(name))
+            warn(key, object + ": " + key.substr(key.rfind('.') + 1) + " = \"" + name +
+                          "\" (has no effect: this stage or one before it removes the block). Name another block.");
     }
 
     void check_history(const HistoryDef& history, const std::string& key)
@@ -235,6 +256,7 @@ class Resolver
     const Blocks& free_at_times_;
     std::unordered_map<std::string, Index> slots_;
     std::set<std::string> excavated_;
+    std::set<std::string> removed_;  ///< blocks, by the stages so far
     std::vector<Problem> problems_;
 };
 }  // namespace

@@ -168,6 +168,21 @@ TEST(Names, ThatNothingHasAreSaidWithTheirPlaceAndTheNearestOne)
 }
 
 /// hdem check must find them: a run would stop at them only after its first lines.
+/// What a stage does with a block that is gone has no effect, and an end of a stage waits for it in vain.
+TEST(Names, OfBlocksThatAreGoneAreWarnedOf)
+{
+    CaseDef scene = flyer();
+    scene.stages = {{.name = "before", .cycles = 1, .fix = {"block"}},
+                    {.name = "dig", .cycles = 1, .excavate = {"block"}},
+                    {.name = "after", .max_cycles = 9, .free = {"block", "other"}}};
+    scene.stages[2].ends = {{.quantity = EndQuantity::displacement, .blocks = {"block"}, .limit = 1.0}};
+    const std::vector<Problem> warnings = build_model(scene).warnings;
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_EQ(warnings[0].key, "stage[2].free");
+    EXPECT_THAT(warnings[0].text, testing::HasSubstr("stage \"after\": free = \"block\" (has no effect"));
+    EXPECT_EQ(warnings[1].key, "stage[2].until");
+}
+
 TEST(Names, OfBoltsAndLinersInHistoriesAreLookedUp)
 {
     using testing::ElementsAre;
