@@ -13,6 +13,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+MOST_IN_HEADER = 32 * 1024    # bytes
 LEAST_DEFLATED = 128 * 1024    # bytes
 ROW = re.compile(r"^\| `([^`]+)` \| (\w+) \| (scalar|\[[^\]]*\]) \| ([^|]*) \|")
 HEADING = re.compile(r"^## .*: (\S+)$")
@@ -99,7 +100,9 @@ def compare(file, table):
             deflated = dataset.shuffle and dataset.compression == "gzip"
             plain = kind != "text" if file.name.startswith("checkpoint") else kind.startswith("float")
             plain = plain or dataset.size * dataset.dtype.itemsize < LEAST_DEFLATED
-            if dataset.size and not (dataset.fletcher32 and deflated != plain):
+            is_in_header = dataset.id.get_create_plist().get_layout() == h5py.h5d.COMPACT
+            is_small = dataset.size * dataset.id.get_type().get_size() <= MOST_IN_HEADER
+            if dataset.size and (is_in_header != is_small or not (is_in_header or (dataset.fletcher32 and deflated != plain))):
                 problems.append(f"{path} is not packed as described")
     problems += [f"{name} is described but not there" for name in table if name not in seen]
     return [f"{file.name}: {problem}" for problem in problems]
