@@ -131,6 +131,7 @@ def work(options, folder, first, shared):
         shared[:16] = struct.pack("<qd", number, time.process_time())
         chance, kind = random.Random(f"{options.seed} {number}"), kind_of(number, options.results)
         done = reader.damage(chance, kind)
+        shared[:16] = struct.pack("<qd", number, time.process_time())    # to damage a file may take long: 18 s for a text of zeros
         was_read, found = reader.try_one(kind, chance)
         at = 16 + 8 * (2 * KINDS.index(kind) + was_read)
         shared[at:at + 8] = struct.pack("<q", struct.unpack("<q", shared[at:at + 8])[0] + 1)
