@@ -14,10 +14,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cosine of the angle between two pieces of one side.
 constexpr double in_line = 0.999;
 
-/// Sine of the angle by which an edge must be more opposed to take the place of another. Where a corner stands on an edge, its two edges may be equally opposed: the block
-/// would rock from one to the other for ever, as their contact lengths, and so their springs, differ.
-constexpr double turned_on = 0.01;
-
 /// Does an edge lie flat on another, and a second edge at an angle to it that a sliver beside them would have? By the sines of their angles to it.
 bool is_flat_beside(double sine, double other_sine)
 {
@@ -28,8 +24,7 @@ bool is_flat_beside(double sine, double other_sine)
 /// A straight side may have vertices in its middle: of pieces (almost) in one line it is the one with the longest stretch over the edge, unless one is flat on it
 /// and the other leaves room for a sliver between joints of almost the same dip. (Never a steep side just because it lies over the edge and the flat one beside it:
 /// a corner on a corner would carry as much as a face.)
-/// @param kept  that faced it before; it stays until another one is more opposed by a little
-Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin, Index kept)
+Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativePose& pose, double margin)
 {
     const Vec2 t = shapes.edge_tangent[edge];
     const Vec2 start = shapes.vertex[edge];
@@ -40,7 +35,6 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
     Index best = no_index;
     double best_length = 0.0, best_along = infinity, best_across = 0.0;
     bool best_deep = false;
-    double kept_along = infinity;
     for (Index e = shapes.vertex_begin[other]; e < shapes.vertex_begin[other + 1]; ++e)
     {
         if (!is_external(shapes, e))
@@ -52,8 +46,6 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
         const double length = std::min(std::max(from, to), shapes.edge_length[edge]) - std::max(std::min(from, to), 0.0);
         const Vec2 direction = pose.turned(shapes.edge_tangent[e]);
         const double along = t.dot(direction), across = cross(t, direction);
-        if (e == kept && deep && length > 0.0)
-            kept_along = along;
         const bool same_side = best != no_index && shapes.edge_tangent[e].dot(shapes.edge_tangent[best]) > in_line &&
                                !is_flat_beside(across, best_across) && !is_flat_beside(best_across, across);
         const bool better = deep != best_deep ? deep : (same_side ? length > best_length : along < best_along);
@@ -65,10 +57,7 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
         best_across = across;
         best_deep = deep;
     }
-    if (kept_along == infinity || shapes.edge_tangent[best].dot(shapes.edge_tangent[kept]) > in_line)
-        return best;
-    const double between = (shapes.edge_tangent[best] - shapes.edge_tangent[kept]).norm();
-    return kept_along < best_along + turned_on * between ? kept : best;
+    return best;
 }
 
 EdgePair make_edges(const Shapes& shapes, Index ref_edge, Index inc_part, Index inc_edge)
@@ -88,11 +77,11 @@ EdgePair make_edges(const Shapes& shapes, Index ref_edge, Index inc_part, Index 
             .p1y = p1.y()};
 }
 
-Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref_edge, Index kept_inc = no_index)
+Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref_edge)
 {
     const Index inc_part = ref_is_a ? pair.b : pair.a;
     Facing f{.ref_is_a = ref_is_a, .ref_edge = ref_edge};
-    f.inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? pair.b_from_a : pair.a_from_b, pair.margin, kept_inc);
+    f.inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? pair.b_from_a : pair.a_from_b, pair.margin);
     f.edges = make_edges(shapes, ref_edge, inc_part, f.inc_edge);
     const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
     const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
@@ -132,7 +121,7 @@ Facing better_placed(const Shapes& shapes, const PartPair& pair, const Facing& f
 }
 }  // namespace
 
-Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept, Index kept_inc)
+Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept)
 {
     const auto& [on_a, on_b] = scan.on;
     // Near ties go to the longer edge.
@@ -147,7 +136,7 @@ Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan&
         ref_edge = kept;
         ref_is_a = on_a.kept_distance > -infinity;
     }
-    const Facing facing = face(shapes, pair, ref_is_a, ref_edge, ref_edge == kept ? kept_inc : no_index);
+    const Facing facing = face(shapes, pair, ref_is_a, ref_edge);
     return facing.overlap < -best - pair.margin ? better_placed(shapes, pair, facing, best) : facing;
 }
 }  // namespace hdem

@@ -17,8 +17,6 @@ struct Facing
 
 /// The external edge of least overlap, and the one of the other part that faces it.
 /// @param kept  an edge that is taken if no other's overlap is less by the margin
-/// @param kept_inc  the edge that faced it
 /// @pre  both parts have an external edge
-[[nodiscard]] Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept = no_index,
-                                   Index kept_inc = no_index);
+[[nodiscard]] Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept = no_index);
 }  // namespace hdem

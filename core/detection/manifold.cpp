@@ -44,7 +44,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     const PairScan scan = scan_pair(shapes, pair, contact.ref_edge);
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
-    const Facing facing = choose_facing(shapes, pair, scan, contact.ref_edge, contact.inc_edge);
+    const Facing facing = choose_facing(shapes, pair, scan, contact.ref_edge);
     const bool bearing = bears(shapes, pair, scan, 4.0 * model.contact.recycling_distance * size);  // holds until the next search
     const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
     if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
