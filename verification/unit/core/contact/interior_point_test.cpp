@@ -82,36 +82,33 @@ TEST(InteriorPoint, DoesNotLetTheImpulsesOfAWedgeGrow)
                               {-0.52008421815302341, -1.1178533145340965, -0.78566835082409459}});
     problem.blocks.push_back({{7.4319340550092414e-4, 7.4319340550092414e-4, 2.9447848675488411e-3},
                               {-1.438499615614246, -0.81958158489225696, -0.48796918173505544}});
-    ImpulsePoint one;
-    one.ref = 0;
-    one.inc = 1;
-    one.t_x = 0.6423197853657755;
-    one.t_y = 0.76643675102885311;
-    one.ref_t = -0.48787192869126006;
-    one.ref_m = -0.61478284459807819;
-    one.inc_t = 0.70934882453600689;
-    one.inc_m = 0.028143467726461702;
-    one.friction = 0.8391;
-    one.mass_normal = 398.463;
-    one.mass_shear = 912.421;
-    one.impulse_normal = 1851.0876102916054;
-    one.impulse_shear = -1553.2469310725187;
-    ImpulsePoint other;
-    other.ref = 1;
-    other.inc = 0;
-    other.t_x = 0.16096665822830591;
-    other.t_y = 0.98695984464354547;
-    other.ref_t = 0.62429407432828854;
-    other.ref_m = 0.33798863958525532;
-    other.inc_t = -0.73337833609992842;
-    other.inc_m = 0.39644718044397342;
-    other.friction = 0.8391;
-    other.mass_normal = 431.688;
-    other.mass_shear = 753.969;
-    other.target = -0.099212748358694466;
-    other.impulse_normal = 2088.9862366714092;
-    other.impulse_shear = -1497.8087805286314;
-    problem.points = {one, other};
+    problem.points.push_back({.ref = 0,
+                              .inc = 1,
+                              .t_x = 0.6423197853657755,
+                              .t_y = 0.76643675102885311,
+                              .ref_t = -0.48787192869126006,
+                              .ref_m = -0.61478284459807819,
+                              .inc_t = 0.70934882453600689,
+                              .inc_m = 0.028143467726461702,
+                              .mass_normal = 398.463,
+                              .mass_shear = 912.421,
+                              .friction = 0.8391,
+                              .impulse_normal = 1851.0876102916054,
+                              .impulse_shear = -1553.2469310725187});
+    problem.points.push_back({.ref = 1,
+                              .inc = 0,
+                              .t_x = 0.16096665822830591,
+                              .t_y = 0.98695984464354547,
+                              .ref_t = 0.62429407432828854,
+                              .ref_m = 0.33798863958525532,
+                              .inc_t = -0.73337833609992842,
+                              .inc_m = 0.39644718044397342,
+                              .mass_normal = 431.688,
+                              .mass_shear = 753.969,
+                              .target = -0.099212748358694466,
+                              .friction = 0.8391,
+                              .impulse_normal = 2088.9862366714092,
+                              .impulse_shear = -1497.8087805286314});
     const IslandProblem found = solve_all_at_once(problem, 1e-6);
     EXPECT_LT(found.greatest_impulse(), 1e7);
     EXPECT_LE(found.error(), problem.error());
