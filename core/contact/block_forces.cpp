@@ -73,6 +73,7 @@ void RunningSums::begin(IndexRange range, const Model& model, const std::vector<
         force.x = weight.x;
         force.y = weight.y;
         force.moment = weight.w;
+        force.least_load = least_joint_load(weight);
         sums[start->block] = force;
     }
 }

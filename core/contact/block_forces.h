@@ -26,6 +26,13 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     return weight;
 }
 
+/// Square of the load from which on a joint of a block counts as one that is in use: a millionth of the block's weight [N2]. Before rock has settled many joints bear no
+/// more than round-off, and all of a strength of next to nothing is soon in use: round-off would choose the joint along which the block is damped.
+[[nodiscard, gnu::always_inline]] inline double least_joint_load(const Triple& weight)
+{
+    return 1e-12 * (weight.x * weight.x + weight.y * weight.y);
+}
+
 /// What acts on each block of `range`: its weight, `external` forces (none: empty), then the loads of its contacts in their order, Eqs. (7), (8).
 /// Reads: loads. Writes: force of these blocks; which joint is mobilised most only if `find_joint`, see needs_joint.
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,

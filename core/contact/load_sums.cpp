@@ -30,19 +30,12 @@ template <bool find_joint>
 class LoadSum
 {
   public:
-    /// No load yet.
-    explicit LoadSum(Pack start)
-        : sum_(start.v),
-          joint_(std::bit_cast<Words>(FloatLanes{BlockForce().mobilised, BlockForce().t_x, BlockForce().t_y, 0.0F})),
-          joint_load_{BlockForce().joint_load, BlockForce().joint_load}
-    {
-    }
-    /// Some have been added.
     explicit LoadSum(const BlockForce& force)
         : sum_(Pack::load(&force.x).v),
           contacts_(words_at(&force.mobilised)),
           joint_(contacts_ & of_joint),
-          joint_load_{force.joint_load, force.joint_load}
+          joint_load_{force.joint_load, force.joint_load},
+          least_load_{force.least_load, force.least_load}
     {
     }
 
@@ -59,7 +52,8 @@ class LoadSum
             const Pair squared = squares + __builtin_shufflevector(squares, squares, 1, 0);
             const FloatLanes now = std::bit_cast<FloatLanes>(joint), before = std::bit_cast<FloatLanes>(joint_);
             // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
-            const Words more = Words(now > before) | (Words(now == before) & std::bit_cast<Words>(squared > joint_load_));
+            const Words more = (Words(now > before) | (Words(now == before) & std::bit_cast<Words>(squared > joint_load_))) &
+                               std::bit_cast<Words>(squared > least_load_);
             const Words taken = __builtin_shufflevector(more, more, 0, 0, 0, 0);
             joint_ = (joint & taken) | (joint_ & ~taken);
             joint_load_ = std::bit_cast<Pair>((std::bit_cast<Words>(squared) & taken) |
@@ -82,11 +76,13 @@ class LoadSum
     Words contacts_{};  ///< the last of them
     Words joint_;       ///< mobilised, t_x, t_y: floats
     Pair joint_load_;   ///< twice the same
+    Pair least_load_;   ///< twice the same
 };
 static_assert(offsetof(JointUse, contacts) == 12 && offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
 
 /// A joint's share in use and where it stands: the greatest of such numbers is the joint in use most, of several alike the first. Below 0: no force point. (Floats
 /// that are not below 0 have the order of their bits.)
+constexpr std::int64_t no_rank = std::numeric_limits<std::int64_t>::min();
 [[nodiscard]] inline std::int64_t rank_of(float mobilised, std::uint32_t entry)
 {
     return (std::int64_t{std::bit_cast<std::int32_t>(mobilised)} << 32) | ~entry;
@@ -100,18 +96,25 @@ static_assert(offsetof(JointUse, contacts) == 12 && offsetof(BlockForce, contact
     return a >> 32 == b >> 32;
 }
 
-/// Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
-[[gnu::noinline]] std::int64_t rank_of_greatest_load(IndexRange entries, const BlockContacts& list, const ContactLoads& loads,
-                                                     std::int64_t alike)
+[[nodiscard]] inline double load_squared(const ContactLoads& loads, std::uint32_t entry)
 {
-    std::int64_t found = -1;
-    double most = -1.0;
+    const BlockLoad& load = loads.load[entry];
+    return load.x * load.x + load.y * load.y;
+}
+
+/// Of the joints that bear more than `least`, the one in use most. Two that slide have both all of their strength in use: the one that bears more counts, whichever stands
+/// first.
+[[gnu::noinline]] std::int64_t rank_of_bearing(IndexRange entries, const BlockContacts& list, const ContactLoads& loads,
+                                               double least)
+{
+    std::int64_t found = no_rank;
+    double most = 0.0;
     for (Index e = entries.begin; e < entries.end; ++e)
     {
         const auto entry = static_cast<std::uint32_t>(list.entry[e]);
-        const BlockLoad& load = loads.load[entry];
         const std::int64_t rank = rank_of(loads.use[entry / 2].mobilised, entry);
-        if (const double squared = load.x * load.x + load.y * load.y; are_alike(rank, alike) && squared > most)
+        const double squared = load_squared(loads, entry);
+        if (rank >= 0 && squared > least && (are_alike(rank, found) ? squared > most : rank > found))
         {
             most = squared;
             found = rank;
@@ -128,10 +131,11 @@ void sum_of_blocks(IndexRange range, const Model& model, const BlockContacts& li
     {
         const IndexRange entries{list.begin[b], list.begin[b + 1]};
         const Triple weight = weight_of(b, model, blocks.present, external);
+        const double least = least_joint_load(weight);
         Pack sum(Pack::V{weight.x, weight.y, weight.w, 0.0});
         BlockForce& force = blocks.force[b];
         std::uint32_t contacts = 0;
-        std::int64_t most = std::numeric_limits<std::int64_t>::min(), next = most;
+        std::int64_t most = no_rank, next = no_rank;
         for (Index e = entries.begin; e < entries.end; ++e)
         {
             const auto entry = static_cast<std::uint32_t>(list.entry[e]);
@@ -145,8 +149,8 @@ void sum_of_blocks(IndexRange range, const Model& model, const BlockContacts& li
                 most = std::max(most, rank);
             }
         }
-        if (most >= 0 && are_alike(most, next)) [[unlikely]]
-            most = rank_of_greatest_load(entries, list, loads, most);
+        if (most >= 0 && (are_alike(most, next) || !(load_squared(loads, entry_of(most)) > least))) [[unlikely]]
+            most = rank_of_bearing(entries, list, loads, least);
         sum.store(&force.x);
         const JointUse use = most >= 0 ? loads.use[entry_of(most) / 2] : JointUse();
         force.mobilised = use.mobilised;

@@ -1,7 +1,5 @@
 #include "core/detection/bearing_part.h"
 
-#include "core/detection/facing_edges.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -43,6 +41,51 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
         }
     return around;
 }
+
+/// The edge of the block that meets `edge` at its end, or at its start, and the part which has it.
+struct Neighbour
+{
+    Index edge, part;
+};
+
+Neighbour neighbour_of(const Shapes& shapes, Index part, Index edge, bool at_end)
+{
+    const auto beside = [&](const Neighbour& at)
+    {
+        if (at_end)
+            return shapes.next_vertex(at.part, at.edge);
+        return at.edge > shapes.vertex_begin[at.part] ? at.edge - 1 : shapes.vertex_begin[at.part + 1] - 1;
+    };
+    const Index block = shapes.part_block[part];
+    Neighbour at{edge, part};
+    for (Index turns = shapes.part_begin[block]; turns < shapes.part_begin[block + 1]; ++turns)  // internal edges at a corner
+    {
+        at.edge = beside(at);
+        if (is_external(shapes, at.edge) || shapes.to_twin[at.edge] == 0)
+            break;
+        at.edge += shapes.to_twin[at.edge];
+        at.part = part_of(shapes, block, at.edge);
+    }
+    return at;
+}
+
+/// Does a pair touch with a corner whose other edge lies flatter on what it touches, and is of a part beside this one? The two edges at a corner are then no choice of
+/// this part alone: the one that it has may even stand at right angles to what the corner lies on.
+bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Facing& facing)
+{
+    constexpr double steep = -0.7, clearly = 0.05;  // cosines
+    const Index part = facing.ref_is_a ? pair.b : pair.a;
+    const RelativePose& pose = facing.ref_is_a ? pair.b_from_a : pair.a_from_b;
+    const Vec2 t = shapes.edge_tangent[facing.ref_edge];
+    const auto along = [&](Index e) { return t.dot(pose.turned(shapes.edge_tangent[e])); };
+    if (along(facing.inc_edge) < steep)
+        return false;
+    const Index end = shapes.next_vertex(part, facing.inc_edge);
+    const bool at_end = cross(t, pose.turned(shapes.vertex[end] - shapes.vertex[facing.inc_edge])) > 0.0;
+    const Neighbour other = neighbour_of(shapes, part, facing.inc_edge, at_end);
+    return other.part != part && is_external(shapes, other.edge) && along(other.edge) < along(facing.inc_edge) - clearly;
+}
+
 /// Would the parts of `pair` be apart if the parts around them that `facing` is of were drawn apart? By the least way, out of the edge that faces.
 bool are_freed(const Shapes& shapes, const PartPair& pair, const Facing& facing, double tolerance)
 {
@@ -64,8 +107,10 @@ bool are_freed(const Shapes& shapes, const PartPair& pair, const Facing& facing,
 }
 }  // namespace
 
-bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, double tolerance)
+bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, const Facing& its_facing, double tolerance)
 {
+    if (is_corner_of_another(shapes, pair, its_facing))
+        return false;
     const auto leaves_it = [&](const PairScan& s) { return s.distance() > s.external_distance() + pair.margin + tolerance; };
     if (!leaves_it(scan))
         return true;
@@ -78,14 +123,20 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, dou
         {
             if (a == pair.a && b == pair.b)
                 continue;
-            const PartPair other{.a = a, .b = b, .motion_a = pair.motion_a, .motion_b = pair.motion_b, .margin = pair.margin};
+            const PartPair other{.a = a,
+                                 .b = b,
+                                 .motion_a = pair.motion_a,
+                                 .motion_b = pair.motion_b,
+                                 .margin = pair.margin,
+                                 .round_off = pair.round_off};
             const PairScan found = scan_pair(shapes, other);
             const double depth = -found.distance();
             if (!found.has_external() || depth < pair.margin)
                 continue;
             if (!leaves_it(found))
                 if (const Facing facing = choose_facing(shapes, other, found);
-                    facing.overlap > 0.0 && are_freed(shapes, pair, facing, pair.margin + tolerance))
+                    facing.overlap > 0.0 && !is_corner_of_another(shapes, other, facing) &&
+                    are_freed(shapes, pair, facing, pair.margin + tolerance))
                     return false;
             const bool comes_first = a != pair.a ? a < pair.a : b < pair.b;  // of pairs that are equally deep
             if (leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))

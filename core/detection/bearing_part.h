@@ -1,7 +1,7 @@
 #pragma once
 /// Which parts of a concave block bear what another block has of it.
 
-#include "core/detection/edge_scan.h"
+#include "core/detection/facing_edges.h"
 
 namespace hdem
 {
@@ -13,7 +13,11 @@ namespace hdem
 ///
 /// But all of them may leave it to each other, as where a spike has come into a block at the seam of two parts, or past a hollow corner. Then the pair bears in which the
 /// blocks lie deepest, if its external edge is not on the far side; else the spike would go on through the block.
+///
+/// Nor does a pair bear that touches with a corner of which another part has the edge that lies on the other block (as where a step lies flush on a block, and a seam ends
+/// in its lower corner).
 /// @param tolerance  by which distances may differ, and be taken for equal, until features are searched again [m]
 /// @see verification/unit/core/detection/concave_blocks_test.cpp
-[[nodiscard]] bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, double tolerance);
+[[nodiscard]] bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, const Facing& its_facing,
+                         double tolerance);
 }  // namespace hdem

@@ -34,7 +34,7 @@ Distance distance_of(const Shapes& shapes, Index edge, Index other, const Relati
 }
 
 template <bool hollow>
-Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double margin)
+Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pose, Index kept, double seam, double round_off)
 {
     Scan scan;
     for (Index e = shapes.vertex_begin[part]; e < shapes.vertex_begin[part + 1]; ++e)
@@ -43,7 +43,7 @@ Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pos
         const double distance = to_line.least;
         const bool external = is_external(shapes, e);
         scan.has_external = scan.has_external || external;
-        if (hollow && external && to_line.is_at_seam(margin))
+        if (hollow && external && to_line.is_at_seam(seam))
             continue;
         scan.distance = std::max(scan.distance, distance);
         if (!external)
@@ -58,9 +58,9 @@ Scan scan(const Shapes& shapes, Index part, Index other, const RelativePose& pos
         if (e == kept)
             scan.kept_distance = distance;
         const bool longer = scan.edge != no_index && shapes.edge_length[e] > shapes.edge_length[scan.edge];
-        if (distance > scan.external_distance || (distance == scan.external_distance && longer))
+        if (distance > scan.external_distance + round_off || (distance >= scan.external_distance - round_off && longer))
         {
-            scan.external_distance = distance;
+            scan.external_distance = std::max(scan.external_distance, distance);
             scan.edge = e;
         }
     }
@@ -79,8 +79,8 @@ PairScan scan_pair(const Shapes& shapes, const PartPair& pair, Index kept)
     {
         const auto on = [&](Index part, Index other, const RelativePose& pose)
         {
-            return is_hollow(shapes, other) ? scan<true>(shapes, part, other, pose, kept, seam)
-                                            : scan<false>(shapes, part, other, pose, kept, seam);
+            return is_hollow(shapes, other) ? scan<true>(shapes, part, other, pose, kept, seam, pair.round_off)
+                                            : scan<false>(shapes, part, other, pose, kept, seam, pair.round_off);
         };
         return PairScan{{on(pair.a, pair.b, pair.b_from_a), on(pair.b, pair.a, pair.a_from_b)}};
     };

@@ -66,7 +66,8 @@ struct PartPair
     Index a, b;
     const BlockMotion& motion_a;
     const BlockMotion& motion_b;
-    double margin;  ///< distances that differ by less are equal [m]
+    double margin;     ///< distances that differ by less are equal [m]
+    double round_off;  ///< lengths and differences of distances below it are none [m]
     RelativePose b_from_a{motion_a, motion_b};
     RelativePose a_from_b{motion_b, motion_a};
 };

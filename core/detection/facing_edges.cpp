@@ -86,7 +86,7 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
     const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
     const EdgeTouch touch = touch_edges(f.edges, ref, inc);
-    f.overlap = touch.length > 0.0 ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
+    f.overlap = touch.length > pair.round_off ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
     return f;
 }
 
@@ -100,7 +100,7 @@ Facing better_placed(const Shapes& shapes, const PartPair& pair, const Facing& f
     {
         const bool is_same_side = on_a == facing.ref_is_a &&
                                   shapes.edge_tangent[e].dot(shapes.edge_tangent[facing.ref_edge]) > in_line;
-        return is_external(shapes, e) && (best < 0.0 || is_same_side);
+        return is_external(shapes, e) && (best < -pair.round_off || is_same_side);
     };
     for (const bool on_a : {true, false})
     {

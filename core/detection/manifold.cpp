@@ -40,12 +40,18 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     const double size = std::min(model.size(block_a), model.size(block_b));
     const double floor = model.contact.length_floor * size;
     const double margin = 0.1 * floor;
-    const PartPair pair{.a = a, .b = b, .motion_a = motion[block_a], .motion_b = motion[block_b], .margin = margin};
+    const PartPair pair{.a = a,
+                        .b = b,
+                        .motion_a = motion[block_a],
+                        .motion_b = motion[block_b],
+                        .margin = margin,
+                        .round_off = closed_gap * floor};
     const PairScan scan = scan_pair(shapes, pair, contact.ref_edge);
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
     const Facing facing = choose_facing(shapes, pair, scan, contact.ref_edge);
-    const bool bearing = bears(shapes, pair, scan, 4.0 * model.contact.recycling_distance * size);  // holds until the next search
+    const bool bearing = bears(shapes, pair, scan, facing,
+                               4.0 * model.contact.recycling_distance * size);  // holds until the next search
     const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
     if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
     {

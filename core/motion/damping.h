@@ -13,10 +13,10 @@ struct BasicActing
 {
     R x = 0.0, y = 0.0, moment = 0.0;  ///< net [N], [N m]
     R reserve = 0.0;                   ///< shear strength not in use [N]
-    R mobilised = -1.0;                ///< share of the shear strength in use at the joint where it is greatest [-]
-    R t_x = 1.0, t_y = 0.0;            ///< direction of that joint [-]
-    decltype(R() < R()) springs{};     ///< has contact points in the force regime
-    decltype(R() < R()) impulses{};    ///< has contact points in the impulse regime
+    R mobilised = -1.0;  ///< share of the shear strength in use at the joint where it is greatest; -1: no joint bears the block [-]
+    R t_x = 1.0, t_y = 0.0;          ///< direction of that joint [-]
+    decltype(R() < R()) springs{};   ///< has contact points in the force regime
+    decltype(R() < R()) impulses{};  ///< has contact points in the impulse regime
 };
 using Acting = BasicActing<double>;
 
@@ -67,13 +67,14 @@ using BlockDamping = BasicBlockDamping<double>;
 /// at its strength would swing on its normal springs for thousands of cycles. A sliding block has nothing in reserve and moves freely. A block about
 /// to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
 /// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D). Across the joint all of the net force counts, so that a block does not
-/// go on swinging on its normal springs. The axes are those of the joint: the answer does not depend on how the model is turned.
+/// go on swinging on its normal springs. Where no joint bears the block yet (least_joint_load), nothing damps it. The axes are those of the joint: the answer does not depend on how the model is turned.
 /// @see verification/unit/core/motion/damping_test.cpp
 template <typename R>
 [[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, const DampingRule& rule)
 {
     const R none = 0.0;
-    const R local = select(acting.impulses, none, select(acting.springs, R(rule.local), none));
+    const auto held = rule.needs_joint() ? acting.springs & !(acting.mobilised < none) : acting.springs;
+    const R local = select(acting.impulses, none, select(held, R(rule.local), none));
     return {.local = local,
             .local_rotation = rule.needs_joint() ? local * (R(1.0) - acting.mobilised) : local,
             .global = select(acting.impulses, R(rule.global), none),

@@ -45,6 +45,7 @@ struct alignas(64) BlockForce
     float t_y = 0.0F;
     std::uint32_t contacts = 0;                                   ///< ContactBits
     double joint_load = std::numeric_limits<double>::infinity();  ///< squared, of that joint: scratch while it is looked for [N2]
+    double least_load = 0.0;                                      ///< squared: joints that bear less do not count; scratch [N2]
 };
 
 /// Inverse mass and inertia, zero where the motion is prescribed.

@@ -8,7 +8,7 @@
 /// A new field needs its line in the record and its place in a list; the assertions fail until it is there. core/state/state_tables.h
 /// says which arrays of the state hold these records, and which of them decide how a run goes on: those are in state_hash.
 ///
-/// Two fields of the records decide nothing, as each cycle finds them anew before it uses them: `joint_use`, and BlockForce::joint_load, which is in no list.
+/// Some fields of the records decide nothing, as each cycle finds them anew before it uses them: `joint_use`, and two of BlockForce that are in no list.
 /// Tilt forces and views of contacts are written only in cycles that need them (PassNeeds), but always in the last one of a call: a state that can be looked at has them.
 
 #include "core/state/field_count.h"
@@ -94,8 +94,8 @@ inline constexpr auto inertia = [](auto& i) { return std::tie(i.inverse_mass_x, 
 inline constexpr auto place = [](auto& v) { return std::tie(v.x(), v.y()); };
 inline constexpr auto number = [](auto& value) { return std::tie(value); };
 static_assert(listed<BlockMotion>(motion) == field_count<BlockMotion>());
-static_assert(listed<BlockForce>(force, reserve, joint_use, contact_kinds) + 1 == field_count<BlockForce>(),
-              "joint_load is scratch");
+static_assert(listed<BlockForce>(force, reserve, joint_use, contact_kinds) + 2 == field_count<BlockForce>(),
+              "joint_load and least_load are scratch");
 static_assert(listed<BlockInertia>(inertia) + 1 == field_count<BlockInertia>(), "unused holds nothing");
 
 // What else acts on blocks. ReleasedForce:

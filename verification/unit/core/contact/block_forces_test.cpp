@@ -86,5 +86,46 @@ TEST_F(RunningSumsTest, HaveTheBitsOfSumsOverLists)
     }
     EXPECT_GT(cut_through, 20) << "blocks with contacts in several shares";
 }
+
+/// Two contacts of a block with the ground: the first bears `share` of its weight and has all of its strength in use, the second bears all of it.
+BlockForce sum_of_two(double share, double other_share, bool running)
+{
+    const CaseRun run(scenes::block_on_ground());
+    const Model& model = run.model();
+    Blocks blocks = run.state().blocks;
+    const Index block = run.slot("block"), ground = run.slot("ground");
+    const double weight = model.mass[block] * 9.81;
+    BlockContacts list;
+    list.begin = {0, 2, 4};
+    list.entry = block < ground ? std::vector<Index>{0, 2, 1, 3} : std::vector<Index>{1, 3, 0, 2};
+    ContactLoads loads;
+    loads.resize(8);
+    loads.load[0].x = share * weight;
+    loads.use[0] = {.mobilised = 1.0F, .t_x = 0.0F, .t_y = 1.0F, .contacts = contact_force};
+    loads.load[2].y = other_share * weight;
+    loads.use[1] = {.mobilised = 0.25F, .t_x = 1.0F, .t_y = 0.0F, .contacts = contact_force};
+    if (!running)
+    {
+        sum_forces({0, 2}, model, list, loads, {}, true, blocks);
+        return blocks.force[block];
+    }
+    RunningSums sums;
+    sums.prepare({{0, 2}}, 2, list);
+    sums.begin({0, 2}, model, blocks.present, {});
+    ContactLoads kept;
+    sums.add({0, 2}, loads, true, kept);
+    return sums.sums[block];
+}
+
+TEST(JointInUseMost, BearsMoreThanRoundOff)
+{
+    for (const bool running : {false, true})
+    {
+        const BlockForce pressed = sum_of_two(1e-3, 1.0, running), touched = sum_of_two(1e-8, 1.0, running);
+        EXPECT_EQ(std::tuple(pressed.mobilised, pressed.t_x, pressed.t_y), std::tuple(1.0F, 0.0F, 1.0F)) << running;
+        EXPECT_EQ(std::tuple(touched.mobilised, touched.t_x, touched.t_y), std::tuple(0.25F, 1.0F, 0.0F)) << running;
+        EXPECT_EQ(sum_of_two(1e-8, 1e-8, running).mobilised, -1.0F) << running;
+    }
+}
 }  // namespace
 }  // namespace hdem

@@ -142,6 +142,39 @@ TEST(ConcaveBlock, BearsASpikeInTheHollowOfAnAngle)
     expect_overlap(angle, spike, 0.0115);
 }
 
+/// Steps that lie on a slab of their width. In a lower corner of each ends a seam, and the part beside the one with the lower face has only the upright side there. It must not bear: an edge at right
+/// angles to what it lies on would push along it by a million times its normal force.
+TEST(ConcaveBlock, BearsWithItsLowerFaceOnly)
+{
+    const Polygon slab{{0.0, -2.0}, {4.0, -2.0}, {4.0, 0.0}, {0.0, 0.0}};
+    const std::vector<Polygon> steps{
+        {{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {3.0, 1.0}, {3.0, 0.7}, {1.5, 0.7}, {1.5, 0.4}, {0.0, 0.4}},
+        {{0.0, 0.0}, {4.0, 0.0}, {4.0, 0.5}, {0.5, 0.5}, {0.5, 2.0}, {0.0, 2.0}},
+        {{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {2.0, 1.0}, {2.0, 0.6}, {0.0, 0.6}}};
+    for (const Polygon& step : steps)
+        for (const double turn : {0.0, 37.0, 200.0})
+            for (const bool is_mirrored : {false, true})
+                for (const double aside : {-1e-6, 1e-6})
+                {
+                    BlockPair pair = is_mirrored ? as_drawn(turned(mirrored(slab), turn), turned(mirrored(step), turn))
+                                                 : as_drawn(turned(slab, turn), turned(step, turn));
+                    const Vec2 x(std::cos(radians(turn)), std::sin(radians(turn)));
+                    BlockMotion& m = pair.motion(pair.b);
+                    const Vec2 moved = aside * x - 1e-5 * turned_left(x);
+                    m.x += moved.x();
+                    m.y += moved.y();
+                    pair.search();
+                    int pressed = 0;
+                    for (Index i = 0; i < pair.state.contacts.size(); ++i)
+                        if (const EdgeTouch touch = pair.touch(pair.state.contacts.get(i)); touch.length > 0.0)
+                        {
+                            EXPECT_NEAR(touch.length, 4.0, 1e-5);
+                            ++pressed;
+                        }
+                    EXPECT_EQ(pressed, 1) << "turned by " << turn << ", mirrored " << is_mirrored << ", aside " << aside;
+                }
+}
+
 /// A hook above a bar that hangs on a stem: the top of the bar is one side in two pieces, and a lip of the hook is above each. Both are known before they land, or the hook
 /// would land on one lip a cycle earlier and slip sideways.
 TEST(ConcaveBlock, LandsOnBothPiecesOfASplitSideAtOnce)

@@ -35,6 +35,8 @@ TEST(ConditionalDamping, FollowsTheContactsAndThePreset)
              {contact_force, 0.0, automatic, 0.8, 0.0},
              {contact_force, 0.25F, automatic, 0.8, 0.0},
              {contact_force, 0.25F, paper, 0.8, 0.0},
+             {contact_force, -1.0F, paper, 0.8, 0.0},
+             {contact_force, -1.0F, automatic, 0.0, 0.0},
              {contact_force, 0.0, dynamic, 0.0, 0.0},
              {contact_force, 1.0F, paper, 0.8, 0.0},
              {contact_force, 1.0F, automatic, 0.8, 0.0},
