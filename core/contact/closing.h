@@ -14,7 +14,7 @@ struct BasicOverlapCourse
     R past = 0.0;    ///< u(t) - u(t - dt), dt the last step
     R coast = 0.0;   ///< what the velocities of now add to u(t + dt), dt the next step
     R others = 0.0;  ///< what other forces on the two blocks add to u(t + dt), taken from the last cycle
-    R answer = 0.0;  ///< >= 0, what the contact's own forces take off it, if they act in whole
+    R answer = 0.0;  ///< what the contact's own forces take off it, if they act in whole; < 0 where the other point presses this one by turning the blocks
 };
 using OverlapCourse = BasicOverlapCourse<double>;
 
@@ -30,7 +30,8 @@ using OverlapCourse = BasicOverlapCourse<double>;
 ///
 /// Exact for one point, and for the two points of a face. Other forces are estimated from the last cycle, biased so that the scheme dissipates: as a spring
 /// closes, what presses counts; as it opens, twice what pulls. Where the answer is more than the overlap what presses counts too; nothing could rest there
-/// otherwise.
+/// otherwise. As a spring opens, a negative answer, by which the other point presses this one, belongs to the other forces: where they
+/// balance it, the point rests.
 ///
 /// Not in the paper: see Closing in regime.h.
 /// @see verification/unit/core/contact/closing_test.cpp
@@ -42,16 +43,18 @@ template <typename R>
     const R tiny = std::numeric_limits<double>::min();
     const R gap = u.past - u.now;  // at t - dt; < 0 if the spring was closed
     const auto square = [](R x) { return x * x; };
+    const R answer = max(u.answer, zero);
     // Closing: u'^2 + (gap + answer - free) u' = free gap.
     const R free = max(u.now + u.coast + max(u.others, zero), zero);
-    const R half = R(0.5) * (free - gap - u.answer);
+    const R half = R(0.5) * (free - gap - answer);
     const R next = half + sqrt(square(half) + free * max(gap, zero));
     // Opening: the same with u' = -beyond and an overlap `last` before.
     const R last = max(-gap, zero);
-    const R end = u.now + u.coast + select(u.answer > u.now, max(u.others, zero), zero) + R(2.0) * min(u.others, zero);
+    const R others = u.others - min(u.answer, zero);
+    const R end = u.now + u.coast + select(answer > u.now, max(others, zero), zero) + R(2.0) * min(others, zero);
     const R mean = R(0.5) * (end + last);
-    const R beyond = sqrt(max(square(mean) + (u.answer - end) * last, zero)) - mean;
-    return select(gap > zero, next / max(next + gap, tiny), select(end < u.answer, last / max(last + beyond, tiny), R(1.0)));
+    const R beyond = sqrt(max(square(mean) + (answer - end) * last, zero)) - mean;
+    return select(gap > zero, next / max(next + gap, tiny), select(end < answer, last / max(last + beyond, tiny), R(1.0)));
 }
 
 /// Contacts with a point at which one block moves past the other faster than `speed`.
@@ -124,7 +127,7 @@ template <typename P>
                                              .past = past,
                                              .coast = touch.v_m[k] * blocks.step.next,
                                              .others = others * acting,
-                                             .answer = max(answer * acting, P(0.0))});
+                                             .answer = answer * acting});
         // In the first cycle of a run what presses is not known yet.
         share[k] = select((last_normal[k] > P(0.0)) | (past > u[k]), of_point, 1.0);
     }

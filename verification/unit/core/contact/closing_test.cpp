@@ -67,6 +67,13 @@ RC_GTEST_PROP(ClosingShare, IsOneForWhatStaysClosed, ())
     RC_ASSERT(closing_share<double>({.now = now, .past = 0.0, .coast = 0.0, .others = answer, .answer = answer}) == 1.0);
 }
 
+/// A point that bears little beside one that bears much: that one presses it by turning the blocks, and other forces pull it as much.
+TEST(ClosingShare, IsOneForWhatRestsAsTheOtherPointPressesIt)
+{
+    EXPECT_EQ(closing_share(OverlapCourse{.now = 1.9e-4, .others = -1.6e-4, .answer = -1.6e-4}), 1.0);
+    EXPECT_LT(closing_share(OverlapCourse{.now = 1.9e-4, .others = -1.6e-4}), 1.0);
+}
+
 TEST(ClosingShare, ComesFromTheTwoSidesOfTheFirstOverlap)
 {
     // From a gap of 1 to an overlap of 1, slowly answered: half of the way to the next overlap, 3, would be closed: 3 / (3 + 1).
