@@ -141,13 +141,15 @@ struct TurningRate
 
 /// A contact point is closed down to this gap: far below any real overlap (a 1 m block rests on 4e-6 m), yet enough for
 /// faces that were drawn as touching to count as touching, whatever their rounding. As a share of Contacts::length_floor,
-/// that is 1e-9 of the smaller block's size at the default floor.
+/// that is 1e-9 of the smaller block's size at the default floor. A contact length must be more than that, too: of corners that meet in a point, rounding would choose
+/// which bear, each with the stiffness of a floor.
 inline constexpr double closed_gap = 1.0e-6;
 
 template <typename R>
 [[nodiscard]] inline auto is_closed(R contact_length, R overlap, R length_floor)
 {
-    return (contact_length > R(0.0)) & (overlap > R(-closed_gap) * length_floor);
+    const R gap = R(closed_gap) * length_floor;
+    return (contact_length > gap) & (overlap > -gap);
 }
 
 /// How much of a change of the contact length changes the length that counts, see point_length [-].
