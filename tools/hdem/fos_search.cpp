@@ -1,6 +1,7 @@
 #include "tools/hdem/fos_search.h"
 
 #include "core/boundary/resolve_boundaries.h"
+#include "core/motion/equilibrium.h"
 #include "io/printable.h"
 #include "tools/hdem/fos_report.h"
 
@@ -28,6 +29,22 @@ SafetyFactor fails_at_any_strength(const Moment& fallen, const std::vector<Index
     found.failure = fallen;
     return found;
 }
+
+/// Without them nothing can fail.
+void expect_free_blocks(const Moment& start)
+{
+    const Model& model = start.model;
+    const Blocks& blocks = start.state.blocks;
+    if (std::ranges::any_of(model.slot_of_user, [&](Index block) { return blocks.is_free(block); }))
+        return;
+    const auto lost = std::ranges::find_if(model.slot_of_user, [&](Index block) { return has_left(block, model, blocks); });
+    if (lost != model.slot_of_user.end())
+        throw RunError(fmt::format(
+            "factor of safety: all free blocks, as {}, have fallen out of the model before the last stage began: the factor is "
+            "below 1. Give strengths that hold them until then, or a stage before it that changes less.",
+            printable(model.name[*lost])));
+    throw RunError("factor of safety: no block is free in the last stage, so that nothing can fail. Free blocks in it.");
+}
 }  // namespace
 
 FosAnswer find_factor(const Moment& last, const FosQuestion& question)
@@ -52,8 +69,7 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
         outcome.warnings = fos_warnings(outcome, reference.moment, last.state);
         return {std::move(outcome), std::move(reference.moment)};
     }
-    if (std::ranges::none_of(model.slot_of_user, [&](Index block) { return reference.moment.state.blocks.is_free(block); }))
-        throw RunError("factor of safety: no block is free in the last stage, so that nothing can fail. Free blocks in it.");
+    expect_free_blocks(reference.moment);
     outcome.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, outcome.def), least_factor,
                                    greatest_factor, weakens_bolts(outcome.def));
     if (question.begin)

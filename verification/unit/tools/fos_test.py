@@ -170,6 +170,34 @@ until = "converged"
         text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--set", 'stage[0].fix=["slab"]', code=1)
         self.assertIn("no block is free in the last stage", text)
 
+    def test_says_that_all_blocks_have_fallen_before(self):
+        self.folder.mkdir(parents=True, exist_ok=True)
+        case = self.folder / "falls.toml"
+        case.write_text("""schema = 1
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 2e9
+shear_stiffness = 1e9
+friction_angle_deg = 20.0
+[gravity]
+tilt_deg = 35.0
+[[block]]
+name = "base"
+polygon = [[-4.0, -1.0], [4.0, -1.0], [4.0, 0.0], [-4.0, 0.0]]
+fixed = true
+[[block]]
+name = "slab"
+polygon = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
+[[stage]]
+until = "converged"
+[[stage]]
+set = ["joint.default.friction_angle_deg = 30.0"]
+until = "converged"
+""", encoding="utf-8")
+        text = hdem("fos", case, "-o", self.folder / "out", code=1)
+        self.assertIn("all free blocks, as slab, have fallen out of the model", text)
+
     def test_critical_slope(self):
         text = hdem("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "--fails", "displacement:slab>0.1", "-o", self.folder)
         self.assertIn("critical gravity.tilt_deg", text)
