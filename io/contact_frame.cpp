@@ -64,6 +64,7 @@ void write_contact_frame(const std::filesystem::path& name, const Model& model, 
     write_cell_data<float>(file, "overlap", n, [&](std::size_t i) { return contacts[i].overlap; });
     write_cell_data<float>(file, "normal_force", n, [&](std::size_t i) { return contacts[i].normal_force; });
     write_cell_data<float>(file, "shear_force", n, [&](std::size_t i) { return contacts[i].shear_force; });
+    write_cell_data<float>(file, "tilt_force", n, [&](std::size_t i) { return contacts[i].tilt_force; });
     write_cell_data<float>(file, "normal_stress", n, normal_stress);
     write_cell_data<float>(file, "shear_stress", n, shear_stress);
     write_cell_data<float>(file, "traction", n, [&](std::size_t i) { return std::hypot(normal_stress(i), shear_stress(i)); });

@@ -31,7 +31,7 @@ void write_frame_header(Hdf5Writer& file, const std::string& filetype, const Mod
 {
     file.make_group("/hdem");
     file.set_text("/hdem", "filetype", filetype);
-    file.set_attribute("/hdem", "version", std::vector<std::int64_t>{1, 2});
+    file.set_attribute("/hdem", "version", std::vector<std::int64_t>{1, 3});
     file.set_text("/hdem", "hdem_version", version().number);
     file.set_text("/hdem", "git_commit", version().commit);
     file.set_text("/hdem", "title", model.title);

@@ -69,6 +69,7 @@ ContactReport report_contact(const State& state, Index contact)
         report.memory[k] = contacts.memory(k, contact);
         report.normal_force += contacts.normal_force(k, contact);
         report.shear_force += contacts.shear_force(k, contact);
+        report.tilt_force += contacts.tilt_force(k, contact);
         const auto regime = static_cast<Regime>(contacts.regime[k][contact]);
         report.regime = std::max(report.regime, regime);
         report.closed_points += regime != Regime::open ? 1 : 0;
@@ -101,7 +102,7 @@ std::vector<MeanStress> mean_stresses(const Model& model, const State& state)
         for (int k = 0; k < 2; ++k)
         {
             const TouchPoint& p = touch.point[k];
-            const Vec2 on_inc = contacts.shear_force(k, i) * t - contacts.normal_force(k, i) * m;
+            const Vec2 on_inc = (contacts.shear_force(k, i) + contacts.tilt_force(k, i)) * t - contacts.normal_force(k, i) * m;
             add(stresses[inc], p.inc_t * t + p.inc_m * m, on_inc, model.area[inc]);
             add(stresses[ref], p.ref_t * t + p.ref_m * m, -on_inc, model.area[ref]);
         }

@@ -15,13 +15,15 @@ struct ContactReport
 {
     Index first = no_index;  ///< block with the reference edge
     Index second = no_index;
-    Vec2 normal = {0.0, 1.0};      ///< from the first to the second block [-]; the shear axis is it turned left
-    std::array<Vec2, 2> point;     ///< ends of the contact, in the model's local coordinates [m]
-    double length = 0.0;           ///< of the contact [m], >= 0
-    double bearing_length = 0.0;   ///< the length the springs act on: at least the contact's floor [m]
-    double overlap = 0.0;          ///< greatest of the closed points [m]
-    double normal_force = 0.0;     ///< sum over the points, > 0 pushes the second block along the normal [N]
-    double shear_force = 0.0;      ///< sum over the points, on the second block along the shear axis [N]
+    Vec2 normal = {0.0, 1.0};     ///< from the first to the second block [-]; the shear axis is it turned left
+    std::array<Vec2, 2> point;    ///< ends of the contact, in the model's local coordinates [m]
+    double length = 0.0;          ///< of the contact [m], >= 0
+    double bearing_length = 0.0;  ///< the length the springs act on: at least the contact's floor [m]
+    double overlap = 0.0;         ///< greatest of the closed points [m]
+    double normal_force = 0.0;    ///< sum over the points, > 0 pushes the second block along the normal [N]
+    double shear_force = 0.0;     ///< sum over the points, on the second block along the shear axis [N]
+    double tilt_force =
+        0.0;  ///< the same of what the slope of the edges and the change of the length add (force_law.h), great at steep corners only [N]
     Regime regime = Regime::open;  ///< the highest of the points'
     int closed_points = 0;
     int impulse_points = 0;

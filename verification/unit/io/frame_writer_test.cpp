@@ -135,6 +135,7 @@ TEST(ContactFrame, HasALineForEachClosedContact)
     EXPECT_THAT(in.read<float>("/VTKHDF/CellData/normal", {1, 3}), ElementsAre(FloatEq(0.0f), FloatEq(1.0f), 0.0f));
     EXPECT_FLOAT_EQ(value("normal_force"), 3e4f);
     EXPECT_FLOAT_EQ(value("shear_force"), -4e4f);
+    EXPECT_EQ(value("tilt_force"), 0.0f);
     EXPECT_FLOAT_EQ(value("normal_stress"), 6e4f) << "half a metre long";
     EXPECT_FLOAT_EQ(value("shear_stress"), -8e4f);
     EXPECT_FLOAT_EQ(value("traction"), 1e5f);

@@ -42,6 +42,23 @@ TEST(ContactReport, ForcesDoNotDependOnWhichBlockOwnsTheReferenceEdge)
     EXPECT_NEAR((on_second + on_first).norm(), 0.0, 1e-9) << "action is reaction";
 }
 
+/// What the slope of an edge adds acts along the shear axis, in the report and in the mean stress.
+TEST(ContactReport, TiltForcesCountAsForcesOnTheBlock)
+{
+    SmallRun run = test::small_run();
+    test::load_contact(run, 0, 26487.0, 100.0, Regime::stick);
+    const MeanStress before = mean_stresses(run.model, run.state)[block];
+    const ContactReport report = report_contact(run.state, 0);
+    for (int k = 0; k < 2; ++k)
+        run.state.contacts.lane[0].tilt_force[k][0] = 400.0;
+    EXPECT_EQ(report_contact(run.state, 0).tilt_force, 800.0);
+    EXPECT_EQ(report_contact(run.state, 0).shear_force, report.shear_force);
+    const MeanStress after = mean_stresses(run.model, run.state)[block];
+    const Vec2 force = 800.0 * report.shear_axis(), arm = 0.5 * (report.point[0] + report.point[1]) - Vec2(0.5, 0.5);
+    EXPECT_NEAR(after.xy - before.xy, -0.5 * (arm.x() * force.y() + arm.y() * force.x()) / run.model.area[block], 1e-9);
+    EXPECT_GT(std::abs(after.xy - before.xy), 100.0);
+}
+
 TEST(ContactReport, OpenAndExcavatedContactsAreNotClosed)
 {
     SmallRun run = test::small_run();
