@@ -303,9 +303,10 @@ void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Block
             continue;
         BlockForce& on = blocks.force[push.block];
         on.reserve += push.reserve;
-        if (on.contacts != 0)
+        const bool joints_hold = on.mobilised >= 0.0F || (on.contacts & contact_impulse) != 0;
+        if (on.contacts != 0 && joints_hold)
             continue;
-        on.contacts = contact_force;
+        on.contacts |= contact_force;
         on.mobilised = 0.0F;
         on.t_x = static_cast<float>(push.force.x / pull);
         on.t_y = static_cast<float>(push.force.y / pull);

@@ -40,8 +40,8 @@ void pull_bolts(const Model& model, State& state, double damping, std::vector<Bl
 void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external);
 void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& external);
 
-/// For the damping of the blocks of `range`: what bolts have in reserve adds to what joints have, and a block that hangs on bolts alone counts as held by springs,
-/// along the first that pulls. Else it would swing for ever. Blocks whose bolts are at their strength are not held: they fall as they would without damping.
+/// For the damping of the blocks of `range`: what bolts have in reserve adds to what joints have, and a block that hangs on bolts alone, though it may touch others,
+/// counts as held by springs along the first that pulls. Else it would swing for ever. Blocks whose bolts are at their strength are not held: they fall as they would without damping.
 void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Blocks& blocks);
 
 /// Their work over the step, once the velocities are final.

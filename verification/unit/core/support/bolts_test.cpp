@@ -69,20 +69,41 @@ TEST(Bolts, KeepMomentumAndTheEnergyLedger)
 }
 
 /// Let go between two walls that do not press it: impulses leave the block no damping of its own.
+/// A block in a slot that is as wide as it is hangs on a bolt.
+CaseDef block_in_slot(double angle_deg)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "left", scenes::rectangle({-1, -1}, {0, 2}));
+    scenes::add_fixed_block(scene, "right", scenes::rectangle({1, -1}, {2, 2}));
+    scenes::add_fixed_block(scene, "roof", scenes::rectangle({0, 3}, {1, 4}));
+    scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+    scene = scenes::turned(scene, angle_deg);
+    const Eigen::Rotation2D<double> turn(angle_deg * std::numbers::pi / 180.0);
+    scene.bolts = {{.name = "bolt", .kind = BoltKind::anchored, .from = turn * Vec2(0.5, 3.5), .to = turn * Vec2(0.5, 0.5)}};
+    scene.bolts[0].area = 1e-4;
+    return scene;
+}
+
+/// It touches the walls, which do not bear it: the bolt alone holds it, and damps it.
+TEST(Bolts, SwingsOfABlockThatTouchesWallsDieAway)
+{
+    for (const double angle : {0.0, 23.0})
+    {
+        CaseDef scene = block_in_slot(angle);
+        scene.contact.method = Method::force;
+        CaseRun run(scene);
+        run.advance(20'000);
+        EXPECT_LT(kinetic_energy(run.model(), run.state().blocks, run.slot("block")), 1e-6) << angle;
+        EXPECT_GT(run.state().ledger.local_damping, 10.0);
+    }
+}
+
 TEST(Bolts, SwingsOfABlockByImpulsesDieAway)
 {
     for (const double angle : {0.0, 23.0})
     {
-        CaseDef scene = scenes::empty_scene();
-        scenes::add_fixed_block(scene, "left", scenes::rectangle({-1, -1}, {0, 2}));
-        scenes::add_fixed_block(scene, "right", scenes::rectangle({1, -1}, {2, 2}));
-        scenes::add_fixed_block(scene, "roof", scenes::rectangle({0, 3}, {1, 4}));
-        scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {1, 1}));
+        CaseDef scene = block_in_slot(angle);
         scene.contact.method = Method::impulse;
-        scene = scenes::turned(scene, angle);
-        const Eigen::Rotation2D<double> turn(angle * std::numbers::pi / 180.0);
-        scene.bolts = {{.name = "bolt", .kind = BoltKind::anchored, .from = turn * Vec2(0.5, 3.5), .to = turn * Vec2(0.5, 0.5)}};
-        scene.bolts[0].area = 1e-4;
         scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 300'000}};
         hdem::Setup setup = build_model(scene);
         Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
