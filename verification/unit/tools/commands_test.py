@@ -57,7 +57,7 @@ class Info(unittest.TestCase):
 
     def test_of_frames_says_what_they_show(self):
         rows = self.info(self.folder / "frames/blocks_000000.hdf")
-        self.assertEqual((rows["file"], rows["title"], rows["cycle"]), ("frame of blocks, format 1.2", "Small run", "0"))
+        self.assertEqual((rows["file"], rows["title"], rows["cycle"]), ("frame of blocks, format 1.3", "Small run", "0"))
         self.assertEqual(rows["blocks"], "4 (5 convex parts)")
         last = sorted((self.folder / "frames").glob("contacts_*"))[-1]
         rows = self.info(last)
