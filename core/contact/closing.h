@@ -14,8 +14,7 @@ struct BasicOverlapCourse
     R past = 0.0;    ///< u(t) - u(t - dt), dt the last step
     R coast = 0.0;   ///< what the velocities of now add to u(t + dt), dt the next step
     R others = 0.0;  ///< what other forces on the two blocks add to u(t + dt), taken from the last cycle
-    R answer =
-        0.0;  ///< what the contact's own forces take off it, if they act in whole; < 0 where the other point presses this one by turning the blocks
+    R answer = 0.0;  ///< what the contact's own forces take off it, if they act in whole; < 0: the other point presses this one
 };
 using OverlapCourse = BasicOverlapCourse<double>;
 

@@ -39,10 +39,10 @@ void expect_free_blocks(const Moment& start)
         return;
     const auto lost = std::ranges::find_if(model.slot_of_user, [&](Index block) { return has_left(block, model, blocks); });
     if (lost != model.slot_of_user.end())
-        throw RunError(fmt::format(
-            "factor of safety: all free blocks, as {}, have fallen out of the model before the last stage began: the factor is "
-            "below 1. Give strengths that hold them until then, or a stage before it that changes less.",
-            printable(model.name[*lost])));
+        throw RunError(fmt::format("factor of safety: all free blocks, as {}, have fallen out of the model before the last stage "
+                                   "began, so that nothing is left "
+                                   "to fail. Give strengths that hold them until then.",
+                                   printable(model.name[*lost])));
     throw RunError("factor of safety: no block is free in the last stage, so that nothing can fail. Free blocks in it.");
 }
 }  // namespace
