@@ -130,6 +130,10 @@ struct SlideDirection
     }
 };
 
+/// Share of its shear strength that a joint without any has in use: it slides (sliding_from, core/motion/damping.h), but one with friction that slides comes before it. A block in a row
+/// goes along its base, not along its neighbours.
+inline constexpr double used_without_strength = 0.995;
+
 /// What the contacts of a pack put on their blocks.
 template <Joints joints, typename P>
 [[gnu::always_inline]] inline void store_results(const BasicEdgeTouch<P>& touch, const BasicSums<P>& sums, MaskOf<P> touching,
@@ -139,7 +143,7 @@ template <Joints joints, typename P>
     const P y = touch.ey * sums.f_t + touch.ex * sums.f_m;
     store_loads(x, y, sums.moment_ref, sums.moment_inc, sums.strength - sums.used, swapped, &loads.load[2 * (i - loads.first)]);
     const MaskOf<P> springs = touching & !impulsive;
-    const P mobilised = select(sums.strength > P(0.0), sums.used / sums.strength, 1.0);
+    const P mobilised = select(sums.strength > P(0.0), sums.used / sums.strength, P(used_without_strength));
     JointUse* const use = &loads.use[i - loads.first];
     if constexpr (joints == Joints::laws)
     {

@@ -45,12 +45,21 @@ template <typename R>
 struct BasicBlockDamping
 {
     R local = 0.0;           ///< alpha of Eqs. (13), (14) for translation [-]
+    R local_across = 0.0;    ///< the same across the joint [-]
     R local_rotation = 0.0;  ///< the same for rotation [-]
+    R braking = 0.0;         ///< by so much more moments act that brake a rotation [-]
+    bool slides = false;     ///< one of the blocks does: else the last two say nothing new
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
     LocalDamping form = LocalDamping::by_axis;
     double settling = 0.0;  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
+
+/// Of the shear strength in use: from here on a joint slides [-]
+inline constexpr double sliding_from = 0.99;
+
+/// Share of local damping that acts across a joint that slides [-]
+inline constexpr double sliding_share = 0.6;
 
 /// Conditional damping, [Lee2025] sect. 3.3 (whose equation numbers are swapped in print):
 ///
@@ -63,11 +72,22 @@ using BlockDamping = BasicBlockDamping<double>;
 ///
 ///   |F_d,t| <= sum (F_max - |F_S|)
 ///
-/// and rotation is damped by alpha (1 - |F_S| / F_max) of that joint. Motions slower than `settling` are damped by alpha all the same: a block on a joint
-/// at its strength would swing on its normal springs for thousands of cycles. A sliding block has nothing in reserve and moves freely. A block about
-/// to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
-/// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D). Across the joint all of the net force counts, so that a block does not
-/// go on swinging on its normal springs. Where no joint bears the block yet (least_joint_load), nothing damps it. The axes are those of the joint: the answer does not depend on how the model is turned.
+/// across it all of the net force counts, so that a block does not go on swinging on its normal springs, and rotation is damped by
+/// alpha (1 - |F_S| / F_max) of that joint.
+///
+/// A block that slides has nothing in reserve and moves freely. It may also tip. But if it swings on its normal springs, damping by the sign of the velocity presses
+/// it into the joint as soon as the swing is not symmetric (it hops on a corner, it tips): forces of the joint grow, and with them friction. Blocks on slopes of 30 to 40
+/// degrees whose load was near the edge of their base went a tenth of their way. So, of a block that slides (`sliding_from`),
+///
+///   0.6 alpha             damps it across the joint
+///   2 alpha / (1 - alpha) times a moment that brakes its rotation is added to it (braked_rotation): half a swing loses what local damping would take of it, while
+///                         what speeds a rotation up is not damped
+///
+/// (core/tried.md: other shares.) A block about to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
+/// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D).
+///
+/// Motions slower than `settling` are damped by alpha all the same: a block on a joint at its strength would swing on its normal springs for thousands of cycles. Where
+/// no joint bears the block yet (least_joint_load), nothing damps it. The axes are those of the joint: the answer does not depend on how the model is turned.
 /// @see verification/unit/core/motion/damping_test.cpp
 template <typename R>
 [[nodiscard]] inline BasicBlockDamping<R> conditional_damping(const BasicActing<R>& acting, const DampingRule& rule)
@@ -75,8 +95,13 @@ template <typename R>
     const R none = 0.0;
     const auto held = rule.needs_joint() ? acting.springs & !(acting.mobilised < none) : acting.springs;
     const R local = select(acting.impulses, none, select(held, R(rule.local), none));
+    const auto slides = acting.mobilised > R(sliding_from);
+    const bool some = rule.needs_joint() && any(slides);
     return {.local = local,
+            .local_across = some ? select(slides, R(sliding_share) * local, local) : local,
             .local_rotation = rule.needs_joint() ? local * (R(1.0) - acting.mobilised) : local,
+            .braking = some ? select(slides, local * R(2.0 / (1.0 - rule.local)), none) : none,
+            .slides = some,
             .global = select(acting.impulses, R(rule.global), none),
             .form = rule.form,
             .settling = rule.settling};
@@ -152,13 +177,27 @@ template <typename R>
         return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, limit);
     };
     const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
-    const R damped_m = stopped_by_damping(m, acting.t_x * vy - acting.t_y * vx, inertia.inverse_mass_x, dt, damping.local);
+    const R v_m = acting.t_x * vy - acting.t_y * vx;
+    const R across = damping.slides ? max(damping.local_across, settling_share(abs(v_m), damping.settling) * damping.local)
+                                    : damping.local;
+    const R damped_m = stopped_by_damping(m, v_m, inertia.inverse_mass_x, dt, across);
     const DampedForce<R> damped = {acting.t_x * damped_t - acting.t_y * damped_m, acting.t_y * damped_t + acting.t_x * damped_m};
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
     if (!any(on_axis))
         return damped;
     return {select(on_axis, along(acting.x, vx, inertia.inverse_mass_x), damped.x),
             select(on_axis, along(acting.y, vy, inertia.inverse_mass_y), damped.y)};
+}
+
+/// What is added to a moment that brakes a rotation. It takes at most half of the rotation in a cycle: what brakes cannot hold, so that no block rests out of balance.
+template <typename R>
+[[nodiscard]] inline R braked_rotation(R moment, R w, R inverse_inertia, R dt, R braking)
+{
+    const R zero = 0.0;
+    const auto brakes = (moment * w < zero) & (inverse_inertia > zero);
+    const R half = R(0.5) * abs(w) / (select(brakes, inverse_inertia, R(1.0)) * dt);
+    const R more = min(braking * abs(moment), half);
+    return select(brakes, select(w > zero, -more, more), zero);
 }
 
 /// Moment on a block after local damping.
@@ -168,7 +207,11 @@ template <typename R>
 {
     if (damping.form == LocalDamping::by_axis)
         return locally_damped(acting.moment, w, damping.local_rotation);
-    const R alpha = max(damping.local_rotation, settling_share(abs(w) * radius, damping.settling) * damping.local);
-    return stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt, alpha);
+    const R slow = settling_share(abs(w) * radius, damping.settling);
+    const R damped = stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt,
+                                        max(damping.local_rotation, slow * damping.local));
+    if (!damping.slides)
+        return damped;
+    return damped + braked_rotation(acting.moment, w, inertia.inverse_inertia, dt, (R(1.0) - slow) * damping.braking);
 }
 }  // namespace hdem

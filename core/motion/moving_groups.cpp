@@ -242,12 +242,7 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;
-        if (!at->flies)
-            continue;
-        const double size = std::sqrt(force.x * force.x + force.y * force.y);
-        force.mobilised = 1.0F;
-        force.t_x = size > 0.0 ? static_cast<float>(force.x / size) : 1.0F;  // across this there is no force to be damped
-        force.t_y = size > 0.0 ? static_cast<float>(force.y / size) : 0.0F;
+        force.mobilised = at->flies ? -1.0F : 1.0F;  // -1: as if no joint bore it, nothing damps it
     }
 }
 }  // namespace hdem

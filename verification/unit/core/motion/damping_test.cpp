@@ -65,6 +65,34 @@ TEST(ConditionalDamping, LeavesTurningAloneAsAJointIsMobilised)
     EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, by_axis).local_rotation, 0.8);
 }
 
+/// Half a swing of a block that slides loses what local damping takes, and tipping is free.
+TEST(ConditionalDamping, OfABlockThatSlidesBrakesRotationsOnly)
+{
+    const DampingRule along_joint{.local = 0.8, .form = LocalDamping::along_joint}, by_axis{.local = 0.8};
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, along_joint).braking, 8.0, 1e-12);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 0.9, .springs = true}, along_joint).braking, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true, .impulses = true}, along_joint).braking, 0.0);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, by_axis).braking, 0.0);
+
+    EXPECT_NEAR(conditional_damping(Acting{.mobilised = 1.0, .springs = true}, along_joint).local_across, 0.48, 1e-15);
+    EXPECT_EQ(conditional_damping(Acting{.mobilised = 0.9, .springs = true}, along_joint).local_across, 0.8);
+
+    const BlockInertia inertia{.inverse_mass_x = 1.0, .inverse_mass_y = 1.0, .inverse_inertia = 1.0};
+    const BlockDamping damping{
+        .local = 0.8, .local_across = 0.48, .braking = 4.0, .slides = true, .form = LocalDamping::along_joint};
+    const auto damped = [&](double moment, double w, double dt)
+    { return damp_rotation(Acting{.moment = moment}, inertia, w, 1.0, dt, damping); };
+    for (const double sense : {1.0, -1.0})
+    {
+        EXPECT_DOUBLE_EQ(damped(-10.0 * sense, 2.0 * sense, 0.01), -50.0 * sense) << "brakes";
+        EXPECT_DOUBLE_EQ(damped(10.0 * sense, 2.0 * sense, 0.01), 10.0 * sense) << "tips";
+        EXPECT_DOUBLE_EQ(damped(-10.0 * sense, 2.0 * sense, 0.1), -20.0 * sense) << "no more than half of 2 rad/s goes in a cycle";
+    }
+    EXPECT_DOUBLE_EQ(damped(-10.0, 0.0, 0.01), -10.0) << "what stands still is not held";
+    EXPECT_NEAR(damp_translation(Acting{.y = 10.0}, inertia, 0.0, 1.0, 0.01, damping).y, 5.2, 1e-12) << "across";
+    EXPECT_EQ(damp_rotation(Acting{.moment = -10.0}, BlockInertia{}, 2.0, 1.0, 0.01, damping), -10.0) << "cannot turn";
+}
+
 /// A block that slides along (0.6, 0.8) at the limit moves freely along the joint, and is damped across it.
 TEST(LocalDamping, AlongAJointIsLimitedByItsReserve)
 {
