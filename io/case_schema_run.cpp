@@ -59,10 +59,13 @@ SectionSpec convergence_section()
                                                            "than rock that moves. Loose blocks take impulses, other rock keeps "
                                                            "its springs.",
                                                  .range = length}),
-         field<&ConvergenceDef::detached_distance>({.name = "detached_distance",
-                                                    .unit = "m",
-                                                    .effect = "A block that moved farther counts as detached in summary.json.",
-                                                    .range = length}),
+         field<&ConvergenceDef::detached_distance>(
+             {.name = "detached_distance",
+              .unit = "m",
+              .effect = "A block that moved farther in the last stage counts as detached (`detached_blocks` in summary.json). One "
+                        "that lies farther than "
+                        "this from where the run began, for what it did in earlier stages, is in `detached_before`.",
+              .range = length}),
          field<&ConvergenceDef::lost_distance>({.name = "lost_distance",
                                                 .unit = "m",
                                                 .effect = "In a stage with `until = \"converged\"` a block that is this far "

@@ -242,6 +242,7 @@ std::string summary_text(const RunSummary& s)
         {"mean_displacement_all", s.mean_displacement_all},
         {"max_displacement_all", s.max_displacement_all},
         {"detached_blocks", s.detached_blocks},
+        {"detached_before", s.detached_before},
         {"lost_blocks", s.lost_blocks},
         {"joint_sets", joint_sets_json(s)},
         {"bolts", bolts},

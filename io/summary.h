@@ -129,7 +129,8 @@ struct RunSummary
     double max_displacement = 0.0;             ///< [m]
     double mean_displacement_all = 0.0;        ///< of all free blocks [m]
     double max_displacement_all = 0.0;         ///< [m]
-    std::vector<std::string> detached_blocks;  ///< names
+    std::vector<std::string> detached_blocks;  ///< names, in the last stage
+    std::vector<std::string> detached_before;  ///< names of others, in earlier ones
     std::vector<std::string> lost_blocks;      ///< names of blocks that have left the model and are held
     std::vector<BoltSummary> bolts;
     std::vector<LinerSummary> liners;

@@ -5,7 +5,9 @@
 #include "parallel/stages.h"
 #include "parallel/strength_trial.h"
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace hdem
 {
@@ -25,17 +27,27 @@ class BeforeLastStage : public Observer
 struct Reference
 {
     Moment moment;
-    std::vector<Index>
-        gave_way{};  ///< blocks that did not stand in the last stage by their own strength, the user's numbers: it was run anew
+    std::vector<Index> gave_way{};  ///< blocks that did not stand in the last stage by their own strength, the user's numbers
+    bool is_anew = false;           ///< for their sake that stage was run anew
 };
 
-/// Blocks that did not stand in the last stage: they moved farther than `far` of their size in it, or the stage looked for rest and did not find it while they
-/// moved. The user's numbers, ascending.
-[[nodiscard]] std::vector<Index> blocks_that_gave_way(const Moment& last, bool found_rest, double least_area, double far = 0.2);
+/// The last stage of a run.
+struct LastStage
+{
+    bool found_rest = true;   ///< it ended at rest, or did not look for it
+    double least_area = 0.0;  ///< smaller blocks may fall [m2]
+    /// The moment before it; asked for only where blocks moved far in it. Not given: it is not run anew.
+    std::function<std::optional<Moment>()> before = {};
+};
+
+/// Blocks that did not stand in the last stage, whatever its strain: they moved farther than a fifth of their size in it, or the stage looked for rest and did not find
+/// it while they moved. The user's numbers, ascending.
+[[nodiscard]] std::vector<Index> blocks_that_gave_way(const Moment& last, bool found_rest, double least_area);
 
 /// The last state, brought to rest under a thousand times its strength. Where blocks gave way in the last stage it is run anew from its
 /// beginning under that strength: what F asks is where these blocks stood, not where they lie.
-/// @param before  the last stage; not needed where nothing gave way
-[[nodiscard]] Reference find_reference(const Moment& last, const std::vector<Index>& gave_way, const std::optional<Moment>& before,
-                                       const ThreadRule& threads);
+///
+/// Of blocks that moved by more than convergence.detached_distance and 0.02 of their size, those gave way, too, that go less than half as far under that strength. The
+/// others are soft rock that settles.
+[[nodiscard]] Reference find_reference(const Moment& last, const LastStage& stage, const ThreadRule& threads);
 }  // namespace hdem

@@ -66,6 +66,7 @@ void reorder_blocks(const std::vector<Index>& user_number, Model& model)
     permute(from, model.inertia);
     permute(from, model.full_inertia);
     permute(from, model.radius);
+    permute(from, model.start);
     for (Load& load : model.loads)
         for (Index& block : load.blocks)
             block = to[block];

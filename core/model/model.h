@@ -122,6 +122,7 @@ struct Model
     std::vector<double> inertia;             ///< about the centroid [kg m2 per m]
     std::vector<BlockInertia> full_inertia;  ///< with the block's own mass even where its motion is prescribed
     std::vector<double> radius;              ///< of the smallest circle about the centroid that holds the block [m]
+    std::vector<Vec2> start;                 ///< centroid when the run begins [m]
 
     std::vector<std::string> material_names;
     std::vector<std::string> excavation_names;

@@ -138,8 +138,11 @@ DisplacementReport report_displacements(const Model& model, const State& state)
             continue;
         const double distance = blocks.displacement(i).norm();
         const bool detached = distance > model.convergence.detached_distance;
+        const Vec2 now(blocks.motion[i].x, blocks.motion[i].y);
         if (detached)
             report.detached.push_back(i);
+        else if ((now - model.start[i]).norm() > model.convergence.detached_distance)
+            report.before.push_back(i);
         report.mean_all += distance;
         report.greatest_all = std::max(report.greatest_all, distance);
         ++counted_all;

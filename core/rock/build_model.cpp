@@ -113,6 +113,14 @@ void add_joints_and_densities(const CaseDef& def, const RockMass& rock, const Pl
     }
     assign_joints(def, model);
 }
+/// Nothing bears the weight of any block, in no stage.
+bool falls_as_a_whole(const CaseDef& def, const Model& model, const Blocks& blocks)
+{
+    const auto is_held = [&](Index block) { return !blocks.is_free(block) || model.is_wall(block); };
+    return model.gravity.norm() > 0.0 && def.boundaries.empty() && def.loads.empty() && def.bolts.empty() && !def.water.given &&
+           std::ranges::none_of(def.stages, [](const StageDef& stage) { return !stage.fix.empty(); }) &&
+           std::ranges::none_of(model.slot_of_user, is_held);
+}
 }  // namespace
 
 Vec2 tilted_gravity(const CaseDef& def)
@@ -166,6 +174,7 @@ Setup build_model(const CaseDef& def)
 
     model.holds_mean = def.domain.hold == DomainHold::mean;
     add_initial_state(rock, placed, model, setup.state);
+    model.start = setup.state.blocks.reference_position;
     std::vector<Problem> problems = resolve_boundaries(def, rock, placed.origin, model, setup.state.blocks);
     const Blocks free_at_times = with_freed_names(model, with_freed_sides(model, setup.state.blocks));
     std::ranges::move(resolve_water(def, model.origin, free_at_times, model), std::back_inserter(problems));
@@ -192,6 +201,11 @@ Setup build_model(const CaseDef& def)
         problems.push_back({.key = "domain.fixed",
                             .text = "rock mass: free blocks = 0 (every block is fixed, and no stage frees one: nothing can move). "
                                     "Free at least one block."});
+    if (falls_as_a_whole(def, model, free_at_times))
+        problems.push_back({.severity = Problem::Severity::warning,
+                            .key = {},
+                            .text = "rock mass: no block is fixed, and no side or bolt holds one (all of it falls). Set "
+                                    "domain.fixed, or fixed = true of a block."});
     for (Problem& problem : rock.warnings)
         problems.push_back(std::move(problem));
     std::erase_if(problems,

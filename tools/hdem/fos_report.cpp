@@ -66,6 +66,13 @@ bool differ(const Bracket& a, const Bracket& b)
 {
     return a.is_closed() && b.is_closed() && std::abs(a.middle() - b.middle()) > *a.fails - *a.stands + *b.fails - *b.stands;
 }
+
+/// Do corners that touch in a point bear a part of it?
+bool leans_on_corners(const FosOutcome& outcome)
+{
+    const std::optional<double>& stands = outcome.factor.as_given.stands;
+    return outcome.without_corners && stands && *stands > *outcome.without_corners;
+}
 }  // namespace
 
 std::vector<std::string> names_of_blocks(const Model& model, const std::vector<Index>& users)
@@ -115,7 +122,10 @@ std::string factor_text(const Bracket& b)
 std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& model)
 {
     const SafetyFactor& f = outcome.factor;
-    std::vector<std::string> lines{fmt::format("factor of safety  {}", factor_text(f.as_given))};
+    const bool leans = leans_on_corners(outcome);
+    std::vector<std::string> lines{
+        fmt::format("factor of safety  {}{}", factor_text(f.as_given),
+                    leans ? fmt::format("; at most {:.4f} where corners bear nothing", *outcome.without_corners) : "")};
     if (f.peak)
         lines.push_back(fmt::format("with peak strength throughout  {}", factor_text(*f.peak)));
     if (f.stiffer)
@@ -167,6 +177,11 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
     if (!outcome.gave_way.empty())
         warnings.push_back(fmt::format("these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
                                        factor_of_what(outcome)));
+    if (!outcome.gave_way_before.empty())
+        warnings.push_back(fmt::format(
+            "these blocks moved far (convergence.detached_distance) in stages before the last one: {}. The factor is that of the "
+            "rock as it lies now. For theirs, let the run end with the stage in which they move.",
+            some_of(outcome.gave_way_before)));
     if (!outcome.gave_way.empty() && outcome.def.begin == FactorStart::last_stage && f.as_given.stands && *f.as_given.stands > 1.0)
         warnings.push_back(
             "they fell by their own strength, but stand at a factor above 1 where the rock first comes to rest under great "
@@ -184,7 +199,7 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
         *f.as_given.stands > outcome.bound.factor * 1.001 + outcome.def.tolerance)
         warnings.push_back(fmt::format("rock stands above the bound of limit analysis ({:.4f}): {}.", outcome.bound.factor,
                                        why_above_bound(f, reference.model)));
-    if (outcome.without_corners && f.as_given.stands && *f.as_given.stands > *outcome.without_corners)
+    if (leans_on_corners(outcome))
         warnings.push_back(fmt::format(
             "corners that touch other blocks in a point bear part of it: without them the factor is at most {:.4f}. They cannot be "
             "crushed here; rock can. Cut a notch where a tip stands on another plane (hdem plot shows it), or count on the lower "
@@ -248,6 +263,7 @@ Json fos_json(const FosOutcome& outcome, const Model& model)
     json["failing_blocks"] = first == nullptr ? Json::array() : Json(names_of_blocks(model, first->failing));
     json["let_fall"] = names_of_blocks(model, all_let_fall(f));
     json["did_not_stand"] = outcome.gave_way;
+    json["did_not_stand_before"] = outcome.gave_way_before;
     json["warnings"] = outcome.warnings;
     json["trials"] = std::move(trials);
     return json;

@@ -30,6 +30,16 @@ SafetyFactor fails_at_any_strength(const Moment& fallen, const std::vector<Index
     return found;
 }
 
+/// Before the last stage, far enough to count as detached. The user's numbers.
+std::vector<Index> blocks_that_had_moved(const Moment& last, double least_area)
+{
+    std::vector<Index> found;
+    for (const Index block : report_displacements(last.model, last.state).before)
+        if (last.model.area[block] >= least_area)
+            found.push_back(last.model.user_number[block]);
+    return found;
+}
+
 /// Without them nothing can fail.
 void expect_free_blocks(const Moment& start)
 {
@@ -50,13 +60,15 @@ void expect_free_blocks(const Moment& start)
 FosAnswer find_factor(const Moment& last, const FosQuestion& question)
 {
     FosOutcome outcome{.def = question.def};
-    const std::vector<Index> gave_way = blocks_that_gave_way(last, question.found_rest, outcome.def.least_size);
-    outcome.gave_way = names_of_blocks(last.model, gave_way);
-    const bool runs_anew = !gave_way.empty() && outcome.def.begin == FactorStart::last_stage;
-    Reference reference = find_reference(last, gave_way, runs_anew ? question.before() : std::nullopt, question.threads);
+    LastStage stage{.found_rest = question.found_rest, .least_area = outcome.def.least_size};
+    if (outcome.def.begin == FactorStart::last_stage)
+        stage.before = question.before;
+    Reference reference = find_reference(last, stage, question.threads);
+    outcome.gave_way = names_of_blocks(last.model, reference.gave_way);
+    outcome.gave_way_before = names_of_blocks(last.model, blocks_that_had_moved(last, outcome.def.least_size));
     const Model& model = reference.moment.model;
-    if (const std::vector<Index> falling = runs_anew ? blocks_that_gave_way(reference.moment, true, outcome.def.least_size)
-                                                     : std::vector<Index>{};
+    if (const std::vector<Index> falling = reference.is_anew ? blocks_that_gave_way(reference.moment, true, outcome.def.least_size)
+                                                             : std::vector<Index>{};
         !falling.empty())
     {
         outcome.falls_anyway = names_of_blocks(model, falling);

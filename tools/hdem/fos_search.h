@@ -20,8 +20,9 @@ struct FosOutcome
     StrengthBound bound;
     std::optional<double> without_corners{};  ///< the bound where corners bear nothing, where that is much lower
     SafetyFactor factor;
-    std::vector<std::string> gave_way{};      ///< names of blocks that did not stand in the last stage
-    std::vector<std::string> falls_anyway{};  ///< names of those that fell once more when it was run anew under great strength
+    std::vector<std::string> gave_way{};         ///< names of blocks that did not stand in the last stage
+    std::vector<std::string> falls_anyway{};     ///< names of those that fell once more when it was run anew under great strength
+    std::vector<std::string> gave_way_before{};  ///< names of blocks that had moved far before the last stage
     std::vector<std::string> warnings{};
 };
 

@@ -160,6 +160,8 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.max_displacement_all = moved.greatest_all;
     for (const Index block : moved.detached)
         s.detached_blocks.push_back(model.name[block]);
+    for (const Index block : moved.before)
+        s.detached_before.push_back(model.name[block]);
     s.bolts = summarise_bolts(model, state);
     s.liners = summarise_liners(model, state);
     s.energy = state.ledger;

@@ -47,8 +47,8 @@ FosAnswer find_factor(const std::string& case_file, const Overrides& overrides, 
     const std::vector<StageResult> stages = run_stages(simulation, observers);
     const Moment last{simulation.model(), simulation.state()};
     const bool found_rest = !stages.back().sought_rest || stages.back().at_rest;
-    const Reference reference = find_reference(last, blocks_that_gave_way(last, found_rest, def.least_size), before.moment(),
-                                               run.threads);
+    const LastStage stage{.found_rest = found_rest, .least_area = def.least_size, .before = [&] { return before.moment(); }};
+    const Reference reference = find_reference(last, stage, run.threads);
     const Model& model = reference.moment.model;
     FosAnswer answer;
     answer.bound = strength_bound(model, reference.moment.state, weakened_joints(model.joints, def), least_factor, greatest_factor,

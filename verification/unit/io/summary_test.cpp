@@ -16,6 +16,7 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     RunSummary summary{.case_name = "tunnel", .method = "hybrid", .threads = 2, .blocks = 700};
     summary.cycles_after_excavation = 32709;
     summary.detached_blocks = {"b12", "b13"};
+    summary.detached_before = {"b7"};
     summary.stages = {{.name = "initial", .cycles = 5000},
                       {.name = "excavated", .cycles = 32709, .sought_rest = true, .at_rest = true}};
     summary.stages[1].statics = StaticResult{.outcome = "balanced", .iterations = 22, .residual = 2e-9, .loose = {"b12"}};
@@ -53,6 +54,7 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
     EXPECT_EQ(json["case"], "tunnel");
     EXPECT_EQ(json["cycles_after_excavation"], 32709);
     EXPECT_EQ(json["detached_blocks"], (std::vector<std::string>{"b12", "b13"}));
+    EXPECT_EQ(json["detached_before"], std::vector<std::string>{"b7"});
     EXPECT_EQ(json["stages"][1]["converged"], true);
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
     EXPECT_TRUE(json["stages"][0]["static_solution"].is_null());

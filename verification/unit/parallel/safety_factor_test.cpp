@@ -69,8 +69,11 @@ Case started(const std::string& text)
     Observer* const observers[] = {&before};
     const std::vector<StageResult> stages = run_stages(simulation, observers);
     const Moment last{simulation.model(), simulation.state()};
-    c.reference = find_reference(last, blocks_that_gave_way(last, stages.back().at_rest, c.def.factor_of_safety.least_size),
-                                 before.moment(), 1);
+    c.reference = find_reference(last,
+                                 {.found_rest = stages.back().at_rest,
+                                  .least_area = c.def.factor_of_safety.least_size,
+                                  .before = [&] { return before.moment(); }},
+                                 1);
     return c;
 }
 
@@ -116,6 +119,28 @@ TEST(SafetyFactor, BelowOneWhereTheRockDoesNotStand)
     const Case c = started(slope(once + "least_size = 0.5\n", 15.0));
     EXPECT_EQ(c.reference.gave_way, std::vector<Index>{1});
     EXPECT_NEAR(factor_of(c).as_given.middle(), slides_at(15.0), 0.005);
+}
+
+/// It lies 0.25 m farther down, against a stop, and stands there whatever its friction.
+TEST(SafetyFactor, BelowOneWhereABlockSlidToAStop)
+{
+    const std::string stop = "[[block]]\nname = \"stop\"\npolygon = [[4.25, 0], [5.5, 0], [5.5, 1], [4.25, 1]]\nfixed = true\n";
+    const Case c = started(slope(once + "least_size = 0.5\n" + stop, 15.0));
+    EXPECT_EQ(c.reference.gave_way, std::vector<Index>{1});
+    EXPECT_NEAR(factor_of(c).as_given.middle(), slides_at(15.0), 0.005);
+}
+
+/// Soft joints: the slab sinks by 0.15 m, more than 0.02 of its size and than what counts as detached.
+TEST(SafetyFactor, WhatSettlesDidNotGiveWay)
+{
+    std::string soft = slope(once + "least_size = 0.5\n");
+    for (std::size_t at = 0; (at = soft.find("1e10", at)) != std::string::npos;)
+        soft.replace(at, 4, "3e5");
+    for (std::size_t at = 0; (at = soft.find("1e9", at)) != std::string::npos;)
+        soft.replace(at, 3, "3e5");
+    const Case c = started(soft);
+    EXPECT_TRUE(c.reference.gave_way.empty());
+    EXPECT_FALSE(c.reference.is_anew);
 }
 
 TEST(SafetyFactor, IsTheSameWithStifferJoints)

@@ -154,6 +154,11 @@ TEST(DisplacementReport, CountsWhatStayedAndNamesWhatDetached)
     EXPECT_NEAR(report.mean, 0.18, 1e-15);
     EXPECT_NEAR(report.greatest, 0.5, 1e-15) << "without an excavation detached ones count";
     EXPECT_EQ(report.detached, std::vector<Index>{run.slot("block3")});
+    EXPECT_TRUE(report.before.empty());
+    state.blocks.reference_position[run.slot("block3")].x() += 0.5;  // a stage begins
+    EXPECT_TRUE(report_displacements(run.model(), state).detached.empty());
+    EXPECT_EQ(report_displacements(run.model(), state).before, std::vector<Index>{run.slot("block3")});
+    state.blocks.reference_position[run.slot("block3")].x() -= 0.5;
     state.next_to_excavation = {run.slot("block1"), run.slot("block3")};
     const DisplacementReport near = report_displacements(run.model(), state);
     EXPECT_EQ(near.counted, 1);
