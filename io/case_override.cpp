@@ -3,6 +3,7 @@
 #include "io/case_schema.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -70,6 +71,17 @@ TomlNode* find_entry(TomlNode::Items& entries, const std::string& array, const s
     return nullptr;
 }
 
+/// What could have been meant.
+std::string entries_that_are(const TomlNode::Items& entries, const std::string& array)
+{
+    std::vector<std::string> names;
+    for (const TomlNode& entry : entries)
+        if (const TomlNode* given = entry.find("name"); given != nullptr && given->text() != nullptr && names.size() < 5)
+            names.push_back(fmt::format("'{}'", printable(*given->text())));
+    const std::string first = fmt::format("there are {}, from {}[0] on", entries.size(), array);
+    return names.empty() ? first : fmt::format("{}, among them {}", first, fmt::join(names, ", "));
+}
+
 /// Why the value could not be written, or "".
 std::string write(TomlNode& document, const std::vector<Step>& steps, TomlNode value)
 {
@@ -82,8 +94,8 @@ std::string write(TomlNode& document, const std::vector<Step>& steps, TomlNode v
         {
             node = find_entry(*entries, steps[i - 1].name, name);
             if (node == nullptr)
-                return fmt::format("no entry of {} is called '{}'; there are {}", steps[i - 1].name, printable(name),
-                                   entries->size());
+                return fmt::format("no entry of {} is called '{}'; {}", steps[i - 1].name, printable(name),
+                                   entries_that_are(*entries, steps[i - 1].name));
             continue;
         }
         if (node->members() == nullptr)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_set>
 
 namespace hdem
@@ -74,11 +75,15 @@ class SupportResolver
         std::optional<Liner> liner = resolve_liner(plan, blocks_, model_);
         if (!liner)
         {
-            problems_.push_back(
-                {.key = key + (def.around.empty() ? ".path" : ".around"),
-                 .text = "liner \"" + def.name +
-                         "\": there is no block behind it in its stage (it would hang in the air). The rock lies on the "
-                         "right-hand side of a path; turn it round, or move it."});
+            const bool is_early = !def.around.empty() && !is_excavated(def.around);
+            const std::string early = "\"" + def.around +
+                                      "\" is not excavated yet in the stage in which it is installed (that of `stage`, else the "
+                                      "first one). Give a later stage.";
+            const std::string
+                nothing_behind = "there is no block behind it in its stage (it would hang in the air). The rock lies on "
+                                 "the right-hand side of a path; turn it round, or move it.";
+            problems_.push_back({.key = key + (def.around.empty() ? ".path" : ".around"),
+                                 .text = "liner \"" + def.name + "\": " + (is_early ? early : nothing_behind)});
             return;
         }
         liner->history = model_.support.history_size;
@@ -99,6 +104,14 @@ class SupportResolver
                     if (name == model_.name[b] || (excavation != no_index && name == model_.excavation_names[excavation]))
                         gone_[b] = 1;
         }
+    }
+
+    /// By the start of the stage that is looked at.
+    bool is_excavated(const std::string& excavation) const
+    {
+        const auto stages = std::span(def_.stages).first(std::min<std::size_t>(stage_ + 1, def_.stages.size()));
+        return std::ranges::any_of(stages,
+                                   [&](const StageDef& stage) { return std::ranges::count(stage.excavate, excavation) > 0; });
     }
 
     /// Is there room for the pieces of so long a bolt or liner? Then they are counted, else it is said once.
@@ -138,15 +151,22 @@ class SupportResolver
         if (left_out == number)
             problems_.push_back({.key = key_ + ".around",
                                  .text = object_ + "around = \"" + bolt.around + "\" (none of its " + std::to_string(number) +
-                                         " bolts ties two blocks together: they lie in one block, or outside the rock). Give a "
-                                         "greater length, or another arc."});
+                                         " bolts ties two blocks together: they lie in one block, or outside the rock). Give "
+                                         "another length, or another arc."});
         else if (left_out > 0)
             problems_.push_back({.severity = Problem::Severity::warning,
                                  .key = key_ + ".around",
                                  .text = object_ + "around = \"" + bolt.around + "\" (" + std::to_string(left_out) + " of " +
                                          std::to_string(number) +
                                          " bolts would do nothing: they lie in one block, or outside the rock; they are left out). "
-                                         "Give a greater length to change that."});
+                                         "Give another length to change that."});
+        if (left_out < number && bolt.stage.empty() && !is_excavated(bolt.around))
+            problems_.push_back(
+                {.severity = Problem::Severity::warning,
+                 .key = key_ + ".around",
+                 .text = object_ + "around = \"" + bolt.around +
+                         "\" (is not excavated yet in the first stage, in which bolts without a stage are installed). "
+                         "Give the stage."});
     }
 
     void add(const BoltDef& from, const std::string& name, const BoltLine& line, std::vector<Problem>* problems)

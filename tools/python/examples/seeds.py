@@ -16,7 +16,7 @@ rock = {"domain": {"width": 14.0, "height": 12.0, "fixed": ["left", "right", "bo
         "excavation": [{"name": "tunnel", "shape": "circle", "position": [7.0, 6.0], "diameter": 4.0}],
         "material": {"rock": {"density": 2700.0}},
         "joint": {"default": {"normal_stiffness": 2e9, "shear_stiffness": 1e9, "friction_angle_deg": 32.0}},
-        "stage": [{"cycles": 1000}, {"excavate": ["tunnel"], "until": "converged", "max_cycles": 4000}]}
+        "stage": [{"cycles": 1000}, {"excavate": ["tunnel"], "until": "converged", "max_cycles": 40000}]}
 
 def run(seed):
     simulation = hdem.Simulation(hdem.Case(rock, set={"generator.seed": seed}), threads=1)

@@ -101,7 +101,7 @@ TEST(Override, IsNamedWhereItIsWrong)
     EXPECT_THAT(problems_of(two_blocks, {{"stage[3].cycles", "1"}}), ElementsAre(HasSubstr("stage has 1 entries, counted from 0")));
     EXPECT_THAT(problems_of(two_blocks, {{"joint_set[0].dip_deg", "1"}}), ElementsAre(HasSubstr("the case has no [[joint_set]]")));
     EXPECT_THAT(problems_of(with_sets, {{"joint_set.beding.dip_deg", "1"}}),
-                ElementsAre(HasSubstr("no entry of joint_set is called 'beding'")));
+                ElementsAre(HasSubstr("no entry of joint_set is called 'beding'; there are 2, from joint_set[0] on")));
     EXPECT_THAT(problems_of(two_blocks, {{"stage[0].cycles.x", "1"}}), ElementsAre(HasSubstr("inside a key that has a value")));
     for (const char* path : {"a..b", "stage[", "stage[x].cycles", "stage[-1].cycles", "[0]", "stage[99999999999999999999].cycles",
                              "a.b.c.d.e.f.g.h.i.j"})

@@ -334,7 +334,8 @@ class Killed(Scratch):
     def test_goes_on_with_the_same_line_to_the_same_states(self):
         for folder in ("whole", "broken"):
             self.sweep("plan", TUNNEL, "-o", folder, *self.KEYS)
-        subprocess.run(self.words("whole"), cwd=self.folder, check=True, capture_output=True)
+        end = subprocess.run(self.words("whole"), cwd=self.folder, check=False, capture_output=True).returncode
+        self.assertIn(end, (0, 4), "4: one of these tunnels is not at rest in time")
         for share, how in ((0.1, signal.SIGTERM), (0.25, signal.SIGKILL), (0.4, signal.SIGINT), (0.55, signal.SIGKILL)):
             worker = subprocess.Popen(self.words("broken"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
             wait_until(lambda: self.done() >= share * RUNS)
@@ -343,7 +344,7 @@ class Killed(Scratch):
             self.assertEqual(worker.returncode, -9 if how is signal.SIGKILL else 128 + how)
             self.assertLess(self.done(), RUNS, "it was not over")
         time.sleep(1.0)    # what the killed worker has left behind comes to its end
-        subprocess.run(self.words("broken"), cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual(subprocess.run(self.words("broken"), cwd=self.folder, check=False, capture_output=True).returncode, end)
         whole, broken = self.table("whole"), self.table("broken")
         self.assertEqual(broken, whole)
         self.assertEqual(len({row[-1] for row in whole}), RUNS, "each run is another one")
