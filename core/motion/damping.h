@@ -35,6 +35,7 @@ struct DampingRule
     LocalDamping form = LocalDamping::by_axis;
     double settling =
         0.0;  ///< below this speed along the joint, or of the rim, all of local damping acts, whatever friction has left, above twice of it only that [m/s]
+    bool frees_sliding = true;  ///< along the joint: blocks that slide are damped less; else by alpha across it, however they swing
 
     /// Is the most mobilised joint of a block asked for?
     [[nodiscard]] bool needs_joint() const { return form == LocalDamping::along_joint; }
@@ -96,7 +97,7 @@ template <typename R>
     const auto held = rule.needs_joint() ? acting.springs & !(acting.mobilised < none) : acting.springs;
     const R local = select(acting.impulses, none, select(held, R(rule.local), none));
     const auto slides = acting.mobilised > R(sliding_from);
-    const bool some = rule.needs_joint() && any(slides);
+    const bool some = rule.needs_joint() && rule.frees_sliding && any(slides);
     return {.local = local,
             .local_across = some ? select(slides, R(sliding_share) * local, local) : local,
             .local_rotation = rule.needs_joint() ? local * (R(1.0) - acting.mobilised) : local,

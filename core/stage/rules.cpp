@@ -134,7 +134,9 @@ StageRules approach_rules(const Model& model, const State& state)
 {
     StageSetting setting = setting_of(model, state);
     setting.method = Method::force;
-    return resolve_rules(setting);
+    StageRules rules = resolve_rules(setting);
+    rules.damping.frees_sliding = false;  // what slides is not to go far, but to be named
+    return rules;
 }
 
 std::vector<StageRules> resolve_rules(const CaseDef& def)

@@ -103,6 +103,7 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
         fixed ? BlockInertia{} : BlockInertia{1.0 / model.mass.back(), 1.0 / model.mass.back(), 1.0 / model.inertia.back(), 0.0});
     blocks.present.push_back(1);
     blocks.reference_position.push_back(at);
+    model.start.push_back(at);
     blocks.reference_angle.push_back(0.0);
     return number;
 }

@@ -11,6 +11,7 @@ namespace
 using test::case_of;
 using test::lens;
 using test::two_halves;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -41,13 +42,13 @@ TEST(RegionErrors, DeadEndsAreDroppedWithAWarning)
     const std::string alone = test::with(test::with(two_halves, "[5, 2]]", "[2.5, 2]]"), "region = \"upper\"\n", "");
     const std::string without_region = test::with(alone, "[[region]]\nname = \"upper\"\nabove = \"main\"\n", "");
     EXPECT_THAT(all_warnings(without_region),
-                ElementsAre(HasSubstr("fault \"main\": points (2.5 m end inside a block and part nothing: they are dropped)")));
+                Contains(HasSubstr("fault \"main\": points (2.5 m end inside a block and part nothing: they are dropped)")));
     EXPECT_EQ(generate_rock_mass(case_of(without_region)).blocks.size(), 4u);
     EXPECT_THAT(problem_of(alone), HasSubstr("case.toml:7:1: region \"upper\": block around (2, 2) (it lies on both sides of fault "
                                              "\"main\", which ends inside it)"));
     // Beyond the fault that it meets it is left out, and the part before it is cut.
     const std::string held = without_region + "[[fault]]\nname = \"cross\"\npoints = [[2, -1], [2, 5]]\n";
-    EXPECT_THAT(all_warnings(held), ElementsAre(HasSubstr("(0.5 m end inside a block")));
+    EXPECT_THAT(all_warnings(held), Contains(HasSubstr("(0.5 m end inside a block")));
     EXPECT_EQ(generate_rock_mass(case_of(held)).blocks.size(), 6u);
 }
 
