@@ -28,4 +28,6 @@ void check_run_keys(const CaseDef& def, const CaseSource& source, CaseProblems& 
 void check_stage_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Of histories:
 void check_history_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
+/// Numbers that are likely to be meant in another unit:
+void warn_of_units(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 }  // namespace hdem

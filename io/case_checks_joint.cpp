@@ -191,10 +191,41 @@ class JointCheck : public CaseCheck
 };
 }  // namespace
 
+namespace
+{
+/// A key of a joint that breaks for good; "" where it does not.
+std::string key_that_breaks(const JointDef& joint)
+{
+    if (joint.law != JointLaw::coulomb || joint.initially == JointStart::broken)
+        return "";
+    if (joint.residual_cohesion && *joint.residual_cohesion < joint.cohesion)
+        return "residual_cohesion";
+    return joint.tension && *joint.tension > 0.0 && joint.residual_tension.value_or(0.0) < *joint.tension ? "tension" : "";
+}
+
+/// A weight that acts at once is felt up to 1 + sqrt((1 - alpha) / (1 + alpha)) times: 1.33 at alpha = 0.8. What breaks then stays broken.
+void warn_of_joints_that_break_at_once(const CaseDef& def, CaseProblems& problems)
+{
+    if (def.stages.empty() || !ends_at_rest(def.stages.front()) || def.insitu.given || def.gravity.norm() == 0.0 ||
+        !def.stages.front().set.empty() || def.stages.front().relax_cycles > 0)
+        return;
+    for (const JointDef& joint : def.joints)
+        if (const std::string key = key_that_breaks(joint); !key.empty())
+            problems.warn(
+                fmt::format("joint.{}.{}", joint.name, key), fmt::format("joint \"{}\"", printable(joint.name)), key,
+                fmt::format(
+                    "breaks for good, and stage \"{}\" begins with rock without stress: the weight that acts at once is felt "
+                    "up to 1.33 times until the rock is at rest",
+                    printable(def.stages.front().name)),
+                "Let the weight grow: relax_cycles = 5000 in that stage; or give [insitu].");
+}
+}  // namespace
+
 void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
 {
     for (const JointDef& joint : def.joints)
         JointCheck(def, source, problems, joint).check();
+    warn_of_joints_that_break_at_once(def, problems);
     const auto remembers = std::ranges::find_if(def.joints, needs_memory);
     for (std::size_t i = 0; i < def.stages.size() && remembers != def.joints.end(); ++i)
         if (asks_for_statics(def.stages[i]))

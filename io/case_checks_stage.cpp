@@ -85,7 +85,8 @@ class StageCheck : public CaseCheck
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
         const bool changes_water = stage.water_level || !stage.water_table.empty();
-        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water)
+        const bool begins_without_stress = &stage == def_.stages.data() && !def_.insitu.given;
+        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water && !begins_without_stress)
             refuse("nothing is excavated, no boundary ends, and no water changes", "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)

@@ -100,6 +100,7 @@ CaseFile read_case_text(std::string text, const std::filesystem::path& file, std
     check_run_keys(result.def, source, problems);
     check_stage_keys(result.def, source, problems);
     check_history_keys(result.def, source, problems);
+    warn_of_units(result.def, source, problems);
 
     const auto found = source.located(problems.errors());
     located.insert(located.begin(), found.begin(), found.end());

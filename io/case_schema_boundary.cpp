@@ -92,7 +92,7 @@ SectionSpec boundary_section()
          field<&BoundaryDef::target>({.name = "target",
                                       .unit = "Pa",
                                       .effect = "Compression that the wall is to press with: its force over the length of the side "
-                                                "as drawn. Belongs to kind servo.",
+                                                "as drawn, without what lies before blocks that are held. Belongs to kind servo.",
                                       .example = "2e6",
                                       .range = positive,
                                       .default_note = "must be given with kind servo"}),

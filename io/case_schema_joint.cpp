@@ -41,10 +41,11 @@ std::vector<KeySpec> spring_keys()
                                                       "straight line from 0.95 V_m on. Any law.",
                                             .range = length,
                                             .default_note = "a linear spring"}),
-        field<&JointDef::normal_exponent>({.name = "normal_exponent",
-                                           .effect = "e of K_N = a σ^e, from no closure on. Any law without `tension`.",
-                                           .range = exponent,
-                                           .default_note = "a linear spring"}),
+        field<&JointDef::normal_exponent>(
+            {.name = "normal_exponent",
+             .effect = "e of K_N = a σ^e, from no closure on. Any law without `tension` but saeb_amadei.",
+             .range = exponent,
+             .default_note = "a linear spring"}),
         field<&JointDef::shear_exponent>({.name = "shear_exponent",
                                           .effect = "e of K_S = a σ^e. continuously_yielding.",
                                           .range = exponent,
@@ -203,9 +204,10 @@ SectionSpec joint_section()
         "What acts where two blocks touch. [joint.default] must exist; the others replace it for a joint set (its key `joint`) or "
         "for a pair of materials (`materials`). Equations, memory and sources of each `law`: core/joint. Blocks that meet after "
         "the start "
-        "have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint bears all "
-        "that "
-        "it does by springs, and breaks when an impulse reaches its strength; other laws have their basic friction alone. Impulses "
+        "have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint bears at "
+        "least what it does by springs (a bracket that is glued to a wall up to a third more: the point that is not pulled takes "
+        "all of the shear), and breaks when an impulse "
+        "reaches its strength; other laws have their basic friction alone. Impulses "
         "know no stiffness, so curved normal springs are refused. Under the hybrid method a joint with cohesion or tension keeps "
         "its springs until it breaks.",
         {with_assign(field<&JointDef::law>(

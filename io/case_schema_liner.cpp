@@ -82,10 +82,12 @@ std::vector<KeySpec> beam_keys()
         field<&LinerDef::segment>(
             {.name = "segment",
              .unit = "m",
-             .effect = "Greatest distance of its nodes. They stand also at corners and where the block behind it changes.",
+             .effect = "Greatest distance of its nodes. They stand also at corners and where the block behind it changes. Moments "
+                       "under a block that hangs on the lining are too small by 0.25 (h / b)^2, h this distance, b = (4 E I / "
+                       "normal_stiffness)^(1/4).",
              .example = "0.25",
              .range = length,
-             .default_note = "2 t"}),
+             .default_note = "2 t, or 0.15 b if less"}),
         field<&LinerDef::hardening>(
             {.name = "hardening",
              .effect = "Rows [cycles since it was installed, factor of modulus and strengths]: linear in between, constant "

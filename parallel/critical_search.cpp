@@ -48,6 +48,9 @@ class ConditionWatch : public Observer
 
     [[nodiscard]] const ConditionResult& result() const { return result_; }
 
+    /// Is it asked for this block? @param user  its number
+    [[nodiscard]] bool asks_for(Index user) const { return condition_.blocks.empty() || named_[user] != 0; }
+
   private:
     void count_detached(const Model& model, const State& state)
     {
@@ -97,6 +100,10 @@ ConditionResult run_to_condition(Simulation& simulation, const FailureCondition&
     const std::vector<StageResult> stages = run_stages(simulation, observers, &keeper);
     ConditionResult result = watch.result();
     result.met_ends = result.fails || std::ranges::all_of(stages, &StageResult::met_end);
+    for (const StageResult& stage : stages)
+        result.still_moves = result.still_moves ||
+                             (!result.fails && !stage.met_end() &&
+                              std::ranges::any_of(stage.not_at_rest, [&](Index user) { return watch.asks_for(user); }));
     result.cycles = simulation.state().cycle;
     result.was_stopped = stop.stop_requested() && !result.fails;
     return result;

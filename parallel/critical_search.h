@@ -29,7 +29,8 @@ struct ConditionResult
     double greatest = 0.0;  ///< of the quantity
     std::string block;      ///< that has it
     std::int64_t cycles = 0;
-    bool met_ends = true;      ///< false: a stage ended at its max_cycles, and blocks may still be on their way
+    bool met_ends = true;      ///< false: a stage ended at its max_cycles
+    bool still_moves = false;  ///< one of the blocks in question was not at rest there: it may be on its way to the limit
     bool was_stopped = false;  ///< by the stop token: no answer
 };
 

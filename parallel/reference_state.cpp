@@ -44,7 +44,7 @@ std::vector<Index> blocks_that_went_far(const Moment& last, double least_area)
     return free_blocks(last, least_area,
                        [&](Index block)
                        {
-                           const double least = std::max(detached_share * model.size(block), model.convergence.detached_distance);
+                           const double least = std::min(detached_share * model.size(block), model.convergence.detached_distance);
                            return rim_displacement(block, model, state.blocks) > least;
                        });
 }

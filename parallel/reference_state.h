@@ -47,7 +47,7 @@ struct LastStage
 /// The last state, brought to rest under a thousand times its strength. Where blocks gave way in the last stage it is run anew from its
 /// beginning under that strength: what F asks is where these blocks stood, not where they lie.
 ///
-/// Of blocks that moved by more than convergence.detached_distance and 0.02 of their size, those gave way, too, that go less than half as far under that strength. The
+/// Of blocks that moved by more than convergence.detached_distance or 0.02 of their size, those gave way, too, that go less than half as far under that strength. The
 /// others are soft rock that settles.
 [[nodiscard]] Reference find_reference(const Moment& last, const LastStage& stage, const ThreadRule& threads);
 }  // namespace hdem

@@ -207,6 +207,8 @@ void Simulation::begin_stage(Index stage)
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
         remove_energy([&] { change_blocks(def, sides); });
     change_water();
+    if (stage == 0 && def.relax_cycles > 0 && !model_.insitu.given)
+        hold_back_loads(model_, state_);
     const bool bolted = install_bolts(model_, state_), lined = install_liners(model_, state_);
     if (bolted || lined)
         runner_.take_contacts();

@@ -103,7 +103,7 @@ class BoundaryResolver
             {
                 if (!from.is_insitu)
                 {
-                    const Vec2 stress = *from.stress + (at.y() + origin_.y() - from.stress_height) * from.stress_gradient;
+                    const Vec2 stress = *from.stress + (at.y() + model_.origin.y() - from.stress_height) * from.stress_gradient;
                     return stress.y() * along - stress.x() * out;
                 }
                 const StressDef s = stress_at(model_.insitu, at.y());

@@ -39,6 +39,20 @@ WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, c
     return sum;
 }
 
+double pressed_length(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks)
+{
+    const Vec2 n = wall.inward();
+    double length = wall.length;
+    for (const BoundaryFace& face : boundary.faces)
+    {
+        const BlockInertia& inertia = blocks.inertia[face.block];
+        const bool moves = inertia.inverse_mass_x * std::abs(n.x()) + inertia.inverse_mass_y * std::abs(n.y()) > 0.0;
+        if (!moves && blocks.present[face.block] != 0 && wall.is_behind(face))
+            length -= (face.to - face.from).norm();
+    }
+    return std::max(length, 0.0);
+}
+
 double servo_velocity(const WallForce& force, double target, double max_velocity, double step)
 {
     if (force.stiffness <= 0.0)
@@ -63,7 +77,8 @@ void drive_walls(const Model& model, const BlockContacts& list, State& state)
                [&](const Boundary& boundary, const BoundaryWall& wall)
                {
                    const WallForce force = wall_force(wall.block, model, state.contacts, list);
-                   const double target = factor_of(boundary, model, state) * boundary.target * wall.length;
+                   const double target = factor_of(boundary, model, state) * boundary.target *
+                                         pressed_length(boundary, wall, state.blocks);
                    const Vec2 velocity = servo_velocity(force, target, boundary.max_velocity, state.blocks.step.next) *
                                          wall.inward();
                    state.blocks.motion[wall.block].vx = velocity.x();
@@ -80,7 +95,8 @@ bool servos_press(const Model& model, const State& state)
                {
                    if (list.begin.empty())
                        list_block_contacts(state.contacts, state.blocks.size(), list);
-                   const double whole = boundary.target * wall.length, target = factor_of(boundary, model, state) * whole;
+                   const double whole = boundary.target * pressed_length(boundary, wall, state.blocks),
+                                target = factor_of(boundary, model, state) * whole;
                    all = all && std::abs(wall_force(wall.block, model, state.contacts, list).normal - target) <= enough * whole;
                });
     return all;

@@ -17,6 +17,10 @@ struct WallForce
 /// By the last forces of its contacts.
 [[nodiscard]] WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, const BlockContacts& list);
 
+/// Length of a side that a wall presses [m]: as drawn, without what lies before blocks that are held. Between a wall and a block that cannot move there is no force, and
+/// the rock beside it must not bear its share.
+[[nodiscard]] double pressed_length(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks);
+
 /// Velocity of a wall along its inward normal:
 ///
 ///   v = beta (F_target - F) / (K_wall dt),  |v| <= v_max,  beta = 0.05

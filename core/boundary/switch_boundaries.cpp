@@ -26,9 +26,7 @@ double outermost(const Boundary& boundary, const BoundaryWall& wall, const Block
     double most = -std::numeric_limits<double>::infinity();
     for (const BoundaryFace& face : boundary.faces)
     {
-        const bool is_on_edge = std::abs((face.from - wall.start).dot(wall.inward())) < 1e-6 * wall.length &&
-                                std::abs((face.to - wall.start).dot(wall.inward())) < 1e-6 * wall.length;
-        if (!is_on_edge || blocks.present[face.block] == 0)
+        if (!wall.is_behind(face) || blocks.present[face.block] == 0)
             continue;
         const BlockMotion& m = blocks.motion[face.block];
         for (const Vec2& at : {face.body_from, face.body_to})

@@ -12,10 +12,11 @@ namespace hdem
 struct Threshold
 {
     double scale;
-    double gravity_velocity;  ///< what gravity gives in a cycle, dt |g| [m/s]
-    double load_time;         ///< without gravity dt, for load_velocity; else 0 [s]
-    double fixed;             ///< given velocity, or negative [m/s]
-    bool rock_keeps_springs;  ///< RegimeRule
+    double gravity_velocity;    ///< what gravity gives in a cycle, dt |g| [m/s]
+    double load_time;           ///< without gravity dt, for load_velocity; else 0 [s]
+    double fixed;               ///< given velocity, or negative [m/s]
+    bool rock_keeps_springs;    ///< RegimeRule
+    bool corners_keep_springs;  ///< RegimeRule
     [[nodiscard]] double least() const { return fixed >= 0.0 ? fixed : scale * gravity_velocity; }
 };
 
@@ -130,6 +131,19 @@ template <typename P>
     return fast;
 }
 
+/// Corners on corners keep theirs, see RegimeRule: contacts shorter than two length floors.
+template <typename P>
+[[gnu::always_inline]] inline MaskOf<P> leave_corners_to_springs(MaskOf<P> fast, const BasicContactGroup<P>& g, const Model& model,
+                                                                 const Blocks& blocks)
+{
+    const auto lies = [&](Index block) { return !blocks.is_loose(block, drawn_share * model.size(block)); };
+    const MaskOf<P> is_short = g.growth < P(1.0);
+    for (int j = 0; j < P::width; ++j)
+        if (fast.has(j) && is_short.has(j) && lies(g.ref[j]) && lies(g.inc[j]))
+            fast.clear(j);
+    return fast;
+}
+
 /// Square of the speed that counts in Eq. (24): of the faster closed point [m2/s2].
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline P motion_squared(const BasicContactGroup<P>& g)
@@ -164,7 +178,9 @@ template <ContactLaw law, typename P>
     const double least = threshold.least();
     if (!any(speed > P(least * least)))
         return none;
-    const MaskOf<P> fast = are_fast(g, speed, model, blocks, threshold);
+    MaskOf<P> fast = are_fast(g, speed, model, blocks, threshold);
+    if (threshold.corners_keep_springs && any(fast & (g.growth < P(1.0))))
+        fast = leave_corners_to_springs(fast, g, model, blocks);
     return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
 }
 }  // namespace hdem

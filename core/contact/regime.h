@@ -35,12 +35,18 @@ struct RegimeRule
     /// momentum to the rock at once and undamped, where springs let local damping and the rock behind take their part. So a tunnel in which blocks fall on
     /// standing rock moves as by springs alone.
     bool rock_keeps_springs = false;
+    /// A corner on a corner, of blocks that lie where they were (`drawn_share`), keeps its springs. Differs from the paper: such a contact has next to no length, so it stores
+    /// nothing and its threshold is 0, and an impulse at it is a rigid prop in rock that gives way elastically beside it. A hole in rock under stress moved a third too little.
+    bool corners_keep_springs = false;
     Closing closing = Closing::fast_points;
     double closing_speed =
         0.0;  ///< slower contacts give whole forces in each cycle: rock would take a third more time to come to rest [m/s]
 };
 
 inline constexpr double gentle_impact = 0.1;
+
+/// A block that has moved by less than this share of its size in its stage lies where it was [-].
+inline constexpr double drawn_share = 0.01;
 
 /// Inverse collision mass of a contact point along one axis, [Lee2025] Eq. (16), (A.15), (A.20) [1/kg]:
 ///

@@ -45,6 +45,16 @@ void set_margins(const Model& model, Blocks& blocks)
     }
 }
 
+namespace
+{
+/// A block that has left the model is held there (Simulation::hold_lost_blocks). What falls after it would hit it at great speed.
+bool is_held_far_outside(Index block, const Model& model, const Blocks& blocks)
+{
+    const BlockMotion& m = blocks.motion[block];
+    return !blocks.is_free(block) && !model.is_wall(block) && model.is_far_outside({m.x, m.y});
+}
+}  // namespace
+
 void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, std::vector<Box>& boxes)
 {
     const Shapes& shapes = model.shapes;
@@ -52,7 +62,7 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
     {
         const Index block = shapes.part_block[part];
         boxes[part] = empty_box;
-        if (blocks.present[block] == 0)
+        if (blocks.present[block] == 0 || is_held_far_outside(block, model, blocks))
             continue;
         const BlockMotion& m = blocks.motion[block];
         Vec2 lower(m.x, m.y), upper(m.x, m.y);

@@ -38,7 +38,7 @@ struct ForcePoint
 
 /// The ends of all contacts that can bear, in an order that follows the user's numbers and not places in memory.
 /// @param kept          laws that keep their strength
-/// @param corners_bear  contacts no longer than the length floor count too
+/// @param corners_bear  contacts no longer than the length floor count too, and those of one corner at more than 3 degrees to a side
 [[nodiscard]] std::vector<ForcePoint> force_points(const Model& model, const State& state, const std::vector<Index>& kept,
                                                    bool corners_bear);
 

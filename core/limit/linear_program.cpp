@@ -53,23 +53,38 @@ void LinearProgram::set_row(int row, double value)
 
 LinearProgram::Status LinearProgram::solve(int most_iterations)
 {
+    const Status status = attempt(most_iterations, Attempt::from_last_basis);
+    if (status != Status::gave_up || iterations_ >= most_iterations)
+        return status;
+    // Clp loses its way in degenerate programs now and then: others find it.
+    for (const Attempt other : {Attempt::anew, Attempt::anew_by_dual, Attempt::anew_scaled})
+        if (const Status again = attempt(most_iterations, other); again != Status::gave_up)
+            return again;
+    return Status::gave_up;
+}
+
+LinearProgram::Status LinearProgram::attempt(int most_iterations, Attempt how)
+{
     const auto columns = static_cast<int>(low_.size()), rows = static_cast<int>(row_value_.size());
     std::vector<unsigned char> basis;
-    if (clp_)
+    if (clp_ && how == Attempt::from_last_basis)
     {
         const unsigned char* const last = Clp_statusArray(clp_->model);
         basis.assign(last, last + columns + rows);
     }
     auto clp = std::make_unique<Clp>();
     Clp_setLogLevel(clp->model, 0);
-    Clp_scaling(clp->model,
-                0);  // of numbers that are round-off Clp would make great ones, and stop at a point that is not the best
+    // Of numbers that are round-off scaling would make great ones, and Clp would stop at a point that is not the best: only where nothing else helps.
+    Clp_scaling(clp->model, how == Attempt::anew_scaled ? 3 : 0);
     Clp_loadProblem(clp->model, columns, rows, begin_.data(), row_.data(), value_.data(), low_.data(), high_.data(),
                     cost_of_.data(), row_value_.data(), row_value_.data());
     Clp_setMaximumIterations(clp->model, most_iterations);
     if (!basis.empty())
         Clp_copyinStatus(clp->model, basis.data());
-    Clp_primal(clp->model, 0);
+    if (how == Attempt::anew_by_dual)
+        Clp_dual(clp->model, 0);
+    else
+        Clp_primal(clp->model, 0);
     clp_ = std::move(clp);
     iterations_ = Clp_numberIterations(clp_->model);
     cost_ = Clp_objectiveValue(clp_->model);

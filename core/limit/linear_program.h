@@ -41,6 +41,15 @@ class LinearProgram
     [[nodiscard]] int iterations() const { return iterations_; }
 
   private:
+    enum class Attempt
+    {
+        from_last_basis,
+        anew,
+        anew_by_dual,
+        anew_scaled
+    };
+    [[nodiscard]] Status attempt(int most_iterations, Attempt how);
+
     struct Clp;
     std::unique_ptr<Clp> clp_;
     std::vector<int> begin_{0}, row_;

@@ -5,6 +5,7 @@
 #include "core/model/boundary_def.h"
 #include "core/model/factor.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -32,6 +33,12 @@ struct BoundaryWall
 
     /// Unit vector into the domain [-].
     [[nodiscard]] Vec2 inward() const { return {-along.y(), along.x()}; }
+    /// Does a face lie on this edge of the domain?
+    [[nodiscard]] bool is_behind(const BoundaryFace& face) const
+    {
+        const auto is_on = [&](const Vec2& at) { return std::abs((at - start).dot(inward())) < 1e-6 * length; };
+        return is_on(face.from) && is_on(face.to);
+    }
 };
 
 /// Constant force of a traction on a block, at its centroid.

@@ -157,7 +157,8 @@ struct Model
 
     [[nodiscard]] Index blocks() const { return static_cast<Index>(mass.size()); }
     [[nodiscard]] bool is_wall(Index block) const { return mass[block] == 0.0; }  ///< of a [[boundary]]
-    [[nodiscard]] double size(Index block) const;                                 ///< square root of the area [m]
-    [[nodiscard]] Index find_block(const std::string& block_name) const;          ///< or no_index
+    [[nodiscard]] bool is_far_outside(const Vec2& at) const { return (at - centre).norm() > lost_beyond; }
+    [[nodiscard]] double size(Index block) const;                         ///< square root of the area [m]
+    [[nodiscard]] Index find_block(const std::string& block_name) const;  ///< or no_index
 };
 }  // namespace hdem

@@ -160,6 +160,6 @@ DisplacementReport report_displacements(const Model& model, const State& state)
 bool has_left(Index block, const Model& model, const Blocks& blocks)
 {
     const BlockMotion& motion = blocks.motion[block];
-    return blocks.present[block] != 0 && (Vec2(motion.x, motion.y) - model.centre).norm() > model.lost_beyond;
+    return blocks.present[block] != 0 && model.is_far_outside({motion.x, motion.y});
 }
 }  // namespace hdem

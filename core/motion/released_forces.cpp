@@ -1,5 +1,6 @@
 #include "core/motion/released_forces.h"
 
+#include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
 
 #include <algorithm>
@@ -91,6 +92,21 @@ void release_water(const std::vector<Triple>& before, State& state)
     state.released.clear();
     for (const auto& [block, force] : sums)
         state.released.push_back(force);
+}
+
+void hold_back_loads(const Model& model, State& state)
+{
+    std::vector<Triple> loads = constant_forces(model, state);
+    loads.resize(static_cast<std::size_t>(model.blocks()));
+    state.released.clear();
+    for (Index b = 0; b < model.blocks(); ++b)
+    {
+        if (!state.blocks.is_free(b) || state.blocks.present[b] == 0)
+            continue;
+        const Triple& load = loads[b];
+        state.released.push_back(
+            {b, -load.x - model.mass[b] * model.gravity.x(), -load.y - model.mass[b] * model.gravity.y(), -load.w});
+    }
 }
 
 std::int64_t released_until(const Model& model, const State& state)

@@ -1,5 +1,5 @@
 #pragma once
-/// What excavated blocks have given to those that stay, taken off over some cycles of the stage.
+/// What excavated blocks have given to those that stay, taken off over some cycles of the stage; and the weight of rock without stress, put on likewise.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -15,6 +15,10 @@ void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 
 /// What the water of the stage before gave, and that of the stage that begins does not: to the forces that the stage takes off over its relax_cycles.
 void release_water(const std::vector<Triple>& before, State& state);
+
+/// Weight, tractions on sides and water of rock that begins without stress, turned round: so they grow from nothing over the relax_cycles of the first stage. All
+/// at once they are felt up to 1.33 times under the default damping, and what breaks or slips by that does not go back.
+void hold_back_loads(const Model& model, State& state);
 
 /// The cycle from which on nothing is left of them, or the stage's relax_to.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);

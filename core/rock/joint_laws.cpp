@@ -11,6 +11,13 @@ namespace hdem
 {
 namespace
 {
+/// Stiffnesses that do not grow with the stress have no bound [Pa/m].
+double greatest_shear_stiffness(const JointDef& joint)
+{
+    return joint.shear_exponent.value_or(0.0) != 0.0 ? joint.greatest_stiffness
+                                                     : std::max(joint.greatest_stiffness, joint.shear_stiffness);
+}
+
 struct Curve
 {
     CurveKind kind = CurveKind::linear;
@@ -89,7 +96,7 @@ Law law_of(const JointDef& joint, const JointSurroundings& around, const JointNu
     case JointLaw::continuously_yielding:
         return law_with<ContinuouslyYielding>(ContinuouslyYieldingInput{.shear_stiffness = k,
                                                                         .shear_exponent = joint.shear_exponent.value_or(0.0),
-                                                                        .greatest_stiffness = joint.greatest_stiffness,
+                                                                        .greatest_stiffness = greatest_shear_stiffness(joint),
                                                                         .friction = phi,
                                                                         .first_friction = joint.mobilised_angle_deg,
                                                                         .roughness = joint.wear_length},
@@ -162,7 +169,7 @@ CoulombSlip slip_of(const JointDef& joint, const JointRow& row, const JointSurro
     }
     if (joint.law == JointLaw::continuously_yielding)
         slip.shear_stiffness = std::min(joint.shear_stiffness * power(stress, joint.shear_exponent.value_or(0.0)),
-                                        joint.greatest_stiffness);
+                                        greatest_shear_stiffness(joint));
     return slip;
 }
 

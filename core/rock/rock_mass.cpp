@@ -90,6 +90,22 @@ DrawnSet noted(const JointSetDef& set, const JointTraces& joints, const Polygon&
     return drawn;
 }
 
+/// Of the cuts of a set that may be refused without a word [-]
+constexpr double most_refused = 0.5;
+
+/// The rock mass would not be the one that was asked for: uncut rock is stronger than any joint.
+void warn_of_refused_cuts(const JointSetDef& set, std::size_t number, std::int64_t refused, std::int64_t cuts, RockMass& rock)
+{
+    if (static_cast<double>(refused) <= most_refused * static_cast<double>(refused + cuts))
+        return;
+    rock.warnings.push_back({Problem::Severity::warning, "joint_set[" + std::to_string(number) + "]",
+                             "joint set \"" + set.name + "\": " + std::to_string(refused) + " of " +
+                                 std::to_string(refused + cuts) +
+                                 " cuts of blocks were refused (a piece or an edge would be too small; the rock stays whole "
+                                 "there, and is stronger than with the joint). Reduce generator.smallest_block_area and "
+                                 "smallest_edge, or give a greater spacing."});
+}
+
 void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& regions, CutMass& mass, RockMass& rock)
 {
     rock.sets.resize(std::max(rock.sets.size(), def.joint_sets.size()));
@@ -107,7 +123,8 @@ void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& re
         const std::int64_t crossing = rock.sets[i].joints;
         rock.joints += crossing;
         warn_of_no_joints(set, i, crossing, rock);
-        const std::int64_t before = rock.cuts + rock.refused_cuts + rock.skipped_cuts;
+        const std::int64_t cuts = rock.cuts, refused = rock.refused_cuts;
+        const std::int64_t before = cuts + refused + rock.skipped_cuts;
         const bool is_limited = !set.region.empty() || !set.outside.empty();
         std::function<bool(const CutBlock&)> is_meant;
         if (is_limited)
@@ -115,6 +132,7 @@ void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& re
             is_meant = [&](const CutBlock& block) { return regions.is_meant(set, block); };
         }
         cut_blocks(mass, joints, set, def.generator, rock, is_meant);
+        warn_of_refused_cuts(set, i, rock.refused_cuts - refused, rock.cuts - cuts, rock);
         if (is_limited && crossing > 0 && rock.cuts + rock.refused_cuts + rock.skipped_cuts == before)
         {
             rock.warnings.push_back(

@@ -98,6 +98,7 @@ StageRules resolve_rules(const StageSetting& s)
     const bool whole_cycles = s.preset == DampingPreset::paper;
     return {.contact = {.law = law_of(s.method),
                         .rock_keeps_springs = looks_for_rest,
+                        .corners_keep_springs = s.preset == DampingPreset::automatic,
                         .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
                         .closing_speed = settling},
             .islands = islands_of(s.preset, looks_for_rest),

@@ -196,9 +196,23 @@ void lock_in_stress(const Model& model, State& state, Index i)
     contacts.put(i, contact);
 }
 
+namespace
+{
+/// On a joint as drawn [Pa].
+double greatest_traction(const Model& model, const State& state)
+{
+    double greatest = 0.0;
+    for (Index i = 0; i < state.contacts.size(); ++i)
+        if (const DrawnContact drawn = drawn_contact(model, state, i); lie_on_each_other(drawn.touch, drawn.floor))
+            for (const Vec2& force : drawn.force)
+                greatest = std::max(greatest, 2.0 * force.norm() / drawn.touch.length);
+    return greatest;
+}
+}  // namespace
+
 InsituSummary summarise_insitu(const Model& model, const State& state)
 {
-    constexpr double rounding = 1e-9;
+    const double rounding = 1e-9 * greatest_traction(model, state);
     InsituSummary summary{.field = field_unbalance(model.insitu, model.insitu.density, model.gravity), .sets = {}};
     std::vector<Acting> acting(static_cast<std::size_t>(model.blocks()));
     std::map<std::int32_t, StressedSet> sets;
@@ -229,7 +243,7 @@ InsituSummary summarise_insitu(const Model& model, const State& state)
             acting[contacts.ref[i]].add(-on_inc, p.ref_t * normal + p.ref_m * shear);
             const auto [strength, tension] = strengths(model.joints, contacts.law[i], drawn.force[k].y(), length);
             const double used = std::abs(drawn.force[k].x());
-            above = above || used > strength * (1.0 + rounding) || drawn.force[k].y() < -tension * (1.0 + rounding);
+            above = above || used > strength + rounding * length || drawn.force[k].y() < -tension - rounding * length;
             if (strength > 0.0)
                 set.most_used = std::max(set.most_used, used / strength);
         }

@@ -210,8 +210,8 @@ void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<con
                   std::span<double> tension, std::span<double> reserve, BoltRecord& record)
 {
     const Bar bar(bolt, moved, gone, memory.segment);
-    const double unit = bolt.bond_strength * bolt.segments.front().length;
-    balance(bar, memory.node, 1e-9 * std::max(unit, record.force));
+    const double round_off = 1e-15 * bolt.section_stiffness;
+    balance(bar, memory.node, std::max(round_off, 1e-9 * record.force));
     record.stored = record.force = 0.0;
     for (std::size_t e = 0; e < bolt.segments.size(); ++e)
     {

@@ -15,6 +15,7 @@ namespace
 constexpr double behind = 1e-3;       // of the mean block size: so far in the rock its block is looked for
 constexpr double least_share = 0.02;  // of the longest segment: no shorter ones
 constexpr double thicknesses = 2.0;   // the longest segment, when it is not given
+constexpr double lengths = 0.15;      // or this share of the length over which a point load bends it
 
 /// Where along a straight piece segments begin, with the block behind each; the last has none.
 struct Cut
@@ -71,7 +72,11 @@ class LinerMaker
     /// An arc that begins at a corner leaves a piece of round-off before it. Its beam would be so much stiffer than all others that nothing is left of their forces.
     [[nodiscard]] Polygon without_short_pieces(const Polygon& stretch) const
     {
-        const double least = least_share * longest_;
+        double length = 0.0;
+        for (std::size_t i = 1; i < stretch.size(); ++i)
+            length += (stretch[i] - stretch[i - 1]).norm();
+        const double least = least_share *
+                             std::min(longest_, length / static_cast<double>(std::max<std::size_t>(stretch.size(), 2) - 1));
         Polygon kept{stretch.front()};
         for (const Vec2& point : stretch)
             if ((point - kept.back()).norm() >= least)
@@ -166,7 +171,10 @@ class LinerMaker
 
 double longest_segment(const LinerDef& def)
 {
-    return def.segment.value_or(thicknesses * def.thickness);
+    if (def.segment)
+        return *def.segment;
+    const double t = def.thickness, bending = def.modulus * def.inertia.value_or(t * t * t / 12.0);
+    return std::min(thicknesses * t, lengths * std::pow(4.0 * bending / def.normal_stiffness, 0.25));
 }
 
 std::optional<Liner> resolve_liner(const LinerPlan& plan, const Blocks& blocks, const Model& model)

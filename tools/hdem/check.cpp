@@ -1,5 +1,6 @@
 /// hdem check: read and generate only.
 
+#include "core/detection/edge_touch.h"
 #include "core/stress/insitu_stress.h"
 #include "io/atomic_file.h"
 #include "io/block_shapes.h"
@@ -30,6 +31,43 @@ void list_blocks(const Model& model, const State& state)
             state.blocks.is_free(i) ? "free" : "fixed",
             model.excavation[i] == no_index ? "" : ", in " + model.excavation_names[model.excavation[i]]);
     }
+}
+
+/// Of all blocks, in the axes of the case: so that millimetres are seen that were meant as metres.
+void describe_extent(const Model& model, const State& state)
+{
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (Index part = 0; part < model.shapes.parts(); ++part)
+    {
+        const BlockMotion& at = state.blocks.motion[model.shapes.part_block[part]];
+        for (Index v = model.shapes.vertex_begin[part]; v < model.shapes.vertex_begin[part + 1]; ++v)
+        {
+            const Vec2 point = Vec2(at.x, at.y) + model.shapes.vertex[v];  // nothing has turned yet
+            low = low.cwiseMin(point);
+            high = high.cwiseMax(point);
+        }
+    }
+    say("extent            x {:.6g} to {:.6g} m, y {:.6g} to {:.6g} m; a block has {:.3g} m2 on average\n",
+        low.x() + model.origin.x(), high.x() + model.origin.x(), low.y() + model.origin.y(), high.y() + model.origin.y(),
+        model.mean_size * model.mean_size);
+}
+
+/// Blocks that touch in a corner alone, with an edge that leaves it over the other's at an angle.
+Index count_steep_corners(const Model& model, const State& state)
+{
+    constexpr double steep = 0.05, near = 1e-9;
+    Index count = 0;
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        const Index ref = state.contacts.ref[i], inc = state.contacts.inc[i];
+        const EdgeTouch touch = touch_edges(state.contacts.edges(i), state.blocks.motion[ref], state.blocks.motion[inc]);
+        const double size = std::min(model.size(ref), model.size(inc));
+        if (touch.length < 1e-3 * size || std::abs(touch.slope) < steep)
+            continue;
+        for (const TouchPoint& point : touch.point)
+            count += std::abs(point.overlap) < near * size && std::abs(point.inside) < near * size ? 1 : 0;
+    }
+    return count;
 }
 
 void write_blocks(const std::string& file, const CaseDef& def)
@@ -81,10 +119,16 @@ int check_command(const CheckOptions& options)
     const RockMass& rock = loaded.setup.rock;
     say("blocks            {} ({} free)\n", model.blocks(), free);
     say("smallest free     {:.6g} kg\n", smallest);
+    describe_extent(model, state);
     if (rock.joints > 0)
         say("joints            {}\n", describe_cuts(rock));
     for (const std::string& line : describe_sets(rock))
         say("                  {}\n", line);
+    if (const Index corners = count_steep_corners(model, state); corners > 0)
+        say("corners           {} pairs of blocks touch in a corner alone, where three joints cross in a point. The rock is "
+            "stiffer "
+            "there than its joints say: give joint sets different origins\n",
+            corners);
     if (!options.blocks_file.empty())
         write_blocks(options.blocks_file, loaded.file.def);
     say("time step         {:.6g} s\n", model.time_step);

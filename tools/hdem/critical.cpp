@@ -38,6 +38,10 @@ struct Run
 {
     double at = 0.0;
     ConditionResult result;
+
+    /// What is not at rest when its time is over may be on its way to the limit: it counts as failed, as in hdem fos.
+    [[nodiscard]] bool fails() const { return result.fails || result.still_moves; }
+    [[nodiscard]] const char* verdict() const { return result.fails ? "fails" : (result.still_moves ? "undecided" : "stands"); }
 };
 
 class Critical
@@ -57,7 +61,7 @@ class Critical
     /// Between the ends of the range, one of which stands.
     Bracket find()
     {
-        log_.line(fmt::format("{:>14}  {:<7} {:>9}  greatest {}", vary_.key, "", "cycles", quantity()));
+        log_.line(fmt::format("{:>14}  {:<9} {:>9}  greatest {}", vary_.key, "", "cycles", quantity()));
         const std::array<bool, 2> stands = look_at_ends();
         show(false);
         if (stands[0] == stands[1])
@@ -75,7 +79,8 @@ class Critical
         Json all = Json::array();
         for (const Run& run : counted_)
             all.push_back({{"value", run.at},
-                           {"fails", run.result.fails},
+                           {"fails", run.fails()},
+                           {"verdict", run.verdict()},
                            {"greatest", run.result.greatest},
                            {"block", printable(run.result.block)},
                            {"cycles", run.result.cycles},
@@ -83,18 +88,25 @@ class Critical
         return all;
     }
 
-    /// Of runs that stand only because they were too short.
+    /// Of runs that were too short.
     [[nodiscard]] std::vector<std::string> warnings() const
     {
-        std::vector<std::string> values;
+        std::vector<std::string> moving, others;
         for (const Run& run : counted_)
             if (!run.result.met_ends)
-                values.push_back(fmt::format("{:.6g}", run.at));
-        if (values.empty())
-            return {};
-        return {fmt::format("max_cycles ended a stage before it met its end, and the run counts as one that stands, at {} = {}. "
-                            "Blocks may still be on their way there. Give more max_cycles.",
-                            vary_.key, fmt::join(values, ", "))};
+                (run.result.still_moves ? moving : others).push_back(fmt::format("{:.6g}", run.at));
+        std::vector<std::string> warnings;
+        if (!moving.empty())
+            warnings.push_back(
+                fmt::format("max_cycles ended a stage while a block in question was not at rest, and the run counts as "
+                            "one that fails, at {} = {}. Give more max_cycles.",
+                            vary_.key, fmt::join(moving, ", ")));
+        if (!others.empty())
+            warnings.push_back(
+                fmt::format("max_cycles ended a stage before it met its end, and the run counts as one that stands, since "
+                            "the blocks in question are at rest, at {} = {}. Give more max_cycles.",
+                            vary_.key, fmt::join(others, ", ")));
+        return warnings;
     }
 
     [[nodiscard]] std::stop_token stopped() const { return signals_.token(); }
@@ -146,7 +158,8 @@ class Critical
                           .greatest = known->value("greatest", 0.0),
                           .block = known->value("block", ""),
                           .cycles = known->value("cycles", std::int64_t{0}),
-                          .met_ends = known->value("met_ends", true)};
+                          .met_ends = known->value("met_ends", true),
+                          .still_moves = known->value("still_moves", false)};
         else
         {
             std::vector<Override> overrides;
@@ -176,11 +189,12 @@ class Critical
                        {"greatest", run.result.greatest},
                        {"block", run.result.block},
                        {"cycles", run.result.cycles},
-                       {"met_ends", run.result.met_ends}});
+                       {"met_ends", run.result.met_ends},
+                       {"still_moves", run.result.still_moves}});
         }
         const std::lock_guard lock(mutex_);
         ended_[x] = run;
-        return !run.result.fails;
+        return !run.fails();
     }
 
     /// Of a pair the one farther from what stands counts only where the nearer one stands.
@@ -189,17 +203,16 @@ class Critical
         std::vector<Run> pair;
         for (const auto& [x, run] : ended_)
             pair.push_back(run);
-        const bool is_turned = !counted_.empty() && counted_.front().result.fails;
+        const bool is_turned = !counted_.empty() && counted_.front().fails();
         if (only_counting && is_turned)
             std::ranges::reverse(pair);
         for (const Run& run : pair)
         {
             counted_.push_back(run);
-            log_.line(fmt::format("{:>14.6g}  {:<7} {:>9}  {:.4g}{}{}", run.at, run.result.fails ? "fails" : "stands",
-                                  run.result.cycles, run.result.greatest,
-                                  run.result.block.empty() ? "" : " (" + printable(run.result.block) + ")",
+            log_.line(fmt::format("{:>14.6g}  {:<9} {:>9}  {:.4g}{}{}", run.at, run.verdict(), run.result.cycles,
+                                  run.result.greatest, run.result.block.empty() ? "" : " (" + printable(run.result.block) + ")",
                                   run.result.met_ends ? "" : ", max_cycles reached"));
-            if (only_counting && run.result.fails)
+            if (only_counting && run.fails())
                 break;
         }
         ended_.clear();

@@ -1,5 +1,6 @@
 #include "tools/hdem/fos_report.h"
 
+#include "core/contact/contact_report.h"
 #include "core/limit/force_points.h"
 #include "core/stage/rules.h"
 #include "core/support/bolt_strength.h"
@@ -158,6 +159,24 @@ std::string factor_of_what(const FosOutcome& outcome)
         some_of(outcome.falls_anyway));
 }
 
+/// Contacts of rock that was whole at first and has broken.
+Index count_broken(const Moment& moment)
+{
+    const auto& [model, state] = moment;
+    Index count = 0;
+    for (Index i = 0; i < state.contacts.size(); ++i)
+    {
+        const Contact contact = state.contacts.get(i);
+        const JointTable& joints = model.joints;
+        if (!is_closed_contact(state, i) || have_met(joints, contact.law) || !joints.has_memory(contact.law) ||
+            joints.rows[contact.law].begins_broken)
+            continue;
+        count += std::ranges::any_of(contact.point, [&](const PointHistory& point)
+                                     { return broken_share(joints, contact.law, point.memory) > 0.0; });
+    }
+    return count;
+}
+
 std::string why_above_bound(const SafetyFactor& factor, const Model& model)
 {
     if (!all_let_fall(factor).empty())
@@ -182,6 +201,17 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
             "these blocks moved far (convergence.detached_distance) in stages before the last one: {}. The factor is that of the "
             "rock as it lies now. For theirs, let the run end with the stage in which they move.",
             some_of(outcome.gave_way_before)));
+    if (!outcome.falls_anyway.empty() && outcome.gave_way.empty())
+        warnings.push_back(
+            fmt::format("these blocks stood in the last stage, and fall by springs even with a thousand times their "
+                        "strength: {}. Impulses find a balance that springs do not. Begin with method = \"force\" or "
+                        "\"hybrid\".",
+                        some_of(outcome.falls_anyway)));
+    if (const Index broken = count_broken(reference); broken > 0)
+        warnings.push_back(fmt::format("joints had broken at {} contacts before the trials began. The factor is that of the rock "
+                                       "with them. A weight that acts at "
+                                       "once breaks more than one that grows: give the first stage relax_cycles, or give [insitu].",
+                                       broken));
     if (!outcome.gave_way.empty() && outcome.def.begin == FactorStart::last_stage && f.as_given.stands && *f.as_given.stands > 1.0)
         warnings.push_back(
             "they fell by their own strength, but stand at a factor above 1 where the rock first comes to rest under great "

@@ -67,9 +67,7 @@ FosAnswer find_factor(const Moment& last, const FosQuestion& question)
     outcome.gave_way = names_of_blocks(last.model, reference.gave_way);
     outcome.gave_way_before = names_of_blocks(last.model, blocks_that_had_moved(last, outcome.def.least_size));
     const Model& model = reference.moment.model;
-    if (const std::vector<Index> falling = reference.is_anew ? blocks_that_gave_way(reference.moment, true, outcome.def.least_size)
-                                                             : std::vector<Index>{};
-        !falling.empty())
+    if (const std::vector<Index> falling = blocks_that_gave_way(reference.moment, true, outcome.def.least_size); !falling.empty())
     {
         outcome.falls_anyway = names_of_blocks(model, falling);
         outcome.bound.why = "blocks fall at any strength";

@@ -28,9 +28,12 @@ std::unique_ptr<RunRecorder> make_recorder(const RunStart& start, const RunOptio
 
 std::unique_ptr<Log> begin_log(const RunStart& start, const RunOptions& options)
 {
-    clear_for_run(start, options.overwrite);
-    return std::make_unique<Log>(start.folder / "run.log", options.quiet,
-                                 start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
+    const std::vector<std::string> notes = clear_for_run(start, options.overwrite);
+    auto log = std::make_unique<Log>(start.folder / "run.log", options.quiet,
+                                     start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
+    for (const std::string& note : notes)
+        log->line(note);
+    return log;
 }
 
 RunFiles::RunFiles(const RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin)

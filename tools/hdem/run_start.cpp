@@ -217,11 +217,12 @@ RunStart read_moment(const fs::path& checkpoint)
     return start;
 }
 
-void clear_for_run(const RunStart& start, bool overwrite)
+std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite)
 {
     const fs::path& folder = start.folder;
     if (start.restarted && !start.moved)
-        return;
+        return {};
+    std::vector<std::string> notes;
     const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
     if (!overwrite && fs::exists(checkpoints[0]))
     {
@@ -240,11 +241,15 @@ void clear_for_run(const RunStart& start, bool overwrite)
                 "{}: (the run in this folder was cut short, its last checkpoint is of cycle {}). Go on with --restart {}, "
                 "write to another folder with -o, or begin anew with --overwrite.",
                 checkpoints[0].string(), reader->cycle(), folder.string()));
+        if (reader->record().case_text != start.record.case_text)
+            notes.push_back(fmt::format("note      the results of {} in this folder, begun at {}, are replaced",
+                                        printable(reader->record().case_file, 200), reader->record().begin));
     }
     remove_file(folder / "summary.json");  // first what tells of the others
     for (const fs::path& checkpoint : checkpoints)
         remove_file(checkpoint);
     remove_file(folder / "results.h5");  // it names frames that are about to go
     remove_frames(folder);
+    return notes;
 }
 }  // namespace hdem

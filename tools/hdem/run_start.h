@@ -35,5 +35,6 @@ RunStart read_moment(const std::filesystem::path& checkpoint);
 
 /// Throws InputError when the folder holds another run that was cut short and nothing says that it may go. Removes checkpoints and results of
 /// an older run: they must not be taken for those of this one. A run that goes on in its folder finds it as it left it.
-void clear_for_run(const RunStart& start, bool overwrite);
+/// @return what the user should know: that the results of another case are gone
+[[nodiscard]] std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite);
 }  // namespace hdem

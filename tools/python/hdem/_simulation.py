@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -77,13 +78,21 @@ class Simulation(_core.Run):
         motions assigned. An exception of it, and Ctrl-C (KeyboardInterrupt), end the run between two cycles; the state is whole, and run() goes
         on from there. Where there is a folder a checkpoint is then written.
         Returns all stages that have begun, each a dict: name, first_cycle, cycles, time [s] of the run at its end or now, is_over, converged,
-        met_end (an end that the case asks for), not_at_rest (names of blocks), to_come (texts). Raises RunError where the run cannot go on.
+        met_end (an end that the case asks for), not_at_rest (names of blocks), to_come (texts). Raises RunError where the run cannot go on, and warns
+        (RuntimeWarning) of a stage that ended without the end that the case asks for: where the program ends with exit code 4.
         """
         if callback is not None and not callable(callback):
             raise TypeError(f"run(): callback must be a function of one simulation, not {callback!r:.80}")
         if every is None:
             raise TypeError("every = None: a whole number is needed")
-        return self._run(whole("cycles", cycles), whole("stages", stages), callback, whole("every", every))
+        over = sum(stage["is_over"] for stage in self.results)
+        stages_now = self._run(whole("cycles", cycles), whole("stages", stages), callback, whole("every", every))
+        for stage in stages_now[over:]:
+            if stage["is_over"] and not stage["met_end"]:
+                moving = f", not at rest: {', '.join(stage['not_at_rest'][:5])}" if stage["not_at_rest"] else ""
+                warnings.warn(f"stage {stage['name']!r} ended after {stage['cycles']} cycles without the end that it asks for{moving}",
+                              RuntimeWarning, stacklevel=2)
+        return stages_now
 
     def contacts(self, also_open: bool = False) -> Any:
         """Points of contacts as a structured array, a copy; closed ones, or all of faces near each other.

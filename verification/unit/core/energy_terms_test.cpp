@@ -135,6 +135,28 @@ TEST(EnergyTerms, BlocksThatLeaveTakeWhatTheirJointStores)
     EXPECT_LT(ledger_residual(run), 1e-9);
 }
 
+/// It is held where it is. What comes after it does not hit it.
+TEST(EnergyTerms, NothingMeetsABlockThatHasLeft)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_block(scene, "first", scenes::rectangle({0.0, 0.0}, {1.0, 1.0})).velocity = {50.0, 0.0};
+    scenes::add_block(scene, "second", scenes::rectangle({-1.5, 0.0}, {-0.5, 1.0})).velocity = {50.0, 0.0};
+    scene.joints = {coulomb()};
+    scene.gravity = {0.0, 0.0};
+    scene.convergence.lost_distance = 1.0;
+    scene.stages = {{.name = "leave", .until_converged = true}};
+    CaseRun run(scene);
+    while (run.displacement("first").x() < 2.0)
+        run.advance();
+    run.simulation.hold_lost_blocks();
+    ASSERT_FALSE(run.state().blocks.is_free(run.slot("first")));
+    ASSERT_TRUE(run.state().blocks.is_free(run.slot("second")));
+    while (run.displacement("second").x() < 4.0)
+        run.advance();
+    EXPECT_EQ(run.state().contacts.size(), 0);
+    EXPECT_EQ(run.state().blocks.motion[run.slot("second")].vx, 50.0);
+}
+
 /// What [insitu] has stored stands apart from what moves at the start.
 TEST(EnergyTerms, InsituIsWhatJointsHoldAtTheStart)
 {

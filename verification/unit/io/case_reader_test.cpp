@@ -14,6 +14,7 @@ namespace
 {
 using test::read;
 using test::two_blocks;
+using test::with;
 using testing::ElementsAre;
 
 TEST(CaseReader, LeavesWhatIsNotGivenAtItsDefault)
@@ -142,6 +143,77 @@ TEST(CaseReader, WarnsOfAsperitiesThatAreSteeperThanTheirFriction)
     EXPECT_THAT(warnings(10.0), testing::HasSubstr("Give no more than the friction angle"));
 }
 
+TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
+{
+    const auto warnings = [](const std::string& text)
+    {
+        std::string texts;
+        for (const Problem& warning : read_case_text(text, "case.toml").warnings)
+            texts += warning.text + '\n';
+        return texts;
+    };
+    const std::string bolt = two_blocks + "[[bolt]]\nfrom = [0.5, 0.5]\nto = [0.5, -0.5]\n";
+    const std::string stress = two_blocks + "[insitu]\n";
+    struct Slip
+    {
+        std::string text, says;
+    };
+    const Slip slips[] = {
+        {with(two_blocks, "2700.0", "2.7"),
+         "2:11: warning: material \"rock\": density = 2.7 (rock has 1500 to 3500 kg/m3). Give it in"},
+        {with(two_blocks, "2700.0", "2.7e6"), "density = 2.7e+06 (rock has"},
+        {with(two_blocks, "= 30.0", "= 0.52"), "6:22: warning: joint \"default\": friction_angle_deg = 0.52 (hardly any friction"},
+        {with(two_blocks, "7e9", "7"),
+         "4:20: warning: joint \"default\": normal_stiffness = 7 (so soft that the weight of a block presses it "
+         "into the next one by 3.8e+03 of its height). Give it in Pa/m: at least 3e+07,"},
+        {with(two_blocks, "7e9", "2.6e7"), "by 0.001 of its height"},
+        {bolt + "area = 380\n", "19:8: warning: bolt \"bolt1\": area = 380 (a bar with a diameter of 22 m). Give it in m2"},
+        {bolt + "area = 4.9e-4\nmodulus = 200\n", "modulus = 200 (steel has 2e11 Pa"},
+        {bolt + "area = 4.9e-4\nyield = 200\n", "yield = 200 (a stress of 0.41 MPa in the bar). Give the force in N"},
+        {stress + "stress = [1e6, 2e6, 0]\n", "17:10: warning: [insitu]: stress = [1e+06, 2e+06, 0] (tension in all directions"},
+        {stress + "surface = -150\nratio = 0.7\n", "17:11: warning: [insitu]: surface = -150 (all rock lies above it"},
+        {stress + "surface = 150\nratio = 70\n", "18:9: warning: [insitu]: ratio = 70 ("}};
+    for (const Slip& slip : slips)
+        EXPECT_THAT(warnings(slip.text), testing::HasSubstr(slip.says));
+    const std::string meant[] = {two_blocks,
+                                 with(two_blocks, "2700.0", "7850"),
+                                 with(two_blocks, "7e9", "3e7"),
+                                 with(two_blocks, "= 30.0", "= 0"),
+                                 with(two_blocks, "= 30.0", "= 2"),
+                                 bolt + "area = 4.9e-4\nyield = 2e5\n",
+                                 stress + "stress = [-1e6, 1e5, 0]\n",
+                                 stress + "surface = 150\nratio = 3\n"};
+    for (const std::string& text : meant)
+        EXPECT_EQ(warnings(text), "") << text;
+}
+
+/// Local damping lets a weight that acts at once press up to a third more than it weighs.
+TEST(CaseReader, WarnsOfJointsThatAWeightBreaksThatActsAtOnce)
+{
+    const auto warnings = [](const std::string& text)
+    {
+        std::string texts;
+        for (const Problem& warning : read_case_text(text, "case.toml").warnings)
+            texts += warning.text + '\n';
+        return texts;
+    };
+    const std::string rest = with(two_blocks, "cycles = 10", "until = \"converged\"");
+    const auto joint = [&](const std::string& keys) { return with(rest, "= 30.0\n", "= 30.0\n" + keys); };
+    EXPECT_THAT(
+        warnings(joint("cohesion = 1e5\ntension = 3e4\n")),
+        testing::HasSubstr("warning: joint \"default\": tension (breaks for good, and stage \"stage1\" begins with rock without "
+                           "stress: the weight that acts at once is felt up to 1.33 times until the rock is at rest). Let "
+                           "the weight grow: relax_cycles = 5000 in that stage; or give [insitu]."));
+    EXPECT_THAT(warnings(joint("cohesion = 3e4\nresidual_cohesion = 0\n")),
+                testing::HasSubstr("residual_cohesion (breaks for good"));
+    EXPECT_EQ(warnings(joint("cohesion = 3e4\n")), "");
+    EXPECT_EQ(warnings(joint("cohesion = 1e5\ntension = 3e4\n") + "set = [\"joint.default.cohesion=1e9\"]\n"), "");
+    EXPECT_EQ(warnings(joint("cohesion = 1e5\ntension = 3e4\n") + "relax_cycles = 100\n"), "");
+    EXPECT_EQ(warnings(joint("cohesion = 1e5\ntension = 3e4\n") + "[insitu]\nstress = [-1e6, -1e6, 0]\n"), "");
+    EXPECT_EQ(warnings(joint("cohesion = 1e5\ntension = 3e4\n") + "[gravity]\nvector = [0, 0]\n"), "");
+    EXPECT_EQ(warnings(with(two_blocks, "= 30.0\n", "= 30.0\ncohesion = 1e5\ntension = 3e4\n")), "");
+}
+
 TEST(CaseReader, WarnsAboutAShareOfTheStableStepThatNoStageTakes)
 {
     const auto warnings = [](const std::string& stage, const std::string& more = "")
@@ -241,7 +313,9 @@ TEST(ShippedCases, AreLegal)
             ++cases;
             try
             {
-                EXPECT_TRUE(read_case_file(entry.path()).warnings.empty());
+                const bool has_foam = entry.path().filename() == "known_sink.toml" || entry.path().filename() == "blocks.toml";
+                for (const Problem& warning : read_case_file(entry.path()).warnings)
+                    EXPECT_TRUE(has_foam) << warning.text;
             }
             catch (const InputError& error)
             {

@@ -73,7 +73,8 @@ TEST(WaterErrors, ALevelMayComeSlowlyWithoutAnExcavation)
     EXPECT_THAT(problems_of(head + "water_level = 1.0\n" + slow + water), testing::IsEmpty());
     EXPECT_THAT(problems_of(head + "water_table = [[0, 3], [4, 2]]\n" + slow + "[water]\ntable = [[0, 1], [4, 2]]\n"),
                 testing::IsEmpty());
-    expect_one_problem(slow + water, "13:16: stage \"stand\": relax_cycles = 5", "no water changes");
+    expect_one_problem(slow + water + "[insitu]\nsurface = 4.0\nratio = 1.0\n", "13:16: stage \"stand\": relax_cycles = 5",
+                       "no water changes");
 }
 
 /// Water that would be missing silently.

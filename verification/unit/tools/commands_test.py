@@ -100,6 +100,43 @@ class Info(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
 
 
+class Check(unittest.TestCase):
+    def test_says_how_large_the_model_is(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_commands_test_") as scratch:
+            case = Path(scratch) / "small.toml"
+            case.write_text(small_case.CASE)
+            code, said = hdem("check", case)
+            self.assertEqual(code, 0, said)
+            self.assertIn("extent            x -1 to 9 m, y -1 to 2 m; a block has 3.75 m2 on average", said)
+
+
+    def test_tells_of_corners_that_touch_in_a_point(self):
+        sets = "".join(f"[[joint_set]]\ndip_deg = {dip}\nspacing = 1.0\n{origin}" for dip, origin in ((0, ""), (60, ""), (-60, "ORIGIN\n")))
+        rock = small_case.ROCK + "[domain]\nwidth = 6\nheight = 6\nfixed = [\"bottom\"]\n[[stage]]\ncycles = 1\n" + sets
+        with tempfile.TemporaryDirectory(prefix="hdem_commands_test_") as scratch:
+            case = Path(scratch) / "rock.toml"
+            for origin, is_told in (("", True), ("origin = [3.2, 3.0]", False)):
+                case.write_text(rock.replace("ORIGIN", origin))
+                code, said = hdem("check", case)
+                self.assertEqual(code, 0, said)
+                self.assertEqual("pairs of blocks touch in a corner alone" in said, is_told, said)
+
+
+class FolderOfAnotherCase(unittest.TestCase):
+    def test_is_named_when_its_results_go(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_commands_test_") as scratch:
+            first, second, out = (Path(scratch) / name for name in ("first.toml", "second.toml", "out"))
+            first.write_text(small_case.CASE)
+            second.write_text(small_case.CASE + "# another\n")
+            for case, is_told in ((first, False), (first, False), (second, True), (second, False)):
+                code, said = hdem("run", case, "-o", out)
+                self.assertEqual(code, 0, said)
+                self.assertEqual("note      the results of " in said, is_told, said)
+                if is_told:
+                    self.assertIn(f"the results of {first} in this folder, begun at 2", said)
+                    self.assertIn("note      the results of ", (out / "run.log").read_text())
+
+
 class Version(unittest.TestCase):
     def test_has_the_facts_of_the_build(self):
         code, said = hdem("--version")

@@ -211,9 +211,9 @@ until = "converged"
         text = hdem(*arguments, "--set", "stage[0].max_cycles=1200")
         found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
         short = [trial["value"] for trial in found["trials"] if not trial["met_ends"]]
-        self.assertGreater(found["critical"], 41.0, "slow slabs had no time")
-        self.assertTrue(short and min(short) > 39.0, short)
-        self.assertIn("warning: max_cycles ended a stage before it met its end", text)
+        self.assertLess(found["critical"], 40.1, "slow slabs had no time, and are no proof that the slope stands")
+        self.assertTrue(short and all(trial["verdict"] == "undecided" and trial["fails"] for trial in found["trials"] if not trial["met_ends"]), found["trials"])
+        self.assertIn("warning: max_cycles ended a stage while a block in question was not at rest", text)
         self.assertIn(f"{short[0]:.6g}", found["warnings"][0])
         self.assertEqual(hdem(*arguments, "--set", "stage[0].max_cycles=1200"), text, "also of trials that are remembered")
         hdem(*arguments)

@@ -244,6 +244,16 @@ def test_a_case_is_the_same_in_another_process_whatever_has_become_of_its_files(
         assert again.file == "case.toml" and hdem.Simulation(again, threads=1).state_hash == hdem.Simulation(case, threads=1).state_hash
 
 
+def test_a_stage_that_does_not_reach_its_end_is_warned_of_once(recwarn):
+    run = column(stage=[{"name": "rest", "until": "converged", "max_cycles": 20}, {"cycles": 10}])
+    with pytest.warns(RuntimeWarning, match="stage 'rest' ended after 20 cycles without the end"):
+        run.run(stages=1)
+    recwarn.clear()
+    run.run()
+    run.run()
+    assert not recwarn.list
+
+
 @pytest.mark.parametrize("stage_first", [True, False])
 def test_forces_on_rock_at_rest_are_in_the_case_with_their_stage(tmp_path, stage_first):
     """A stage that looks for rest would wait for a load of which only the cycle is known."""

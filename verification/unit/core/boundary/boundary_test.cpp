@@ -61,23 +61,27 @@ TEST(Boundary, StressIsThatOfTheBlocksAtTheSide)
 /// 3 MPa at y = 4 m, 0.2 MPa less a metre upwards, and a shear that grows upwards: force and moment of the whole side.
 TEST(Boundary, StressMayChangeWithDepth)
 {
-    CaseDef scene = square_pattern(6.0, 10.0);
-    scene.domain.fixed = {"left"};
-    scene.boundaries = {side("right", BoundaryKind::stress)};
-    scene.boundaries[0].stress = Vec2(3e6, 0.0);
-    scene.boundaries[0].stress_gradient = {-2e5, 1e4};
-    scene.boundaries[0].stress_height = scene.domain.origin.y() + 4.0;
-    const CaseRun run(scene);
-    const Vec2 foot = scene.domain.origin + Vec2(6.0, 0.0) - run.model().origin;  // of the side
-    Triple sum;
-    for (const BoundaryForce& force : run.model().boundaries[0].forces)
+    for (const double height : {0.0, 1000.0})  // far away rock is moved to the origin of the model
     {
-        const BlockMotion& m = run.state().blocks.motion[force.block];
-        sum = {sum.x + force.x, sum.y + force.y, sum.w + force.moment + cross(Vec2(m.x, m.y) - foot, Vec2(force.x, force.y))};
+        CaseDef scene = square_pattern(6.0, 10.0);
+        scene.domain.origin.y() += height;
+        scene.domain.fixed = {"left"};
+        scene.boundaries = {side("right", BoundaryKind::stress)};
+        scene.boundaries[0].stress = Vec2(3e6, 0.0);
+        scene.boundaries[0].stress_gradient = {-2e5, 1e4};
+        scene.boundaries[0].stress_height = scene.domain.origin.y() + 4.0;
+        const CaseRun run(scene);
+        const Vec2 foot = scene.domain.origin + Vec2(6.0, 0.0) - run.model().origin;  // of the side
+        Triple sum;
+        for (const BoundaryForce& force : run.model().boundaries[0].forces)
+        {
+            const BlockMotion& m = run.state().blocks.motion[force.block];
+            sum = {sum.x + force.x, sum.y + force.y, sum.w + force.moment + cross(Vec2(m.x, m.y) - foot, Vec2(force.x, force.y))};
+        }
+        EXPECT_NEAR(sum.x, -(3e7 - 2e5 * (50.0 - 40.0)), 1.0) << height;
+        EXPECT_NEAR(sum.y, 1e4 * (50.0 - 40.0), 1.0) << height;
+        EXPECT_NEAR(sum.w, 3.8e6 * 50.0 - 2e5 * 1000.0 / 3.0, 10.0) << height;
     }
-    EXPECT_NEAR(sum.x, -(3e7 - 2e5 * (50.0 - 40.0)), 1.0);
-    EXPECT_NEAR(sum.y, 1e4 * (50.0 - 40.0), 1.0);
-    EXPECT_NEAR(sum.w, 3.8e6 * 50.0 - 2e5 * 1000.0 / 3.0, 10.0);
 }
 
 /// 1 mm in 10 m: the lid moves as given, and the column takes K_N u / n.

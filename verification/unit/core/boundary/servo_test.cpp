@@ -33,6 +33,26 @@ TEST(Servo, BringsAColumnToItsTarget)
     }
 }
 
+/// Its target is the stress that is there. What a held block does not bear is not for its neighbours to bear.
+TEST(Servo, HasNoForceForBlocksThatAreHeld)
+{
+    CaseDef scene = square_pattern(4.0, 4.0);
+    scene.insitu = {.given = true, .stress = StressDef{-1e6, -1e6, 0.0}};
+    scene.boundaries = {side("left", BoundaryKind::fixed), side("bottom", BoundaryKind::roller),
+                        side("right", BoundaryKind::roller), side("top", BoundaryKind::servo)};
+    scene.boundaries[3].target = 1e6;
+    scene.boundaries[3].max_velocity = 0.01;
+    for (const Method method : {Method::force, Method::hybrid})
+    {
+        scene.contact.method = method;
+        CaseRun run(scene);
+        EXPECT_TRUE(servos_press(run.model(), run.state()));
+        run.advance(1000);
+        for (Index b = 0; b < run.model().blocks(); ++b)
+            EXPECT_LT(run.state().blocks.displacement(b).norm(), 1e-12) << run.model().name[b];
+    }
+}
+
 TEST(Servo, IsNoFasterThanItMay)
 {
     EXPECT_EQ(servo_velocity({.normal = 0.0, .stiffness = 0.0}, 1e6, 0.01, 1e-4), 0.01);

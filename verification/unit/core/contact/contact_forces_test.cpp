@@ -136,6 +136,28 @@ TEST_F(RockKeepsSprings, NotWhereNoRockStands)
     EXPECT_EQ(relaxing(Is::loose, Is::loose, fast), Regime::impulse);
 }
 
+/// Diagonal neighbours in rock: they have a corner in common, and no face.
+TEST(CornersKeepSprings, OfBlocksThatLieWhereTheyWere)
+{
+    const auto regime = [](double length, double way, bool keeps)
+    {
+        test::BlockPair pair(test::pair_scene(scenes::rectangle({0, 0}, {1, 1}), scenes::rectangle({0, 0}, {2, 1})));
+        pair.place(pair.a, {-1.5 + length, 1.0 - 1e-6}, 0.0);
+        pair.place(pair.b, {0.0, 0.0}, 0.0);
+        for (const Index block : {pair.a, pair.b})
+            pair.state.blocks.reference_position[block] = Vec2(pair.motion(block).x + way, pair.motion(block).y);
+        pair.motion(pair.a).vy = -0.5;
+        pair.search();
+        pair.evaluate({.law = ContactLaw::by_speed, .corners_keep_springs = keeps});
+        EXPECT_EQ(pair.state.contacts.size(), 1);
+        return static_cast<Regime>(pair.state.contacts.regime[0][0]);
+    };
+    EXPECT_EQ(regime(1e-5, 0.0, true), Regime::stick);
+    EXPECT_EQ(regime(1e-5, 0.0, false), Regime::impulse);
+    EXPECT_EQ(regime(1e-5, 0.1, true), Regime::impulse) << "one has come from elsewhere";
+    EXPECT_EQ(regime(0.5, 0.0, true), Regime::impulse) << "a face";
+}
+
 TEST_F(RockKeepsSprings, InStagesThatLookForRestAndUnderTheHybridMethodOnly)
 {
     for (const Is b : {Is::standing, Is::loose, Is::fixed})

@@ -229,6 +229,34 @@ TEST(LoadChanges, LeaveNothingOfForcesThatAreTakenOff)
     }
 }
 
+/// A block hangs from a roof by a tensile strength of 1.1 times its weight. All at once the weight is felt as 1.33 times as much.
+TEST(LoadChanges, AWeightThatGrowsDoesNotBreakWhatBearsIt)
+{
+    for (const Method method : {Method::force, Method::hybrid})
+        for (const std::int64_t relax_cycles : {0, 2000})
+        {
+            SCOPED_TRACE(relax_cycles);
+            CaseDef scene = scenes::empty_scene();
+            scenes::add_fixed_block(scene, "roof", scenes::rectangle({-1, 1}, {2, 2}));
+            scenes::add_block(scene, "hung", scenes::rectangle({0, 0}, {1, 1}));
+            scene.joints[0].tension = 1.1 * 2700.0 * 9.81;
+            scene.joints[0].cohesion = 1e5;
+            scene.contact.method = method;
+            scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 20'000, .relax_cycles = relax_cycles}};
+            CaseRun run(scene);
+            const std::vector<StageResult> stages = run_stages(run.simulation, {});
+            const double stretch = 2700.0 * 9.81 / scene.joints[0].normal_stiffness;
+            if (relax_cycles > 0)
+            {
+                EXPECT_TRUE(stages[0].at_rest);
+                EXPECT_NEAR(run.displacement("hung").y(), -stretch, 1e-3 * stretch);
+            }
+            else
+                EXPECT_LT(run.displacement("hung").y(), -0.1);
+            EXPECT_LT(ledger_residual(run), 1e-6);
+        }
+}
+
 TEST(LoadChanges, GiveTheSameBitsOnSeveralThreadsAndInPieces)
 {
     CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 5.0);

@@ -2,6 +2,7 @@
 #include "core/rock/rock_mass.h"
 #include "verification/unit/core/rock/rock_invariants.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,6 +71,22 @@ TEST(RockMass, HasNoBlockBelowTheSmallestAreaAndCountsRefusals)
         EXPECT_GE(area(block), 0.363);
     }
     expect_sound(some);
+}
+
+TEST(RockMass, WarnsOfASetThatIsRefusedMostOfItsCuts)
+{
+    CaseDef def = jointed_case(35.0, 33.0, {{-10.0, 1.7}, {70.0, 1.7}});
+    for (const auto& [least, is_told] : {std::pair(0.6, false), std::pair(8.0, true)})
+    {
+        def.generator.smallest_block_area = least;
+        const RockMass rock = generate_rock_mass(def);
+        ASSERT_EQ(rock.warnings.size(), is_told ? 1u : 0u) << least;
+        EXPECT_GT(rock.refused_cuts, 0);
+        if (!is_told)
+            continue;
+        EXPECT_EQ(rock.warnings[0].key, "joint_set[1]");
+        EXPECT_THAT(rock.warnings[0].text, testing::HasSubstr(" cuts of blocks were refused ("));
+    }
 }
 
 TEST(RockMass, HasNoEdgeBelowTheSmallestEdge)

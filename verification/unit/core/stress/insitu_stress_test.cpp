@@ -182,6 +182,22 @@ TEST(InsituStress, TellsWhichJointsAreAboveTheirStrength)
     }
 }
 
+/// Of a joint without friction or without normal stress, round-off is above its strength of 0.
+TEST(InsituStress, RoundOffIsNotAboveAnyStrength)
+{
+    for (const StressDef& stress : {StressDef{-5e6, -5e6, 0.0}, StressDef{-15e6, 0.0, 0.0}})
+        for (const double dip : {0.0, 15.0, 37.0})
+        {
+            if (stress.yy == 0.0 && dip != 0.0)
+                continue;
+            CaseDef scene = rock({dip, dip - 90.0}, {.stress = stress});
+            scene.joints[0].friction_angle_deg = stress.yy == 0.0 ? 30.0 : 0.0;
+            const CaseRun run(scene);
+            for (const StressedSet& set : summarise_insitu(run.model(), run.state()).sets)
+                EXPECT_EQ(set.above, 0) << "dip " << dip;
+        }
+}
+
 /// Blocks of 1 m around a hole of 57 of them under 1 MPa on all sides, K_N = K_S, no slip. The exact linear answer for rigid blocks: hoop stresses of 1.64329,
 /// 1.52771 and 1.38110 MPa in the first joints at the crown, which comes down by 0.369245 mm.
 TEST(InsituStress, IsThatOfTheLinearAnswerAroundAHole)

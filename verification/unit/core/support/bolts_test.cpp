@@ -117,6 +117,30 @@ TEST(Bolts, SwingsOfABlockByImpulsesDieAway)
     }
 }
 
+/// Grout that never slips: an error of the bolt's force would let the block swing for ever.
+TEST(Bolts, AreAtRestHoweverStrongTheirBond)
+{
+    for (const double strength : {1e5, 1e12})
+    {
+        CaseDef scene = block_in_slot(0.0);
+        scene.contact.method = Method::force;
+        scene.blocks[2].polygon = scenes::rectangle({0, 1}, {1, 4});
+        scene.bolts[0].kind = BoltKind::grouted;
+        scene.bolts[0].free_length.reset();
+        scene.bolts[0].stiffness.reset();
+        scene.bolts[0].area = 4.4e-4;
+        scene.bolts[0].bond_stiffness = 1.4e9;
+        scene.bolts[0].bond_strength = strength;
+        scene.bolts[0].segment = 0.0124;
+        scene.stages = {{.name = "hang", .until_converged = true, .max_cycles = 100'000}};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+        EXPECT_TRUE(run_stages(simulation, {})[0].at_rest) << strength;
+        const double weight = 2700.0 * 9.81;
+        EXPECT_NEAR(simulation.state().support.bolts[0].force, weight, 1e-3 * weight) << strength;
+    }
+}
+
 TEST(Bolts, HaveNoForceWhenInstalledButTheirPretension)
 {
     CaseDef scene = flying_pair(bolt_of(BoltKind::anchored));

@@ -176,6 +176,16 @@ TEST(Liners, HaveNoBeamOfRoundOff)
     EXPECT_NEAR(run.state().support.liners[0].displacement, sag, 1e-3 * sag);
 }
 
+/// However long its beams may be: points of a path are its shape.
+TEST(Liners, KeepThePointsOfTheirPath)
+{
+    CaseDef scene = hanging(1e3);
+    scene.liners[0].path = {{1.0, 0.0}, {0.96, 0.0}, {0.92, 0.0}, {-0.95, 0.0}, {-1.0, 0.0}};
+    scene.liners[0].segment = 10.0;
+    const CaseRun run(scene);
+    EXPECT_EQ(run.model().support.liners[0].nodes.size(), 5U);
+}
+
 /// The rock behind it is one block with a notch.
 TEST(Liners, HaveNoRockBehindThemAtANotch)
 {

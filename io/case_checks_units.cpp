@@ -1,0 +1,117 @@
+#include "io/case_check.h"
+#include "io/case_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+/// Warns of numbers that nobody means: those of another unit.
+class UnitCheck : public CaseCheck
+{
+  public:
+    using CaseCheck::CaseCheck;
+
+    void check()
+    {
+        for (const MaterialDef& material : def_.materials)
+            check_density(material);
+        for (const JointDef& joint : def_.joints)
+            check_joint(joint);
+        for (std::size_t i = 0; i < def_.bolts.size(); ++i)
+            check_bolt(def_.bolts[i], fmt::format("bolt[{}].", i));
+        if (def_.insitu.given)
+            check_insitu();
+    }
+
+  private:
+    void check_density(const MaterialDef& material)
+    {
+        if (material.density > 0.0 && (material.density < 200.0 || material.density > 2e4))
+            problems_.warn("material." + material.name + ".density", fmt::format("material \"{}\"", printable(material.name)),
+                           fmt::format("density = {:.6g}", material.density), "rock has 1500 to 3500 kg/m3",
+                           "Give it in kg/m3, not in t/m3 or kN/m3.");
+    }
+
+    void check_joint(const JointDef& joint)
+    {
+        const std::string path = "joint." + joint.name + ".";
+        const std::string object = fmt::format("joint \"{}\"", printable(joint.name));
+        const double greatest_angle_in_rad = std::numbers::pi / 2.0;
+        if (joint.friction_angle_deg > 0.0 && joint.friction_angle_deg < greatest_angle_in_rad)
+            problems_.warn(path + "friction_angle_deg", object,
+                           fmt::format("friction_angle_deg = {:.6g}", joint.friction_angle_deg), "hardly any friction",
+                           "Give it in degrees, not in radians or as a tangent.");
+        double unit_weight = 0.0;
+        for (const MaterialDef& material : def_.materials)
+            unit_weight = std::max(unit_weight, material.density * def_.gravity.norm());
+        const double share = unit_weight / joint.normal_stiffness;  // of its height, whatever that is
+        if (joint.normal_stiffness > 0.0 && !joint.normal_exponent && share > most_overlap)
+            problems_.warn(
+                path + "normal_stiffness", object, fmt::format("normal_stiffness = {:.4g}", joint.normal_stiffness),
+                fmt::format("so soft that the weight of a block presses it into the next one by {:.2g} of its height", share),
+                fmt::format("Give it in Pa/m: at least {:.1g}, if the answer is not to depend on it.", unit_weight / most_overlap));
+    }
+
+    void check_bolt(const BoltDef& bolt, const std::string& path)
+    {
+        const std::string object = fmt::format("bolt \"{}\"", printable(bolt.name));
+        if (bolt.area > 0.05)
+            problems_.warn(path + "area", object, fmt::format("area = {:.6g}", bolt.area),
+                           fmt::format("a bar with a diameter of {:.3g} m", std::sqrt(4.0 * bolt.area / std::numbers::pi)),
+                           "Give it in m2: 4.9e-4 for 25 mm.");
+        if (bolt.area > 0.0 && bolt.modulus < 1e9)
+            problems_.warn(path + "modulus", object, fmt::format("modulus = {:.6g}", bolt.modulus), "steel has 2e11 Pa",
+                           "Give it in Pa, not in GPa.");
+        if (bolt.area > 0.0 && bolt.yield && *bolt.yield < 1e6 * bolt.area)
+            problems_.warn(path + "yield", object, fmt::format("yield = {:.6g}", *bolt.yield),
+                           fmt::format("a stress of {:.2g} MPa in the bar", 1e-6 * *bolt.yield / bolt.area),
+                           "Give the force in N, not in kN.");
+    }
+
+    [[nodiscard]] double lowest_rock() const
+    {
+        double lowest = std::numeric_limits<double>::infinity();
+        const auto add = [&](const Polygon& polygon)
+        {
+            for (const Vec2& v : polygon)
+                lowest = std::min(lowest, v.y());
+        };
+        if (def_.domain.given && def_.domain.polygon.empty())
+            lowest = def_.domain.origin.y();
+        add(def_.domain.polygon);
+        for (const BlockDef& block : def_.blocks)
+            add(block.polygon);
+        return lowest;
+    }
+
+    void check_insitu()
+    {
+        const InsituDef& insitu = def_.insitu;
+        if (insitu.stress && insitu.stress->xx > 0.0 && insitu.stress->yy > 0.0)
+            problems_.warn(
+                "insitu.stress", "[insitu]",
+                fmt::format("stress = [{:.4g}, {:.4g}, {:.4g}]", insitu.stress->xx, insitu.stress->yy, insitu.stress->xy),
+                "tension in all directions", "Compression is negative here.");
+        if (insitu.surface && *insitu.surface <= lowest_rock())
+            problems_.warn("insitu.surface", "[insitu]", fmt::format("surface = {:.6g}", *insitu.surface),
+                           "all rock lies above it: there is no stress anywhere",
+                           "Give the y of the ground in the axes of the model, not a depth.");
+        if (insitu.ratio && *insitu.ratio > 10.0)
+            problems_.warn("insitu.ratio", "[insitu]", fmt::format("ratio = {:.6g}", *insitu.ratio),
+                           "the horizontal stress is more than ten times the vertical one", "Give it as a number, not in percent.");
+    }
+
+    static constexpr double most_overlap = 1e-3;  ///< of a block's height [-]
+};
+}  // namespace
+
+void warn_of_units(const CaseDef& def, const CaseSource& source, CaseProblems& problems)
+{
+    UnitCheck(def, source, problems).check();
+}
+}  // namespace hdem
