@@ -35,6 +35,15 @@ std::string conversion_of(const std::string& key, const std::string& name)
     return "";
 }
 
+/// Tables that are saved as "CSV UTF-8" begin with a byte order mark.
+TextFile without_mark(TextFile file)
+{
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (file.text.starts_with(mark))
+        file.text.erase(0, mark.size());
+    return file;
+}
+
 class NamedFileReader
 {
   public:
@@ -138,7 +147,7 @@ class NamedFileReader
     [[nodiscard]] TextFile read(const std::string& name) const
     {
         if (stored_ == nullptr)
-            return read_text_file(folder_ / name, largest_named_file);
+            return without_mark(read_text_file(folder_ / name, largest_named_file));
         const auto found = stored_->find(name);
         if (found == stored_->end())
             return {.text = {}, .obstacle = "is not stored with the case", .remedy = "The checkpoint is damaged."};

@@ -140,7 +140,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.
     const bool step_changes = state.blocks.step.last != state.blocks.step.next;
-    if (rules_.has_loads || rules_.has_support || rules_.moves_walls || rules_.tractions_change)
+    if (rules_.has_loads || rules_.has_support || rules_.moves_walls || rules_.tractions_change || rules_.damping.follows_support)
         team.alone(
             [&]
             {
@@ -158,6 +158,8 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
                     press_liners(model, state, liner_solvers_, damping_of_liners(rules_.damping), work_.bolted);
                     add_bolt_forces(work_.bolted, work_.external);
                 }
+                if (rules_.damping.follows_support)
+                    rules_.damping.support = support_motion(model, state);
             });
     clock.lap(CycleStage::update);
 

@@ -27,6 +27,15 @@ enum class LocalDamping
     along_joint  ///< the components along and across the block's most mobilised joint, against the new velocity (stopped_by_damping)
 };
 
+/// How all held blocks move, where they move as one rigid body.
+struct SupportMotion
+{
+    double x = 0.0, y = 0.0;             ///< a point of it [m]
+    double vx = 0.0, vy = 0.0, w = 0.0;  ///< velocity there [m/s], of rotation [rad/s]
+
+    [[nodiscard]] bool is_none() const { return vx == 0.0 && vy == 0.0 && w == 0.0; }
+};
+
 /// Who chooses the damping of a block.
 struct DampingRule
 {
@@ -35,6 +44,9 @@ struct DampingRule
     LocalDamping form = LocalDamping::by_axis;
     double settling =
         0.0;  ///< below this speed along the joint, or of the rim, all of local damping acts, whatever friction has left, above twice of it only that [m/s]
+    bool follows_support =
+        false;                  ///< local damping opposes motions against `support`: a block that rides on a base is at rest there
+    SupportMotion support;      ///< of this cycle
     bool frees_sliding = true;  ///< along the joint: blocks that slide are damped less; else by alpha across it, however they swing
 
     /// Is the most mobilised joint of a block asked for?

@@ -105,6 +105,17 @@ double greatest(Pack p)
     return max(max(p.v[0], p.v[1]), max(p.v[2], p.v[3]));
 }
 
+/// Velocities as seen from a support that moves.
+Columns against(const SupportMotion& support, const Columns& velocity, const BlockMotion* motion, Index count)
+{
+    const Columns pose(&motion->x, row_stride<BlockMotion>, count);
+    Columns seen = velocity;
+    seen.a -= Pack(support.vx) - Pack(support.w) * (pose.b - Pack(support.y));
+    seen.b -= Pack(support.vy) + Pack(support.w) * (pose.a - Pack(support.x));
+    seen.c -= Pack(support.w);
+    return seen;
+}
+
 template <bool step_changes>
 void change_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& sums)
 {
@@ -113,7 +124,7 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
     const Pack g_x = model.gravity.x(), g_y = model.gravity.y();
     DampingRule bounded = rule;
     bounded.global = min(rule.global, 1.0 / step.kick());  // it takes no more than the whole velocity in a cycle
-    const bool has_global = rule.global != 0.0;
+    const bool has_global = rule.global != 0.0, rides = !rule.support.is_none();
     WorkLanes works(sums);
     for_groups(range,
                [&](Index i, auto count)
@@ -124,8 +135,10 @@ void change_velocities(IndexRange range, const Model& model, const DampingRule& 
                    Columns v(&blocks.motion[i].vx, row_stride<BlockMotion>, count);  // vx, vy, w, angle
                    const Pack mass = load_some(&model.mass[i], count);
                    const BasicBlockDamping<Pack> damping = conditional_damping(acting, bounded);
-                   const DampedForce<Pack> damped = damp_translation(acting, inertia, v.a, v.b, dt, damping);
-                   const Pack damped_moment = damp_rotation(acting, inertia, v.c, load_some(&model.radius[i], count), dt, damping);
+                   const Columns seen = rides ? against(rule.support, v, &blocks.motion[i], count) : v;
+                   const DampedForce<Pack> damped = damp_translation(acting, inertia, seen.a, seen.b, dt, damping);
+                   const Pack damped_moment = damp_rotation(acting, inertia, seen.c, load_some(&model.radius[i], count), dt,
+                                                            damping);
                    const auto renew = [&](Pack velocity, const Component& c)
                    { return advance<step_changes>(velocity, c, damping.global, has_global, step, works); };
                    const Pack vx = renew(v.a, {acting.x, damped.x, inertia.inverse_mass_x});

@@ -62,6 +62,31 @@ void prescribe(const Load& load, double factor, const Model& model, State& state
 }
 }  // namespace
 
+SupportMotion support_motion(const Model& model, const State& state)
+{
+    SupportMotion support;
+    bool is_found = false;
+    for (Index i = 0; i < state.blocks.size(); ++i)
+    {
+        const BlockInertia& free = state.blocks.inertia[i];
+        const int held = (free.inverse_mass_x == 0.0 ? 1 : 0) + (free.inverse_mass_y == 0.0 ? 1 : 0) +
+                         (free.inverse_inertia == 0.0 ? 1 : 0);
+        if (held == 0 || state.blocks.present[i] == 0)
+            continue;
+        if (held < 3)
+            return {};
+        const BlockMotion& m = state.blocks.motion[i];
+        if (!is_found)
+            support = {m.x, m.y, m.vx, m.vy, m.w};
+        is_found = true;
+        const Vec2 there(support.vx - support.w * (m.y - support.y), support.vy + support.w * (m.x - support.x));
+        const double near = 1e-9 * (there.norm() + std::abs(support.w) * model.radius[i]);
+        if ((Vec2(m.vx, m.vy) - there).norm() > near || std::abs(m.w - support.w) * model.radius[i] > near)
+            return {};
+    }
+    return support;
+}
+
 void time_loads(Model& model)
 {
     constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();

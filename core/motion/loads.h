@@ -2,6 +2,7 @@
 /// What a case's loads do: forces, prescribed velocities, and their work.
 
 #include "core/model/model.h"
+#include "core/motion/damping.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
@@ -21,6 +22,9 @@ void apply_loads(const Model& model, const State& state, const std::vector<Tripl
 /// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
 /// spring sheared at a given velocity answers to the displacement at the end of the cycle.
 void prescribe_motions(const Model& model, State& state);
+
+/// The motion of all held blocks, as seen in this cycle. None where they do not move as one body, or where one of them is held in part.
+[[nodiscard]] SupportMotion support_motion(const Model& model, const State& state);
 
 /// Work of these loads, once the velocities are updated.
 void add_load_work(const Model& model, const std::vector<LoadedBlock>& before, State& state);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <tuple>
 
 namespace hdem
@@ -72,7 +74,7 @@ class DryOpenings
             const Index block = model.shapes.part_block[part], excavation = model.excavation[block];
             const bool flooded = excavation != no_index && model.water.wet_opening[excavation] != 0;
             if (state.blocks.present[block] == 0 && model.mass[block] > 0.0 && !flooded)
-                parts_.push_back(part);
+                add_part(part);
         }
     }
 
@@ -80,6 +82,8 @@ class DryOpenings
     [[nodiscard]] std::vector<std::array<double, 2>> inside(const Vec2& a, const Vec2& b) const
     {
         std::vector<std::array<double, 2>> found;
+        if ((a.cwiseMin(b) - high_).maxCoeff() > 0.0 || (low_ - a.cwiseMax(b)).maxCoeff() > 0.0)
+            return found;
         for (const Index part : parts_)
         {
             const BlockMotion& motion = state_.blocks.motion[model_.shapes.part_block[part]];
@@ -93,6 +97,15 @@ class DryOpenings
     }
 
   private:
+    void add_part(Index part)
+    {
+        parts_.push_back(part);
+        const Vec2 centre = to_world(state_.blocks.motion[model_.shapes.part_block[part]], model_.shapes.part_centre[part]);
+        const Vec2 reach = Vec2::Constant(model_.shapes.part_radius[part]);
+        low_ = low_.cwiseMin(centre - reach);
+        high_ = high_.cwiseMax(centre + reach);
+    }
+
     /// Cut the way by the part's edges.
     void add(Index part, const Vec2& a, const Vec2& b, std::vector<std::array<double, 2>>& found) const
     {
@@ -115,6 +128,7 @@ class DryOpenings
     const Model& model_;
     const State& state_;
     std::vector<Index> parts_;
+    Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;  ///< of a box around all of them
 };
 
 /// Cracks press on a block until it has gone far.
@@ -167,7 +181,7 @@ class WaterForces
             if (face->from > covered)
                 add_free(edge, covered, face->from, is_ponded);
             if (face->to > covered)
-                add_pressure(edge, std::max(face->from, covered), face->to, face->is_wet);
+                add_joint(edge, std::max(face->from, covered), face->to, face->is_wet);
             covered = std::max(covered, face->to);
         }
         if (covered < model_.shapes.edge_length[edge])
@@ -177,15 +191,32 @@ class WaterForces
     void add_free(Index edge, double from, double to, bool is_ponded)
     {
         const Vec2 out = model_.water.tolerance * -turned_left(direction(edge));
+        add_wet(edge, from, to, is_ponded, openings_.inside(place(edge, from) + out, place(edge, to) + out));
+    }
+
+    /// A stretch that faces another block. Where it or that one lies in a dry opening, as what has fallen on its floor, there is no water between them: it would lift a
+    /// block that touches, and not one that does not, and throw it about.
+    void add_joint(Index edge, double from, double to, bool is_wet)
+    {
+        const Vec2 out = model_.water.tolerance * -turned_left(direction(edge)), a = place(edge, from), b = place(edge, to);
+        std::vector<std::array<double, 2>> dry = openings_.inside(a + out, b + out);
+        std::ranges::move(openings_.inside(a - out, b - out), std::back_inserter(dry));
+        std::ranges::sort(dry);
+        add_wet(edge, from, to, is_wet, dry);
+    }
+
+    /// @param dry  shares of the stretch without water, ascending
+    void add_wet(Index edge, double from, double to, bool table_acts, const std::vector<std::array<double, 2>>& dry)
+    {
         double wet_from = from;
-        for (const auto& [low, high] : openings_.inside(place(edge, from) + out, place(edge, to) + out))
+        for (const auto& [low, high] : dry)
         {
-            if (const double dry = from + low * (to - from); dry > wet_from)
-                add_pressure(edge, wet_from, dry, is_ponded);
+            if (const double until = from + low * (to - from); until > wet_from)
+                add_pressure(edge, wet_from, until, table_acts);
             wet_from = std::max(wet_from, from + high * (to - from));
         }
         if (wet_from < to)
-            add_pressure(edge, wet_from, to, is_ponded);
+            add_pressure(edge, wet_from, to, table_acts);
     }
 
     void add_pressure(Index edge, double from, double to, bool table_acts)

@@ -56,6 +56,8 @@ class Table
             return;
         const auto& motion = look_.state.blocks.motion;
         const EdgeTouch touch = touch_edges(contacts.edges(i), motion[contacts.ref[i]], motion[contacts.inc[i]]);
+        if (touch.length <= 0.0 && contacts.regime[0][i] == 0 && contacts.regime[1][i] == 0)
+            return;  // the faces lie beside each other
         const ContactReport report = report_contact(look_.state, i);
         const Contact contact = contacts.get(i);
         for (int k = 0; k < 2; ++k)

@@ -118,6 +118,7 @@ class Messages
 /// The search has a thread of its own: this one hears of signals, which Python takes in its main thread only.
 std::string find(const BuiltCase& built, const std::optional<int>& threads, const py::object& callback)
 {
+    check_threads(threads);
     std::stop_source stop;
     std::exception_ptr error;
     const auto hold = [&](const auto& act)

@@ -16,8 +16,6 @@ namespace
 {
 namespace py = pybind11;
 
-constexpr int most_threads = 4096;  // as of hdem run --threads
-
 /// A script may go to another folder while the run lives.
 std::string from_root(const std::string& path)
 {
@@ -28,9 +26,7 @@ std::string from_root(const std::string& path)
 
 RunOptions options_of(const std::optional<std::string>& folder, const std::optional<int>& threads, bool overwrite)
 {
-    if (threads && (*threads < 1 || *threads > most_threads))
-        throw py::value_error(
-            fmt::format("threads = {} (must be 1 to {}). Give None for as many as are fastest.", *threads, most_threads));
+    check_threads(threads);
     return {.folder = folder.value_or("").empty() ? "" : from_root(*folder),
             .overwrite = overwrite,
             .threads = threads,

@@ -20,6 +20,7 @@ OUTCOME = [("method", "contact method", ""), ("cycles", "cycles", ""), ("cycles_
 # term of the ledger -> what it is, +1 put in, -1 taken out, 0 stored at the end
 LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by in-situ stress at the start", 1), "gravity_work": ("work of gravity", 1),
           "load_work": ("work of loads and prescribed motions", 1), "boundary": ("work of tractions and walls at the sides", 1), "water": ("work of water pressures", 1),
+          "support": ("work of bolts and linings", 1),
           "position_correction": ("put in by the position correction", 1), "dilation": ("of slip: given back against the normal force", 1),
           "friction": ("spent by slip of springs", -1), "bond_breaking": ("freed by bonds that break", -1), "local_damping": ("spent by local damping", -1),
           "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),

@@ -36,15 +36,20 @@ def apply_forces(case: dict[str, Any], names: Sequence[str], forces: NDArray[np.
     age    cycles since a stage began, or the run; below 0: it has not
     """
     changed = np.flatnonzero(np.any(forces != applied_forces(case, names), axis=1))
-    others = {names[row] for row in changed}
+    row_of = {names[row]: row for row in changed}
+    kept = np.zeros_like(forces)
     loads = []
     for load in case.get("load", []):
-        if _is_applied(load) and load["blocks"][0] in others:
+        if _is_applied(load) and load["blocks"][0] in row_of:
             now = age(load.get("since"))
             if now <= load["from_cycle"]:
                 continue    # it has not acted yet
-            load["until_cycle"] = now
+            if load.get("since") == since:
+                load["until_cycle"] = now
+            else:    # its stage is over. An end by its cycles would let that stage wait for it when the case is run again: what changes is a load of its own
+                kept[row_of[load["blocks"][0]]] += load["force"]
         loads.append(load)
+    forces = forces - kept
     begin = {"from_cycle": max(age(since), 0)} | ({} if since is None else {"since": since})
     loads += [{"blocks": [names[row]], "force": forces[row].tolist(), "moment": 0.0, **begin} for row in changed if np.any(forces[row])]
     case["load"] = loads

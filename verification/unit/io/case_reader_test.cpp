@@ -110,6 +110,17 @@ TEST(CaseReader, AppendsBlocksFileBesideTheCase)
     EXPECT_EQ(file.source.located(later), (folder / "blocks.wkt").string() + ":4: block \"far\": too far.");
 }
 
+TEST(CaseReader, TakesTablesThatBeginWithAByteOrderMark)
+{
+    const auto folder = std::filesystem::path(testing::TempDir()) / "hdem_marked_file";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "ground.csv") << "\xEF\xBB\xBFx,y\n0,2\n10,3\n";
+    std::ofstream(folder / "case.toml") << with(
+        with(two_blocks, "[material.rock]", "[domain]\nprofile = \"ground.csv\"\nbottom = 0\n[material.rock]"),
+        "[[block]]\nname = \"top\"\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\n", "");
+    EXPECT_EQ(read_case_file(folder / "case.toml").def.domain.polygon.size(), 4U);
+}
+
 TEST(CaseReader, KeepsTheTextForProvenance)
 {
     EXPECT_EQ(read_case_text(two_blocks, "case.toml").source.text(), two_blocks);

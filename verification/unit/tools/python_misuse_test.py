@@ -50,6 +50,9 @@ def test_wrong_types_are_named(make, words):
 @pytest.mark.parametrize("make, words", [
     (lambda: hdem.Simulation(hdem.Case(CASE), threads=5000), "threads = 5000 (must be 1 to 4096)"),
     (lambda: hdem.Simulation(hdem.Case(CASE), threads=10**12), "threads = 1e+12: too great"),
+    (lambda: hdem.fos(hdem.Case(CASE), threads=0), "threads = 0 (must be 1 to 4096)"),
+    (lambda: hdem.fos(hdem.Case(CASE), threads=-1), "threads = -1 (must be 1 to 4096)"),
+    (lambda: hdem.fos(hdem.Case(CASE), threads=100000), "threads = 100000 (must be 1 to 4096)"),
     (lambda: simulation().run(cycles=10**30), "cycles = 1e+30: too great"),
     (lambda: simulation().run(cycles=-10**400), "too great"),
     (lambda: simulation().run(cycles=-1), "must not be negative"),

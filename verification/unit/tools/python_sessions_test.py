@@ -280,7 +280,23 @@ def test_forces_on_rock_at_rest_are_in_the_case_with_their_stage(tmp_path, stage
     told.run()
     assert [stage["cycles"] for stage in told.results] == [stage["cycles"] for stage in run.results] == [run.results[0]["cycles"], 150, 60]
     assert told.state_hash == run.state_hash == again.state_hash and run.displacements[3, 0] > 1e-5
-    assert [(load["since"], load["from_cycle"], load["until_cycle"]) for load in run.case["load"]] == [("stage2", 0, 170)]
+    assert [(load["since"], load["from_cycle"], load["force"][0]) for load in run.case["load"]] == [("stage2", 0, 9e3), ("stage3", 20, -9e3)]
+
+
+def test_forces_that_change_after_a_stage_that_looks_for_rest_do_not_make_it_wait():
+    run = column(stage=[{"name": "rest", "until": "converged", "max_cycles": 5000}, {"cycles": 150}])
+    force = np.zeros((4, 2))
+    force[3, 0] = 9e3
+    run.applied_forces = force
+    run.run(stages=1)
+    run.applied_forces = 0.5 * force    # between two stages
+    run.run(cycles=50)
+    run.applied_forces = 0.0 * force    # in a stage
+    run.run()
+    told = hdem.Simulation(hdem.Case(run.case, set=run.case_overrides), threads=1)
+    told.run()
+    assert [stage["cycles"] for stage in told.results] == [stage["cycles"] for stage in run.results]
+    assert told.state_hash == run.state_hash
 
 
 def test_numbers_of_classes_of_their_own():

@@ -98,6 +98,10 @@ class PageOfARun(unittest.TestCase):
         self.assertEqual(list(sums), ["put in", "taken out", "stored at the end", "left over"])
         self.assertAlmostEqual(sums["put in"], sums["taken out"] + sums["stored at the end"], delta=1e-3 * sums["put in"])
 
+    def test_ledger_has_every_term(self):
+        energy = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))["energy"]
+        self.assertEqual(set(energy) - {"residual", "relative_residual", "kinetic"}, set(run_page.LEDGER) - {"kinetic_energy"})
+
     def test_case_text_and_log_are_there(self):
         self.assertIn(html.escape(small_case.CASE), self.page)
         self.assertIn(html.escape((self.folder / "run.log").read_text(encoding="utf-8")), self.page)

@@ -77,6 +77,43 @@ TEST(WaterForces, AreGoneWhereABlockWasTakenOut)
     EXPECT_NEAR(water_on(flooded, {1.5, 2.5}).x, 0.0, 1e-6);
 }
 
+/// There is none between a block that has fallen into it and its floor or walls. Water that lifts what touches, and not what does not, threw a block about at 28 m/s.
+TEST(WaterForces, DoNotThrowWhatHasFallenIntoADrainedOpening)
+{
+    CaseDef scene = scenes::empty_scene();
+    scenes::add_fixed_block(scene, "floor", scenes::rectangle({-2, -1}, {6, 0}));
+    scenes::add_fixed_block(scene, "left", scenes::rectangle({-2, 0}, {0, 6}));
+    scenes::add_fixed_block(scene, "right", scenes::rectangle({4, 0}, {6, 6}));
+    scenes::add_fixed_block(scene, "roof1", scenes::rectangle({0, 4}, {1.5, 6}));
+    scenes::add_fixed_block(scene, "roof2", scenes::rectangle({2.5, 4}, {4, 6}));
+    scenes::add_block(scene, "key", scenes::rectangle({1.5, 4}, {2.5, 5}));
+    scenes::add_block(scene, "room", scenes::rectangle({0, 0}, {4, 4}));
+    scene.joints[0].friction_angle_deg = 20.0;
+    scene.water = {.given = true, .level = 24.0};
+    scene.stages = {{.name = "stand", .cycles = 500},
+                    {.name = "dig", .until_converged = true, .max_cycles = 100'000, .excavate = {"room"}}};
+    for (const Method method : {Method::force, Method::hybrid, Method::impulse})
+    {
+        scene.contact.method = method;
+        CaseRun run(scene);
+        run.simulation.begin_stage(0);
+        run.advance(500);
+        const double water_before = run.state().ledger.water;
+        run.simulation.begin_stage(1);
+        double fastest = 0.0;
+        for (int i = 0; i < 400; ++i)
+        {
+            run.advance(100);
+            fastest = std::max(fastest, run.state().blocks.velocity(run.slot("key")).norm());
+        }
+        const double push = weight_of_water * (24.0 - 5.0);  // of the water above it, while it leaves its place
+        EXPECT_LT(fastest, std::sqrt(2.0 * (9.81 * 4.0 + push / run.model().mass[run.slot("key")])));
+        EXPECT_NEAR(run.displacement("key").y(), -4.0, 0.01);
+        EXPECT_LT(run.state().blocks.velocity(run.slot("key")).norm(), 1e-3);
+        EXPECT_LT(std::abs(run.state().ledger.water - water_before), push);
+    }
+}
+
 TEST(WaterForces, PressOnNamedJointsAndFacesAsAsked)
 {
     CaseDef scene = rock_below_water();
