@@ -124,6 +124,9 @@ void write_atomically(const std::filesystem::path& file, std::span<const std::by
     std::filesystem::create_directories(folder, error);
     if (error)
         throw RunError(fmt::format("{}: folder cannot be made ({}). {}", folder.string(), error.message(), advice(error.value())));
+    if (const auto status = std::filesystem::symlink_status(file, error); std::filesystem::is_other(status))
+        throw RunError(fmt::format("{}: cannot be written (is a device or a pipe, and would be replaced). Give the name of a file.",
+                                   file.string()));
     Temporary temporary(file);
     temporary.write(bytes);
     temporary.rename(previous, flush);

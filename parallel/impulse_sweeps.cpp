@@ -52,7 +52,7 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
             is_hit = is_hit || part.is_hit;
         }
     if (which == ExactIslands::hit && !is_hit)
-        which = ExactIslands::great_mass_ratios;
+        which = ExactIslands::small;
     if (which == ExactIslands::great_mass_ratios && masses.suits_sweeps(model.contact.impulse_sweeps))
         return;
     const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));

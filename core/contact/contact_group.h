@@ -6,6 +6,8 @@
 #include "core/detection/edge_touch.h"
 #include "core/model/model.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 /// What the threshold velocity needs of a cycle.
@@ -112,21 +114,39 @@ template <typename P>
     return speed_squared > u_th * u_th * margin;
 }
 
-/// Standing rock keeps its springs, see RegimeRule.
+/// Of the size of the smaller block: rock whose springs an impact would press by more does not keep them. (A block on a stone of a thousandth of its mass.)
+inline constexpr double bearable_share = 0.05;
+
+/// Standing rock keeps its springs, see RegimeRule, unless a loose block would press them by more than they bear,
+///
+///   v sqrt(m / (K_N L))        m: of the loose block
+///
+/// or has made it faster than by a fall through its own size.
 template <typename P>
 [[gnu::always_inline]] inline MaskOf<P> leave_to_springs(MaskOf<P> fast, const BasicContactGroup<P>& g, P speed_squared,
                                                          const Model& model, const Blocks& blocks)
 {
     const double distance = model.convergence.loose_distance;
-    const auto keeps = [&](Index a, Index b, double squared)
+    const auto bears = [&](int j, Index loose, double squared)
     {
+        const double stiffness = 2.0 * g.joint->law.normal_stiffness.v[j] * g.length.v[j];
+        const double most = bearable_share * std::min(model.size(g.ref[j]), model.size(g.inc[j]));
+        return squared * model.mass[loose] < stiffness * most * most;
+    };
+    const double weight = model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm();
+    const auto is_slow = [&](int j, double squared)
+    { return squared < 2.0 * weight * std::min(model.size(g.ref[j]), model.size(g.inc[j])); };
+    const auto keeps = [&](int j, double squared)
+    {
+        const Index a = g.ref[j], b = g.inc[j];
         const bool loose_a = blocks.is_loose(a, distance), loose_b = blocks.is_loose(b, distance);
         const bool standing = (blocks.is_free(a) && !loose_a) || (blocks.is_free(b) && !loose_b);
         const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
-        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size;
+        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size &&
+               (loose_a || loose_b ? bears(j, loose_a ? a : b, squared) : is_slow(j, squared));
     };
     for (int j = 0; j < P::width; ++j)
-        if (fast.has(j) && keeps(g.ref[j], g.inc[j], speed_squared.v[j]))
+        if (fast.has(j) && keeps(j, speed_squared.v[j]))
             fast.clear(j);
     return fast;
 }

@@ -16,7 +16,7 @@ namespace hdem
 enum class ExactIslands
 {
     great_mass_ratios,  ///< those that sweeps would need many cycles for
-    hit,                ///< these; and small ones in which blocks hit each other get more sweeps
+    hit,                ///< while blocks hit each other these, and small ones that are hit get more sweeps; else as `small`
     small  ///< great mass ratios, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
 };
 

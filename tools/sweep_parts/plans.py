@@ -89,6 +89,15 @@ def digest_of(case):
         return None
 
 
+def require_other_keys(plan, words):
+    """A value that is laid over all runs must not be one that the plan varies: the table would say another one than ran."""
+    laid = {word.partition("=")[0].strip() for flag, word in zip(words, words[1:]) if flag == "--set"}
+    laid |= {word.removeprefix("--set=").partition("=")[0].strip() for word in words if word.startswith("--set=")}
+    varied = {key for values in plan["runs"] for key in values} | ({plan["bisect"]["key"]} if "bisect" in plan else set())
+    if same := sorted(laid & varied):
+        raise SweepError(f"--set {same[0]}: the plan varies it, and the table would show the plan's values. Leave it away, or make another plan.")
+
+
 def require_same_case(plan):
     """Runs of a case that has changed would stand in one table with those before."""
     now = digest_of(Path(plan["case"]))

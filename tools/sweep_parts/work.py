@@ -129,6 +129,7 @@ def work(options):
         raise SweepError(f"--jobs {options.jobs}: must be at least 1.")
     plan = plans.read(options.folder)
     plans.require_same_case(plan)
+    plans.require_other_keys(plan, options.for_hdem)
     worker = Worker(options, plan)
     worker.start.listen()
     with ThreadPoolExecutor(options.jobs) as pool:

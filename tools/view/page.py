@@ -55,6 +55,8 @@ def clean(value):
 def write(output, parts):
     """Whole or not at all: who has the page open never loads a half of it."""
     output = Path(output)
+    if output.exists() and not output.is_file():
+        raise ResultError(f"{output}: is no file, and would be replaced. Give the name of a file.")
     output.parent.mkdir(parents=True, exist_ok=True)
     unfinished = output.with_name(f"{output.name}.{secrets.token_hex(6)}.tmp")
     try:

@@ -136,6 +136,19 @@ TEST_F(RockKeepsSprings, NotWhereNoRockStands)
     EXPECT_EQ(relaxing(Is::loose, Is::loose, fast), Regime::impulse);
 }
 
+/// Springs that the block would press by 0.16 m, and by 0.016 m.
+TEST_F(RockKeepsSprings, UnlessTheyCannotBearTheBlock)
+{
+    for (const auto& [stiffness, expected] : {std::pair(1e6, Regime::impulse), std::pair(1e8, Regime::stick)})
+    {
+        test::BlockPair pair = above(Is::loose, Is::standing, fast);
+        for (CoulombSlip& law : pair.model.joints.laws)
+            law.normal_stiffness = stiffness;
+        pair.evaluate({.law = ContactLaw::by_speed, .rock_keeps_springs = true});
+        EXPECT_EQ(static_cast<Regime>(pair.state.contacts.regime[0][0]), expected) << stiffness;
+    }
+}
+
 /// Diagonal neighbours in rock: they have a corner in common, and no face.
 TEST(CornersKeepSprings, OfBlocksThatLieWhereTheyWere)
 {
