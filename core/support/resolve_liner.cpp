@@ -174,7 +174,7 @@ double longest_segment(const LinerDef& def)
     if (def.segment)
         return *def.segment;
     const double t = def.thickness, bending = def.modulus * def.inertia.value_or(t * t * t / 12.0);
-    return std::min(thicknesses * t, lengths * std::pow(4.0 * bending / def.normal_stiffness, 0.25));
+    return std::min(thicknesses * t, lengths * std::sqrt(std::sqrt(4.0 * bending / def.normal_stiffness)));
 }
 
 std::optional<Liner> resolve_liner(const LinerPlan& plan, const Blocks& blocks, const Model& model)

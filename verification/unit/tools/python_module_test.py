@@ -154,7 +154,7 @@ def test_forces_of_contacts_are_those_of_blocks():
     size = np.sqrt(simulation.areas)[c["blocks"]].min(axis=1)    # of the smaller block: contacts close down to a gap of 1e-9 of it
     assert set(c["regime"]) <= {1, 2, 3} and (c["normal_force"] >= 0).all() and (c["closure"] > -1e-9 * size).all()
     near = simulation.contacts(also_open=True)
-    assert near.size > c.size and simulation.joint_names == ["default"] and np.abs(near["gap"]).max() < 1.0    # not of faces beside each other
+    assert near.size > c.size and simulation.joint_names == ["default"] and near["gap"].min() > -1e-3    # not of faces beside each other
     assert np.allclose(c["closure"], -c["gap"], atol=1e-5)    # no preload
 
 
