@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -67,6 +68,16 @@ TEST(AtomicFile, NamesTheFolderThatCannotBeMade)
     const ScratchFolder folder("atomic_folder");
     write_atomically(folder / "file", std::string_view("a file, not a folder"));
     EXPECT_THAT(message_of([&] { write_atomically(folder / "file/inside.txt", std::string_view("x")); }), HasSubstr("-o"));
+}
+/// Root could replace /dev/null by a file.
+TEST(AtomicFile, DoesNotReplaceADeviceOrAPipe)
+{
+    const auto pipe = std::filesystem::path(testing::TempDir()) / "hdem_atomic_pipe";
+    std::filesystem::remove(pipe);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(write_atomically(pipe, std::string_view("text")), RunError);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    std::filesystem::remove(pipe);
 }
 }  // namespace
 }  // namespace hdem

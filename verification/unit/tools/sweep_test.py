@@ -212,6 +212,8 @@ class Sweep(unittest.TestCase):
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=3:2.5"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:-3"], "not a range"),
                                  (["run", "s", "2"], "not in the plan"), (["collect", "u"], "cannot be read"),
+                                 (["run", "u/t", "1", "--", "--set", "generator.seed=3"], "--set generator.seed: the plan varies it"),
+                                 (["work", "u/t", "--", "--set=generator.seed = 3"], "--set generator.seed: the plan varies it"),
                                  (["run", "u/t", "1", "--program", "nowhere"], "cannot be run")):
             code, said = self.sweep(*arguments)
             self.assertEqual(code, 2, said)
