@@ -154,15 +154,17 @@ TEST(CaseReader, WarnsOfAsperitiesThatAreSteeperThanTheirFriction)
     EXPECT_THAT(warnings(10.0), testing::HasSubstr("Give no more than the friction angle"));
 }
 
+/// All that a case is warned of.
+std::string warnings(const std::string& text)
+{
+    std::string texts;
+    for (const Problem& warning : read_case_text(text, "case.toml").warnings)
+        texts += warning.text + '\n';
+    return texts;
+}
+
 TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
 {
-    const auto warnings = [](const std::string& text)
-    {
-        std::string texts;
-        for (const Problem& warning : read_case_text(text, "case.toml").warnings)
-            texts += warning.text + '\n';
-        return texts;
-    };
     const std::string bolt = two_blocks + "[[bolt]]\nfrom = [0.5, 0.5]\nto = [0.5, -0.5]\n";
     const std::string stress = two_blocks + "[insitu]\n";
     struct Slip
@@ -201,13 +203,6 @@ TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
 /// Local damping lets a weight that acts at once press up to a third more than it weighs.
 TEST(CaseReader, WarnsOfJointsThatAWeightBreaksThatActsAtOnce)
 {
-    const auto warnings = [](const std::string& text)
-    {
-        std::string texts;
-        for (const Problem& warning : read_case_text(text, "case.toml").warnings)
-            texts += warning.text + '\n';
-        return texts;
-    };
     const std::string rest = with(two_blocks, "cycles = 10", "until = \"converged\"");
     const auto joint = [&](const std::string& keys) { return with(rest, "= 30.0\n", "= 30.0\n" + keys); };
     EXPECT_THAT(
