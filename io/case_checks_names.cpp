@@ -46,7 +46,7 @@ class NameCheck : public CaseCheck
         check_name_list("excavation", "excavation", def_.excavations, rock);
         check_name_list("block", "block", def_.blocks, rock);
         check_name_list("boundary", "boundary", def_.boundaries, rock);
-        std::map<std::string, std::string> faults, regions, sets, stages, histories, bolts, liners;
+        std::map<std::string, std::string> faults, regions, sets, stages, histories, bolts, liners, loads;
         check_name_list("fault", "fault", def_.faults, faults);
         check_name_list("region", "region", def_.regions, regions);
         check_name_list("joint_set", "joint set", def_.joint_sets, sets);
@@ -54,6 +54,7 @@ class NameCheck : public CaseCheck
         check_name_list("history", "history", def_.histories, histories);
         check_name_list("bolt", "bolt", def_.bolts, bolts);
         check_name_list("liner", "liner", def_.liners, liners);
+        check_name_list("load", "load", def_.loads, loads);
     }
 
     template <class Entries>

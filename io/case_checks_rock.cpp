@@ -28,6 +28,8 @@ class RockCheck : public CaseCheck
   private:
     void check_rock()
     {
+        if (given("blocks_file") && def_.blocks_file.empty() && !problems_.has("blocks_file"))
+            problems_.add("blocks_file", "case", "blocks_file = \"\"", "names no file", "Give its name, or remove this key.");
         const bool meant = problems_.has("domain") || problems_.has("block") || problems_.has("blocks_file");
         if (!def_.domain.given && def_.blocks.empty() && def_.blocks_file.empty() && !meant)
             problems_.add("domain", "case", "[domain], [[block]] and blocks_file", "none is given: there is no rock",

@@ -17,7 +17,7 @@ class RunCheck : public CaseCheck
     void check()
     {
         for (std::size_t i = 0; i < def_.loads.size(); ++i)
-            check_load(def_.loads[i], fmt::format("load[{}]", i), fmt::format("load {}", i + 1));
+            check_load(def_.loads[i], fmt::format("load[{}]", i), fmt::format("load \"{}\"", printable(def_.loads[i].name)));
         check_settings();
         check_factor_of_safety();
     }

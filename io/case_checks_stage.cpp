@@ -87,7 +87,9 @@ class StageCheck : public CaseCheck
         const bool changes_water = stage.water_level || !stage.water_table.empty();
         const bool begins_without_stress = &stage == def_.stages.data() && !def_.insitu.given;
         if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water && !begins_without_stress)
-            refuse("nothing is excavated, no boundary ends, and no water changes", "Add excavate, or remove relax_cycles.");
+            refuse(fmt::format("nothing is excavated, no boundary ends, and no water changes{}",
+                               &stage == def_.stages.data() ? "; by [insitu] the rock bears its weight from the start" : ""),
+                   "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)
             refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),

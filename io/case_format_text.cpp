@@ -69,7 +69,7 @@ A case file says everything a run needs: the rock, its joints, the loads, the st
 - Unknown keys, wrong types and values out of range are refused, all at once, each with file, line and column.
   `hdem check CASE.toml` does only this.
 - `hdem run CASE.toml --set joint.default.friction_angle_deg=20` replaces or adds one value. Entries of lists count from 0,
-  `--set stage[1].max_cycles=1000`, or go by name, `--set joint_set.bedding.dip_deg=15`. A bare word is taken as text: `--set contact.method=force`.
+  `--set stage[1].max_cycles=1000`, or go by name, `--set joint_set.bedding.dip_deg=15`. A bare word is taken as text: `--set contact.method=force`. One number for a force, an acceleration or a velocity, as in `--set load.push.force=2e5`, is its length along the direction that the case gives.
 - `hdem schema` prints the JSON Schema for editors.
 
 ## A complete example

@@ -126,7 +126,7 @@ class NamedFileReader
     {
         CaseDef& def = read_.def;
         for (std::size_t i = 0; i < def.loads.size(); ++i)
-            add_table(def.loads[i].factor, fmt::format("load[{}]", i), fmt::format("load {}", i + 1));
+            add_table(def.loads[i].factor, fmt::format("load[{}]", i), fmt::format("load \"{}\"", printable(def.loads[i].name)));
         for (std::size_t i = 0; i < def.boundaries.size(); ++i)
             add_table(def.boundaries[i].factor, fmt::format("boundary[{}]", i),
                       fmt::format("boundary \"{}\"", printable(def.boundaries[i].name)));

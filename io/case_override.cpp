@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace hdem
@@ -82,6 +83,29 @@ std::string entries_that_are(const TomlNode::Items& entries, const std::string& 
     return names.empty() ? first : fmt::format("{}, among them {}", first, fmt::join(names, ", "));
 }
 
+/// A single number for a vector that has a direction, as a force: its length along the direction that the case gives, which a
+/// negative one turns back. Why there is none, or "".
+std::string as_length(const TomlNode& given, TomlNode& value)
+{
+    const TomlNode::Items& parts = *given.items();
+    const double x = parts[0].number(), y = parts[1].number(), length = std::hypot(x, y);
+    if (!(length > 0.0 && std::isfinite(length)))
+        return "a single number is a length along the direction that the case gives, and this vector has none";
+    const double scale = value.number() / length;
+    value.value = TomlNode::Items{{x * scale, value.at}, {y * scale, value.at}};
+    return "";
+}
+
+/// Whether the case gives a force, an acceleration or a velocity there: other pairs of numbers are places and ranges.
+bool has_direction(const SectionSpec* section, const Step& key, const TomlNode& given)
+{
+    const KeySpec* spec = section == nullptr || key.index ? nullptr : section->find(key.name);
+    const TomlNode::Items* parts = given.items();
+    return spec != nullptr && spec->type == ValueType::vector &&
+           (spec->unit == "N" || spec->unit == "m/s" || spec->unit == "m/s2") && parts != nullptr && parts->size() == 2 &&
+           std::ranges::all_of(*parts, &TomlNode::is_number);
+}
+
 /// Why the value could not be written, or "".
 std::string write(TomlNode& document, const std::vector<Step>& steps, TomlNode value)
 {
@@ -113,6 +137,9 @@ std::string write(TomlNode& document, const std::vector<Step>& steps, TomlNode v
             node = &(*items)[*index];
         }
     }
+    if (value.is_number() && has_direction(find_section(steps.front().name), steps.back(), *node))
+        if (const std::string why = as_length(*node, value); !why.empty())
+            return why;
     *node = std::move(value);
     return "";
 }

@@ -15,7 +15,7 @@ namespace hdem
 struct Override
 {
     std::string key;    ///< "joint.default.friction_angle_deg", "stage[1].max_cycles", "joint_set.bedding.dip_deg"
-    std::string value;  ///< TOML, or a bare word taken as text
+    std::string value;  ///< TOML, a bare word taken as text, or one number as the length of a vector (a force, a velocity)
 };
 
 /// Splits "key=value" at the first '='. Throws InputError when there is none.

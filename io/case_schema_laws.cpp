@@ -62,7 +62,11 @@ SectionSpec load_section()
         "load",
         "Acts on named blocks, from one moment until another. Several loads on a block add up; of several prescribed "
         "velocities of one component the last in the file holds.",
-        {field<&LoadDef::blocks>({.name = "blocks",
+        {field<&LoadDef::name>(
+             {.name = "name",
+              .effect = "For messages, and for `--set load.NAME.force` or `hdem critical --vary load.NAME.force`.",
+              .default_note = "\"load1\", \"load2\", ..."}),
+         field<&LoadDef::blocks>({.name = "blocks",
                                   .effect = "Names of blocks; \"*\" = all blocks that are free when the load acts.",
                                   .example = "[\"block1\"]",
                                   .required = true}),

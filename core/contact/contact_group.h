@@ -2,11 +2,10 @@
 /// Four contacts in one cycle: what is known of them before their laws, and which law each obeys.
 
 #include "core/contact/contact_lanes.h"
+#include "core/contact/kept_springs.h"
 #include "core/contact/regime.h"
 #include "core/detection/edge_touch.h"
 #include "core/model/model.h"
-
-#include <algorithm>
 
 namespace hdem
 {
@@ -114,56 +113,6 @@ template <typename P>
     return speed_squared > u_th * u_th * margin;
 }
 
-/// Of the size of the smaller block: rock whose springs an impact would press by more does not keep them. (A block on a stone of a thousandth of its mass.)
-inline constexpr double bearable_share = 0.05;
-
-/// Standing rock keeps its springs, see RegimeRule, unless a loose block would press them by more than they bear,
-///
-///   v sqrt(m / (K_N L))        m: of the loose block
-///
-/// or has made it faster than by a fall through its own size.
-template <typename P>
-[[gnu::always_inline]] inline MaskOf<P> leave_to_springs(MaskOf<P> fast, const BasicContactGroup<P>& g, P speed_squared,
-                                                         const Model& model, const Blocks& blocks)
-{
-    const double distance = model.convergence.loose_distance;
-    const auto bears = [&](int j, Index loose, double squared)
-    {
-        const double stiffness = 2.0 * g.joint->law.normal_stiffness.v[j] * g.length.v[j];
-        const double most = bearable_share * std::min(model.size(g.ref[j]), model.size(g.inc[j]));
-        return squared * model.mass[loose] < stiffness * most * most;
-    };
-    const double weight = model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm();
-    const auto is_slow = [&](int j, double squared)
-    { return squared < 2.0 * weight * std::min(model.size(g.ref[j]), model.size(g.inc[j])); };
-    const auto keeps = [&](int j, double squared)
-    {
-        const Index a = g.ref[j], b = g.inc[j];
-        const bool loose_a = blocks.is_loose(a, distance), loose_b = blocks.is_loose(b, distance);
-        const bool standing = (blocks.is_free(a) && !loose_a) || (blocks.is_free(b) && !loose_b);
-        const double size = loose_a ? model.size(a) : loose_b ? model.size(b) : 0.0;
-        return standing && squared > gentle_impact * gentle_impact * model.gravity.norm() * size &&
-               (loose_a || loose_b ? bears(j, loose_a ? a : b, squared) : is_slow(j, squared));
-    };
-    for (int j = 0; j < P::width; ++j)
-        if (fast.has(j) && keeps(j, speed_squared.v[j]))
-            fast.clear(j);
-    return fast;
-}
-
-/// Corners on corners keep theirs, see RegimeRule: contacts shorter than two length floors.
-template <typename P>
-[[gnu::always_inline]] inline MaskOf<P> leave_corners_to_springs(MaskOf<P> fast, const BasicContactGroup<P>& g, const Model& model,
-                                                                 const Blocks& blocks)
-{
-    const auto lies = [&](Index block) { return !blocks.is_loose(block, drawn_share * model.size(block)); };
-    const MaskOf<P> is_short = g.growth < P(1.0);
-    for (int j = 0; j < P::width; ++j)
-        if (fast.has(j) && is_short.has(j) && lies(g.ref[j]) && lies(g.inc[j]))
-            fast.clear(j);
-    return fast;
-}
-
 /// Square of the speed that counts in Eq. (24): of the faster closed point [m2/s2].
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline P motion_squared(const BasicContactGroup<P>& g)
@@ -199,8 +148,21 @@ template <ContactLaw law, typename P>
     if (!any(speed > P(least * least)))
         return none;
     MaskOf<P> fast = are_fast(g, speed, model, blocks, threshold);
-    if (threshold.corners_keep_springs && any(fast & (g.growth < P(1.0))))
-        fast = leave_corners_to_springs(fast, g, model, blocks);
-    return threshold.rock_keeps_springs && any(fast) ? leave_to_springs(fast, g, speed, model, blocks) : fast;
+    if (threshold.corners_keep_springs || threshold.rock_keeps_springs)
+    {
+        const MaskOf<P> is_short = g.growth < P(1.0);
+        for (int j = 0; j < P::width; ++j)
+            if (fast.has(j))
+            {
+                const PressedPair pair{.ref = g.ref[j],
+                                       .inc = g.inc[j],
+                                       .stiffness = 2.0 * g.joint->law.normal_stiffness.v[j] * g.length.v[j],
+                                       .speed_squared = speed.v[j]};
+                if ((threshold.corners_keep_springs && is_short.has(j) && do_corners_keep_springs(pair, model, blocks)) ||
+                    (threshold.rock_keeps_springs && does_rock_keep_springs(pair, model, blocks)))
+                    fast.clear(j);
+            }
+    }
+    return fast;
 }
 }  // namespace hdem

@@ -4,6 +4,8 @@
 #include "core/state/blocks.h"
 #include "core/state/contacts.h"
 
+#include <cmath>
+
 namespace hdem
 {
 /// One end of the stretch along which the incident edge lies over the reference edge, in the reference edge's axes.
@@ -33,6 +35,12 @@ struct BasicEdgeTouch
     BasicTouchPoint<R> point[2];  ///< 0 at the lower t
 };
 using EdgeTouch = BasicEdgeTouch<double>;
+
+/// Whether the edges meet at an angle: a corner on a side, or pressed into it.
+[[nodiscard]] inline bool is_corner_on_side(const EdgeTouch& touch)
+{
+    return std::abs(touch.slope) > 0.05;
+}
 
 /// Incident edge's two vertices in the axes and from the start of the reference edge.
 template <typename R>

@@ -35,13 +35,6 @@ PointStrength strength_of(const Model& model, const Contacts& contacts, Index co
     return {slip.friction_coefficient, slip.cohesion * length, row.tension * length};
 }
 
-/// A corner on a side, or pressed into it: the edges meet at an angle.
-bool is_steep_corner(const EdgeTouch& touch)
-{
-    constexpr double steep = 0.05;
-    return std::abs(touch.slope) > steep;
-}
-
 void add_points(const Model& model, const State& state, const std::vector<Index>& kept, bool corners_bear, Index contact,
                 std::vector<ForcePoint>& points)
 {
@@ -49,7 +42,7 @@ void add_points(const Model& model, const State& state, const std::vector<Index>
     const Index ref = contacts.ref[contact], inc = contacts.inc[contact];
     const EdgeTouch touch = touch_edges(contacts.edges(contact), state.blocks.motion[ref], state.blocks.motion[inc]);
     const double floor = contacts.length_floor(contact), length = point_length(touch.length, floor);
-    if (!corners_bear && (touch.length <= floor || is_steep_corner(touch)))
+    if (!corners_bear && (touch.length <= floor || is_corner_on_side(touch)))
         return;
     for (int k = 0; k < 2; ++k)
     {

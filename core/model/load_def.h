@@ -24,6 +24,7 @@ struct Interval
 /// [[load]]: acts on named blocks.
 struct LoadDef
 {
+    std::string name;
     std::vector<std::string> blocks;   ///< names; "*" = all free blocks
     Vec2 acceleration = {0.0, 0.0};    ///< body acceleration [m/s2]
     Vec2 force = {0.0, 0.0};           ///< per metre of thickness [N]

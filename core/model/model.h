@@ -74,6 +74,7 @@ struct StageLaws
 /// A load with names resolved to blocks and times to cycles: acts while from <= cycle < until, counted from factor.since.
 struct Load
 {
+    std::string name;
     std::vector<Index> blocks;
     Vec2 acceleration = {0.0, 0.0};          ///< [m/s2]
     Vec2 force = {0.0, 0.0};                 ///< [N]

@@ -32,7 +32,7 @@ class Resolver
     std::vector<Problem> run()
     {
         for (std::size_t i = 0; i < def_.loads.size(); ++i)
-            add_load(def_.loads[i], "load[" + std::to_string(i) + "]", "load " + std::to_string(i + 1));
+            add_load(def_.loads[i], "load[" + std::to_string(i) + "]", "load \"" + def_.loads[i].name + "\"");
         time_loads(model_);
         for (std::size_t i = 0; i < model_.loads.size(); ++i)
             check_times(model_.loads[i], "load[" + std::to_string(i) + "]");
@@ -93,7 +93,8 @@ class Resolver
 
     void add_load(const LoadDef& from, const std::string& key, const std::string& object)
     {
-        Load load{.blocks = {},
+        Load load{.name = from.name,
+                  .blocks = {},
                   .acceleration = from.acceleration,
                   .force = from.force,
                   .arm = {},

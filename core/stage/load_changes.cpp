@@ -160,7 +160,7 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
     for (std::size_t i = 0; i < model.loads.size(); ++i)
     {
         const Load& load = model.loads[i];
-        const std::string name = "load " + std::to_string(i + 1);
+        const std::string name = "load \"" + load.name + "\"";
         if (const std::int64_t since = cycles_since(load.factor.since, state); load.from < load.until && since >= load.until)
             continue;
         else if (since >= 0 && since < load.from)

@@ -55,14 +55,14 @@ void describe_extent(const Model& model, const State& state)
 /// Blocks that touch in a corner alone, with an edge that leaves it over the other's at an angle.
 Index count_steep_corners(const Model& model, const State& state)
 {
-    constexpr double steep = 0.05, near = 1e-9;
+    constexpr double near = 1e-9;
     Index count = 0;
     for (Index i = 0; i < state.contacts.size(); ++i)
     {
         const Index ref = state.contacts.ref[i], inc = state.contacts.inc[i];
         const EdgeTouch touch = touch_edges(state.contacts.edges(i), state.blocks.motion[ref], state.blocks.motion[inc]);
         const double size = std::min(model.size(ref), model.size(inc));
-        if (touch.length < 1e-3 * size || std::abs(touch.slope) < steep)
+        if (touch.length < 1e-3 * size || !is_corner_on_side(touch))
             continue;
         for (const TouchPoint& point : touch.point)
             count += std::abs(point.overlap) < near * size && std::abs(point.inside) < near * size ? 1 : 0;

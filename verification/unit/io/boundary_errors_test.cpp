@@ -142,9 +142,9 @@ TEST(BoundaryErrors, ThatNeedTheBlocksToBeSeen)
 TEST(LoadErrors, OfPoints)
 {
     const std::string load = test::two_blocks + "[[load]]\nblocks = [\"top\"]\n";
-    expect_one_problem(load + "moment = 1\npoint = [0, 0]\n", "19:9: load 1: point (", "belongs to force");
-    expect_one_problem(test::two_blocks + "[[load]]\nblocks = [\"*\"]\nforce = [1, 0]\npoint = [0, 0]\n", "19:9: load 1: point (",
-                       "names several");
+    expect_one_problem(load + "moment = 1\npoint = [0, 0]\n", "19:9: load \"load1\": point (", "belongs to force");
+    expect_one_problem(test::two_blocks + "[[load]]\nblocks = [\"*\"]\nforce = [1, 0]\npoint = [0, 0]\n",
+                       "19:9: load \"load1\": point (", "names several");
     try
     {
         build_model(test::read(load + "force = [1, 0]\npoint = [0.5, 1.1]\n"));

@@ -53,6 +53,23 @@ TEST(Override, ReplacesAndAddsValues)
     EXPECT_EQ(def.title, "a bare title");
 }
 
+TEST(Override, OneNumberIsTheLengthOfAVectorThatTheCaseGives)
+{
+    const std::string pushed = two_blocks + "[[load]]\nname = \"push\"\nblocks = [\"top\"]\nforce = [-3e3, 4e3]\n"
+                                            "[[load]]\nblocks = [\"top\"]\nforce = [0, 0]\nmoment = 1\n";
+    EXPECT_EQ(read(pushed, {{"load.push.force", "10"}}).loads[0].force, Vec2(-6, 8));
+    EXPECT_EQ(read(pushed, {{"load[0].force", "-2.5e3"}}).loads[0].force, Vec2(1500, -2000)) << "turned back";
+    EXPECT_EQ(read(pushed, {{"load.push.force[0]", "7"}}).loads[0].force, Vec2(7, 4e3));
+    EXPECT_EQ(read(pushed, {{"load.load2.moment", "7"}}).loads[1].moment, 7.0) << "by its name of default";
+    EXPECT_EQ(read(pushed, {{"gravity.vector", "[0, -2]"}, {"gravity.vector", "3"}}).gravity, Vec2(0, -3));
+    EXPECT_THAT(problems_of(pushed, {{"load.load2.force", "7"}}), ElementsAre(HasSubstr("and this vector has none")));
+    EXPECT_THAT(problems_of(pushed, {{"load.pull.force", "7"}}), ElementsAre(HasSubstr("no entry of load is called 'pull'")));
+    EXPECT_FALSE(problems_of(with_sets, {{"domain.origin", "7"}}).empty()) << "a place has no direction";
+    EXPECT_THAT(problems_of(two_blocks + "[[load]]\nname = \"a\"\nblocks = [\"top\"]\nmoment = 1\n"
+                                         "[[load]]\nname = \"a\"\nblocks = [\"top\"]\nmoment = 1\n"),
+                ElementsAre(HasSubstr("load 1 has this name already")));
+}
+
 TEST(Override, TheLastOfOneKeyHolds)
 {
     EXPECT_EQ(read(two_blocks, {{"stage[0].cycles", "5"}, {"stage[0].cycles", "6"}}).stages[0].cycles, 6);

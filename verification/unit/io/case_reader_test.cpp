@@ -277,7 +277,7 @@ TEST(CaseReader, WarnsOfForcesOnFixedBlocks)
     const std::string block = "[[block]]\nname = \"last\"\npolygon = [[20, 0], [21, 0], [21, 1], [20, 1]]\n";
     const std::string load = "fixed = true\n[[load]]\nblocks = [\"last\"]\n";
     EXPECT_THAT(warnings(block + load + "force = [1e5, 0]\n"),
-                testing::HasSubstr("load 1: blocks names \"last\" (does not move it: it is fixed in all stages). Name"));
+                testing::HasSubstr("load \"load1\": blocks names \"last\" (does not move it: it is fixed in all stages). Name"));
     EXPECT_EQ(warnings(block + load + "velocity_x = 0.1\n"), "");
     const std::string freed = "[[stage]]\nname = \"go\"\ncycles = 10\nfree = [\"last\"]\n";
     EXPECT_EQ(warnings(block + load + "force = [1e5, 0]\n" + freed), "");

@@ -149,12 +149,12 @@ TEST(StageEnds, CloseOnTheHistoryThatTheyName)
 {
     CaseDef scene = resting({"history:base.normal_force > 2e4"});
     scene.histories = {{.name = "base", .between = {"ground", "block"}, .quantities = {"overlap"}}};
-    scene.loads = {{.blocks = {"block"}, .force = {0.0, -1e5}, .factor = {.ramp_cycles = Vec2(0.0, 40'000.0)}}};
+    scene.loads = {{.name = "push", .blocks = {"block"}, .force = {0.0, -1e5}, .factor = {.ramp_cycles = Vec2(0.0, 40'000.0)}}};
     const StageResult result = run_all(scene)[0];
     EXPECT_EQ(result.ended_by, 0) << "at once, while the load grows";
     EXPECT_GE(result.value, 2e4);
     ASSERT_EQ(result.to_come.size(), 1u);
-    EXPECT_EQ(result.to_come[0], "load 1 changes until cycle 40000");
+    EXPECT_EQ(result.to_come[0], "load \"push\" changes until cycle 40000");
 }
 
 TEST(StageEnds, SayWhatIsStillToCome)
@@ -162,13 +162,17 @@ TEST(StageEnds, SayWhatIsStillToCome)
     CaseDef scene = scenes::block_on_ground();
     scene.stages = {{.name = "one", .cycles = 100, .relax_cycles = 0}, {.name = "two", .cycles = 100}};
     scene.loads = {
-        {.blocks = {"block"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 150.0)}},
-        {.blocks = {"block"}, .force = {1.0, 0.0}, .interval = {.from_cycle = 500}},
-        {.blocks = {"block"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 120.0), .since = "two"}},
-        {.blocks = {"block"}, .force = {1.0, 0.0}, .interval = {.until_cycle = 50}, .factor = {.ramp_cycles = Vec2(0.0, 900.0)}}};
+        {.name = "load1", .blocks = {"block"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 150.0)}},
+        {.name = "load2", .blocks = {"block"}, .force = {1.0, 0.0}, .interval = {.from_cycle = 500}},
+        {.name = "load3", .blocks = {"block"}, .force = {1.0, 0.0}, .factor = {.ramp_cycles = Vec2(0.0, 120.0), .since = "two"}},
+        {.name = "load4",
+         .blocks = {"block"},
+         .force = {1.0, 0.0},
+         .interval = {.until_cycle = 50},
+         .factor = {.ramp_cycles = Vec2(0.0, 900.0)}}};
     const std::vector<StageResult> results = run_all(scene);
-    EXPECT_THAT(results[0].to_come, ElementsAre("load 1 changes until cycle 150"));
-    EXPECT_THAT(results[1].to_come, ElementsAre("load 2 begins in cycle 500", "load 3 changes until cycle 220"));
+    EXPECT_THAT(results[0].to_come, ElementsAre("load \"load1\" changes until cycle 150"));
+    EXPECT_THAT(results[1].to_come, ElementsAre("load \"load2\" begins in cycle 500", "load \"load3\" changes until cycle 220"));
 }
 
 TEST(StageEnds, AreTheSameOnAnyNumberOfThreads)

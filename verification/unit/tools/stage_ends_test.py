@@ -43,9 +43,9 @@ class StageEnds(unittest.TestCase):
         stage = summary["stages"][0]
         self.assertEqual(stage["ended_by"], "displacement:top > 0.01")
         self.assertGreaterEqual(stage["end_value"], 0.01)
-        self.assertEqual(stage["to_come"], ["load 1 changes until cycle 100000"])
+        self.assertEqual(stage["to_come"], ["load \"load1\" changes until cycle 100000"])
         self.assertIn("displacement:top > 0.01 (0.0", text)
-        self.assertIn("load 1 changes until cycle 100000", " ".join(summary["warnings"]))
+        self.assertIn("load \"load1\" changes until cycle 100000", " ".join(summary["warnings"]))
 
     def test_an_end_that_is_not_met_is_told(self):
         text, summary = self.run_case('[[stage]]\nuntil = "time > 1e6"\nmax_cycles = 50\n', code=4)
@@ -61,7 +61,7 @@ class StageEnds(unittest.TestCase):
     def test_stages_of_cycles_that_are_too_short_for_a_ramp_are_told(self):
         text, summary = self.run_case('[[load]]\nblocks = ["top"]\nforce = [1, 0]\nramp_cycles = [0, 80]\n[[stage]]\ncycles = 50\n')
         self.assertEqual(summary["stages"][0]["ended_by"], "cycles")
-        self.assertIn("the run ended in cycle 50, but load 1 changes until cycle 80", text)
+        self.assertIn("the run ended in cycle 50, but load \"load1\" changes until cycle 80", text)
 
     def test_water_is_drawn(self):
         with tempfile.TemporaryDirectory(prefix="hdem_water_") as folder:

@@ -164,7 +164,7 @@ TEST(Names, ThatNothingHasAreSaidWithTheirPlaceAndTheNearestOne)
     EXPECT_THAT(stage("fix = [\"tunnel\"]\n"), ElementsAre(HasSubstr("fix = \"tunnel\" (is an excavation, not a block)")));
     EXPECT_THAT(stage("free = [\"b999\"]\n"), ElementsAre(HasSubstr("free = \"b999\" (no block has this name). The model has")));
     EXPECT_THAT(stage("[[load]]\nblocks = [\"b999\"]\nforce = [1, 0]\n"),
-                ElementsAre(HasSubstr("load 1: blocks = \"b999\" (no block")));
+                ElementsAre(HasSubstr("load \"load1\": blocks = \"b999\" (no block")));
 }
 
 /// hdem check must find them: a run would stop at them only after its first lines.
