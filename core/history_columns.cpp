@@ -71,6 +71,7 @@ const std::vector<KnownOfPair>& known_of_pair()
     static const std::vector<KnownOfPair> all = {
         {"normal_force", {"normal_force", "N"}, [](const Model&, const PairSample& p) { return p.normal_force; }},
         {"shear_force", {"shear_force", "N"}, [](const Model&, const PairSample& p) { return p.shear_force; }},
+        {"tilt_force", {"tilt_force", "N"}, [](const Model&, const PairSample& p) { return p.tilt_force; }},
         {"overlap", {"overlap", "m"}, [](const Model&, const PairSample& p) { return p.overlap; }},
         {"shear_displacement", {"shear_displacement", "m"}, [](const Model&, const PairSample& p) { return p.shear_displacement; }},
         {"contact_length", {"contact_length", "m"}, [](const Model&, const PairSample& p) { return p.length; }},

@@ -160,6 +160,7 @@ PairSample HistorySampler::sample_pair(const Model& model, const State& state)
         const ContactReport contact = report_contact(state, i);
         sums.normal_force += contact.normal_force;
         sums.shear_force += contact.shear_force;
+        sums.tilt_force += contact.tilt_force;
         sums.overlap = std::max(sums.overlap, contact.overlap);
         sums.length += contact.length;
         sums.impulse_points += contact.impulse_points;

@@ -29,6 +29,7 @@ struct PairSample
 {
     double normal_force = 0.0;        ///< [N]
     double shear_force = 0.0;         ///< [N]
+    double tilt_force = 0.0;          ///< [N]
     double overlap = 0.0;             ///< greatest [m]
     double length = 0.0;              ///< [m]
     double shear_displacement = 0.0;  ///< [m]

@@ -177,7 +177,7 @@ SectionSpec contact_section()
          field<&ContactDef::length_floor>({.name = "length_floor",
                                            .effect = "Least contact length as a share of the smaller block's size (the square root "
                                                      "of its area); carries corner-on-corner contacts.",
-                                           .range = share}),
+                                           .range = {.low = 0, .high = 1, .low_included = false}}),
          field<&ContactDef::overlap_limit>(
              {.name = "overlap_limit",
               .effect = "The run stops when an overlap exceeds this share of the smaller block's size.",

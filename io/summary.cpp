@@ -179,6 +179,8 @@ Json joint_sets_json(const RunSummary& s)
                         {"trace", drawn_json(set.trace)},
                         {"gap", drawn_json(set.gap)},
                         {"length", set.length},
+                        {"skipped_share", set.length > 0.0 ? set.skipped / set.length : 0.0},
+                        {"refused_share", set.length > 0.0 ? set.refused / set.length : 0.0},
                         {"dead_ends_share", set.length > 0.0 ? set.dead_ends / set.length : 0.0},
                         {"welded_share", set.length > 0.0 ? set.welded / set.length : 0.0}});
     return sets;

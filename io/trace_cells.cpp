@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
 #include "core/rock/line_stretches.h"
+#include "io/lines_through_corners.h"
 #include "io/segment_index.h"
 #include "io/traces.h"
 
@@ -229,7 +230,6 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     for (const SourceLine& line : lines)
     {
         all.push_back(line.points);
-        add_segments(line.points, line.source, result.segments);
         result.dropped.resize(std::max(result.dropped.size(), static_cast<std::size_t>(line.source) + 1), 0.0);
     }
     const double by = std::max(snap, 10.0 * round_off(domain));
@@ -245,10 +245,12 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
             lengthen(cutting[t].back(), trace[trace.size() - 2], snap);
         }
         all.push_back(cutting[t]);
-        add_segments(all.back(), no_index, result.segments);
         for (std::size_t i = 1; i < trace.size(); ++i)
             result.trace_length += length_inside(domain, trace[i - 1], trace[i]);
     }
+    lead_through_corners(domain, 0.1 * line_slack(domain), all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        add_segments(all[i], i < lines.size() ? lines[i].source : no_index, result.segments);
     // All at once, and what lies outside the domain left out later: lines cut off at the boundary before may end a rounding short of it.
     all.push_back(domain);
     all.back().push_back(domain.front());

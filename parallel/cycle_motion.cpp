@@ -50,7 +50,7 @@ void CycleRunner::find_fast(const Model& model, const State& state, const Team& 
     }
 }
 
-void CycleRunner::find_groups(State& state, const Team& team)
+void CycleRunner::find_groups(const Model& model, State& state, const Team& team)
 {
     constexpr std::size_t few = 128;  // then looking takes no time
     std::size_t count = 0;
@@ -71,7 +71,7 @@ void CycleRunner::find_groups(State& state, const Team& team)
             if (!among_all)
                 std::erase_if(fast, [&](Index block)
                               { return !std::ranges::binary_search(state.moving, block, {}, &MovingBlock::block); });
-            groups_.find(rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts, state.moving);
+            groups_.find(model, rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts, state.moving);
         });
 }
 

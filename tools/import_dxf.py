@@ -24,6 +24,8 @@ import ezdxf.path    # noqa: E402
 from plain_text import one_line, printable    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
+DEEPEST = 50    # references of blocks in blocks
+METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 4: ("mm", 0.001), 5: ("cm", 0.01), 7: ("km", 1000.0), 14: ("dm", 0.1)}    # of $INSUNITS
 ROUND_OFF = 1e-12    # of coordinates, in the ends of arcs
 LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
 Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
@@ -64,13 +66,15 @@ def parse(arguments):
     return options
 
 
-def entities_of(space, outer=None):
+def entities_of(space, outer=None, depth=0):
     """All that is drawn, block references taken apart, with its layer: on layer 0 of a block that of the reference."""
+    if depth > DEEPEST:
+        raise DrawingError(f"blocks refer to blocks more than {DEEPEST} deep, or to themselves. Take the references apart.")
     for entity in space:
         layer = outer if outer is not None and entity.dxf.layer == "0" else entity.dxf.layer
         if entity.dxftype() == "INSERT":
             for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
-                yield from entities_of(one.virtual_entities(), layer)
+                yield from entities_of(one.virtual_entities(), layer, depth + 1)
         else:
             yield entity, layer
 
@@ -104,7 +108,12 @@ def read(options):
         name = name_of(layer)
         numbers[name, lines is blocks] += 1
         lines.append(Line(f"{name}_{numbers[name, lines is blocks]}", layer.lower(), points))
-    for entity, layer in entities_of(ezdxf.readfile(options.drawing).modelspace()):
+    drawing = ezdxf.readfile(options.drawing)
+    hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()} - layers
+    for entity, layer in entities_of(drawing.modelspace()):
+        if layer.lower() in hidden:
+            left_out["on layers that are off or frozen (name them by --layer)"] += 1
+            continue
         if layers and layer.lower() not in layers:
             left_out["on other layers"] += 1
             continue
@@ -124,6 +133,9 @@ def read(options):
             add(traces, layer, points + points[:1] if closed else points)
         else:
             left_out["open lines"] += 1
+    unit, metres = METRES.get(drawing.header.get("$INSUNITS", 0), ("", 1.0))
+    if unit and options.scale != metres:
+        print(f"note: the drawing says that its unit is {unit}: --scale {metres:g}", file=sys.stderr)
     return blocks, traces, left_out
 
 
@@ -163,6 +175,8 @@ def convert(options):
     """Writes the files; what was left out."""
     try:
         blocks, traces, left_out = read(options)
+    except DrawingError as error:
+        raise DrawingError(f"{options.drawing}: {error}") from None
     except (OSError, ValueError, ezdxf.DXFError) as error:
         raise DrawingError(f"{options.drawing}: cannot be read ({error}). Give a DXF file.") from None
     for file, lines, what in ((options.blocks, blocks, "blocks"), (options.traces, traces, "traces")):

@@ -18,7 +18,7 @@ namespace
 /// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves of that.
 constexpr double left_by_sweeps = 1e-3;
 constexpr double solved = 1e-2;
-/// The same where rest is looked for, as a share of what a block at rest may be out of balance by: more, and the stage would wait for what nobody solves.
+/// The same where rest is looked for, as a share of what a block at rest, and all together, may be out of balance by: more, and the stage would wait for what nobody solves.
 constexpr double left_at_rest = 0.3;
 /// The same in an impact, where it stays: no later cycle takes it back.
 constexpr double left_in_impact = 1e-6;
@@ -37,8 +37,10 @@ constexpr int more_sweeps = 10;
 
 double noticeable(const Model& model, ExactIslands which)
 {
-    return which == ExactIslands::small ? std::min(left_by_sweeps, left_at_rest * model.convergence.block_unbalanced_ratio)
-                                        : left_by_sweeps;
+    if (which != ExactIslands::small)
+        return left_by_sweeps;
+    const ConvergenceDef& rest = model.convergence;
+    return std::min(left_by_sweeps, left_at_rest * std::min(rest.block_unbalanced_ratio, rest.unbalanced_force_ratio));
 }
 
 /// Least error of a velocity at the point that counts [m/s].

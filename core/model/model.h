@@ -146,15 +146,16 @@ struct Model
     DampingDef damping;
     ConvergenceDef convergence;
     OutputDef output;
-    double time_step = 0.0;          ///< [s]
-    double paper_time_step = 0.0;    ///< Eq. (32) [s]
-    double default_time_step = 0.0;  ///< what a case without a step takes, see core/motion/time_step.h [s]
-    bool holds_mean = false;         ///< the blocks at pressed sides together neither move nor turn, see core/boundary/mean_hold.h
-    bool is_driven = false;          ///< a block has a motion that it cannot leave
-    bool has_step = false;           ///< the case gives the time step
-    double stable_fraction = 0.9;    ///< that share [-]
-    double threshold_scale = 1.0;    ///< C_scale of Eq. (25) [-]
-    double mean_size = 0.0;          ///< square root of the mean block area [m]
+    double time_step = 0.0;           ///< [s]
+    double paper_time_step = 0.0;     ///< Eq. (32) [s]
+    double default_time_step = 0.0;   ///< what a case without a step takes, see core/motion/time_step.h [s]
+    double greatest_stiffness = 0.0;  ///< normal or shear, of all joints and stages [Pa/m]
+    bool holds_mean = false;          ///< the blocks at pressed sides together neither move nor turn, see core/boundary/mean_hold.h
+    bool is_driven = false;           ///< a block has a motion that it cannot leave
+    bool has_step = false;            ///< the case gives the time step
+    double stable_fraction = 0.9;     ///< that share [-]
+    double threshold_scale = 1.0;     ///< C_scale of Eq. (25) [-]
+    double mean_size = 0.0;           ///< square root of the mean block area [m]
 
     [[nodiscard]] Index blocks() const { return static_cast<Index>(mass.size()); }
     [[nodiscard]] bool is_wall(Index block) const { return mass[block] == 0.0; }  ///< of a [[boundary]]

@@ -49,6 +49,8 @@ struct DrawnSet
     DrawnNumber trace;        ///< [m]
     DrawnNumber gap;          ///< [m]
     double length = 0.0;      ///< in the domain and where the set may be [m]
+    double skipped = 0.0;     ///< of it left out by persistence [m]
+    double refused = 0.0;     ///< of it in blocks that a cut would have left too small a piece or an edge of [m]
     double dead_ends = 0.0;   ///< of it that parts nothing, and was dropped [m]
     double welded = 0.0;      ///< of it along slivers that were joined to a neighbour [m]
 };

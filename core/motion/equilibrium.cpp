@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hdem
 {
@@ -28,6 +29,17 @@ double unbalance(Index block, const Model& model, const Blocks& blocks)
     const Vec2 net(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
     const double moment = inertia.inverse_inertia > 0.0 ? std::abs(force.moment) : 0.0;
     return (net.norm() + moment / model.radius[block]) / model.mass[block];
+}
+
+double clear_unbalance(Index block, const Model& model, const Blocks& blocks)
+{
+    const BlockMotion& motion = blocks.motion[block];
+    const double found = unbalance(block, model, blocks), radius = model.radius[block];
+    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * model.greatest_stiffness * 2.0 * radius *
+                            (std::abs(motion.x) + std::abs(motion.y) + radius) / model.mass[block];
+    const double at_rest = model.convergence.block_unbalanced_ratio *
+                           (model.gravity.isZero(0.0) ? earth_gravity : model.gravity.norm());
+    return rounding > 0.01 * at_rest ? std::max(found - std::min(rounding, 10.0 * at_rest), 0.0) : found;
 }
 
 double rim_speed(Index block, const Model& model, const Blocks& blocks)
@@ -95,7 +107,7 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
         sums.applied_force += loaded.net().norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
-        sums.unbalanced.add(unbalance(i, model, blocks) / reference_acceleration(i, model, load), i);
+        sums.unbalanced.add(clear_unbalance(i, model, blocks) / reference_acceleration(i, model, load), i);
         sums.fastest.add(rim_speed(i, model, blocks), i);
     }
 }

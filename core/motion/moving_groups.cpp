@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hdem
 {
@@ -66,6 +67,36 @@ bool are_together(Index contact, const GroupRule& rule, const Blocks& blocks, co
 Index other_block(Index block, Index contact, const Contacts& contacts)
 {
     return contacts.ref[contact] == block ? contacts.inc[contact] : contacts.ref[contact];
+}
+
+/// Of the radius: points so near to each other are one.
+constexpr double one_point = 0.01;
+
+/// Does all that bears the block meet it in one point, about which its weight turns it on? (One that its weight turns back is damped: a block that rocks comes to rest.)
+bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
+          const BlockContacts& list)
+{
+    std::optional<Vec2> hinge;
+    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
+    {
+        const Index contact = list.entry[e] / 2;
+        if (!do_touch(contact, contacts))
+            continue;
+        for (int end = 0; end < 2; ++end)
+        {
+            if (tie_of(contact, end, rule, blocks, contacts) == Tie::none)
+                continue;
+            const EdgeTouch touch = touch_of(contact, blocks, contacts);
+            const TouchPoint& p = touch.point[end];
+            const bool is_ref = contacts.ref[contact] == block;
+            const double t = is_ref ? p.ref_t : p.inc_t, m = is_ref ? p.ref_m : p.inc_m;
+            const Vec2 at(touch.ex * t - touch.ey * m, touch.ey * t + touch.ex * m);
+            if (hinge && (*hinge - at).norm() > one_point * model.radius[block])
+                return false;
+            hinge = at;
+        }
+    }
+    return hinge && cross(model.gravity, *hinge) * blocks.motion[block].w > 0.0;
 }
 }  // namespace
 
@@ -203,7 +234,7 @@ void MovingGroups::find_groups(const View& view)
             gather(k, view);
 }
 
-void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
+void MovingGroups::find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
                         const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
 {
     const View view{rule, blocks, contacts, list};
@@ -220,6 +251,11 @@ void MovingGroups::find(const GroupRule& rule, const std::vector<Index>& fast, c
     moving.clear();
     for (const Member& member : members_)
     {
+        if (member.touched && tips(member.block, model, rule, blocks, contacts, list))
+        {
+            moving.push_back({member.block, true, 1.0F, 0.0F});
+            continue;
+        }
         if (member.held || !member.touches)
             continue;  // (what touches nothing is not damped in any case)
         const Group& group = groups_[member.group];

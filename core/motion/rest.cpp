@@ -18,7 +18,8 @@ double quiet_speed(const RestRule& rule, double step)
 bool is_quiet(Index block, const Model& model, const RestRule& rule, const Blocks& blocks)
 {
     return (blocks.force[block].contacts & contact_impulse) == 0 &&
-           rim_speed(block, model, blocks) < quiet_speed(rule, blocks.step.last) && unbalance(block, model, blocks) < rule.quiet;
+           rim_speed(block, model, blocks) < quiet_speed(rule, blocks.step.last) &&
+           clear_unbalance(block, model, blocks) < rule.quiet;
 }
 
 /// The contacts have counted on its way up to their forces: half a step.
@@ -68,7 +69,7 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
                 stop(b, model, blocks, ledger);
             continue;
         }
-        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(unbalance(b, model, blocks) < rule.waking);
+        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(clear_unbalance(b, model, blocks) < rule.waking);
         changed = changed || woken || rest == stopped;
         rest = woken ? 0 : left_out;
     }
@@ -101,7 +102,7 @@ bool wake_unbalanced(const Model& model, double limit, Blocks& blocks)
 {
     bool woken = false;
     for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.is_free(b) && blocks.rest[b] >= stopped && unbalance(b, model, blocks) >= limit)
+        if (blocks.is_free(b) && blocks.rest[b] >= stopped && clear_unbalance(b, model, blocks) >= limit)
         {
             blocks.rest[b] = 0;
             woken = true;

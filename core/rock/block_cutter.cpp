@@ -29,6 +29,7 @@ struct Cutter
     const GeneratorDef& generator;
     RockMass& counts;
     boost::random::mt19937_64 engine;
+    CutLengths lengths = {};
     boost::random::uniform_real_distribution<double> chance{0.0, 1.0};
 };
 
@@ -61,6 +62,17 @@ BlockCut plan(const Cutter& cutter, const Parts& parts, const CutLine& line)
         }
     }
     return out;
+}
+
+/// Of the joint within the block [m].
+double length_of(const BlockCut& cut)
+{
+    double length = 0.0;
+    for (const ConvexCut& part : cut.cuts)
+    {
+        length += (part.to - part.from).norm();
+    }
+    return length;
 }
 
 /// New edges are the chord and what is left of the edges the joint crossed: those that end in a new point.
@@ -199,15 +211,18 @@ std::optional<std::vector<Parts>> try_joint(Cutter& cutter, const Parts& parts, 
     if (cutter.set.persistence < 1.0 && cutter.chance(cutter.engine) >= cutter.set.persistence)
     {
         ++cutter.counts.skipped_cuts;
+        cutter.lengths.skipped += length_of(plan(cutter, parts, line));
         return std::nullopt;
     }
     BlockCut cut = plan(cutter, parts, line);
     if (is_refused(cut, cutter))
     {
         ++cutter.counts.refused_cuts;
+        cutter.lengths.refused += length_of(cut);
         return std::nullopt;
     }
     ++cutter.counts.cuts;
+    cutter.lengths.cut += length_of(cut);
     return make(cut, cutter);
 }
 
@@ -267,8 +282,8 @@ CutMass uncut_mass(const Polygon& domain, double tolerance)
     return mass;
 }
 
-void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts,
-                const std::function<bool(const CutBlock&)>& is_meant)
+CutLengths cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator,
+                      RockMass& counts, const std::function<bool(const CutBlock&)>& is_meant)
 {
     Cutter cutter = {mass,      joints, set,
                      generator, counts, boost::random::mt19937_64(stream_seed(generator, set, joints.set, RandomUse::persistence))};
@@ -284,5 +299,6 @@ void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set
         cut_one_block(cutter, std::move(block.parts), out);
     }
     mass.blocks = std::move(out);
+    return cutter.lengths;
 }
 }  // namespace hdem

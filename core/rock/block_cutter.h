@@ -28,6 +28,16 @@ struct CutMass
     double tolerance = 0.0;          ///< a line nearer to a vertex goes through it [m]
 };
 
+/// Length of joints in the blocks that they met [m].
+struct CutLengths
+{
+    double cut = 0.0;
+    double skipped = 0.0;  ///< by persistence
+    double refused = 0.0;
+
+    [[nodiscard]] double sum() const { return cut + skipped + refused; }
+};
+
 /// One block, the domain. Edge i of the polygon becomes chord i, so that blocks at the domain's boundary know their side.
 /// @pre domain is simple and anticlockwise
 CutMass uncut_mass(const Polygon& domain, double tolerance);
@@ -41,6 +51,7 @@ CutMass uncut_mass(const Polygon& domain, double tolerance);
 /// Every block looks only at the joints that can reach it: the time is proportional to the number of blocks.
 ///
 /// @param is_meant  blocks for which it says no stay as they are; empty: all are cut
-void cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator, RockMass& counts,
-                const std::function<bool(const CutBlock&)>& is_meant = {});
+/// @return  how long the joints are in the blocks that they met
+CutLengths cut_blocks(CutMass& mass, const JointTraces& joints, const JointSetDef& set, const GeneratorDef& generator,
+                      RockMass& counts, const std::function<bool(const CutBlock&)>& is_meant = {});
 }  // namespace hdem

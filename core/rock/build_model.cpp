@@ -184,7 +184,7 @@ Setup build_model(const CaseDef& def)
     std::vector<double> masses = least_masses(model);
     std::swap(masses, model.mass);  // the step must be good in all stages
     const double smallest = smallest_free_mass(model, free_at_times);
-    const double stiffest = greatest_stiffness(model);
+    const double stiffest = model.greatest_stiffness = greatest_stiffness(model);
     model.paper_time_step = paper_time_step(smallest, stiffest, def.time.fraction);
     model.default_time_step = takes_paper_step(def) ? model.paper_time_step
                                                     : default_time_step(model, free_at_times, stiffest, def.time.fraction);

@@ -131,7 +131,13 @@ void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& re
         {
             is_meant = [&](const CutBlock& block) { return regions.is_meant(set, block); };
         }
-        cut_blocks(mass, joints, set, def.generator, rock, is_meant);
+        const CutLengths lengths = cut_blocks(mass, joints, set, def.generator, rock, is_meant);
+        rock.sets[i].skipped = lengths.skipped;
+        rock.sets[i].refused = lengths.refused;
+        if (is_limited)
+        {
+            rock.sets[i].length = lengths.sum();
+        }
         warn_of_refused_cuts(set, i, rock.refused_cuts - refused, rock.cuts - cuts, rock);
         if (is_limited && crossing > 0 && rock.cuts + rock.refused_cuts + rock.skipped_cuts == before)
         {

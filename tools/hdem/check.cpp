@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 namespace hdem
@@ -72,6 +73,11 @@ Index count_steep_corners(const Model& model, const State& state)
 
 void write_blocks(const std::string& file, const CaseDef& def)
 {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!folder.empty() && !std::filesystem::exists(folder))
+        throw InputError(Problem{.key = {},
+                                 .text = fmt::format("--write-blocks {}: (there is no folder {}). Make it, or give another name.",
+                                                     printable(file, 200), printable(folder.string(), 200))});
     const std::vector<BlockShape> shapes = block_shapes(def, generate_rock_mass(def));
     write_atomically(file, file.ends_with(".wkt") ? to_wkt(shapes) : to_geojson(shapes));
     const auto hollow = std::ranges::count_if(shapes, [](const BlockShape& shape) { return !shape.holes.empty(); });

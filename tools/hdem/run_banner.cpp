@@ -63,7 +63,8 @@ std::vector<std::string> describe_sets(const RockMass& rock)
         line += drawn_text("gap", set.gap, " m");
         line += fmt::format(", {:.6g} m in the domain", set.length);
         for (const auto& [length, what] :
-             {std::pair(set.dead_ends, "dropped as dead ends"), std::pair(set.welded, "welded to join slivers")})
+             {std::pair(set.skipped, "skipped by persistence"), std::pair(set.refused, "refused"),
+              std::pair(set.dead_ends, "dropped as dead ends"), std::pair(set.welded, "welded to join slivers")})
             if (length > 0.0 && set.length > 0.0)
                 line += fmt::format(", {:.6g} m ({:.3g} %) {}", length, 100.0 * length / set.length, what);
         lines.push_back(line);

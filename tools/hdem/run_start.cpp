@@ -250,6 +250,8 @@ std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite)
         remove_file(checkpoint);
     remove_file(folder / "results.h5");  // it names frames that are about to go
     remove_frames(folder);
+    for (const char* page : {"view.html", "report.html"})  // they would show the run before
+        remove_file(folder / page);
     return notes;
 }
 }  // namespace hdem

@@ -81,6 +81,7 @@ class Table
                          .length = 0.5 * report.bearing_length,
                          .normal_force = history.normal_force,
                          .shear_force = history.shear_force,
+                         .tilt_force = contacts.tilt_force(k, i),
                          .gap = -overlap,
                          .closure = history.overlap - history.rest_overlap,
                          .slip = slip_of(look_.state.blocks, report),

@@ -17,6 +17,7 @@ struct ContactRow
     double length;
     double normal_force;
     double shear_force;
+    double tilt_force;
     double gap;
     double closure;
     double slip;

@@ -204,8 +204,8 @@ py::list run_piece(const py::object& self, const std::optional<std::int64_t>& cy
 
 void bind_run(py::module_& module)
 {
-    PYBIND11_NUMPY_DTYPE(ContactRow, blocks, joint, end, regime, point, normal, length, normal_force, shear_force, gap, closure,
-                         slip, plastic_slip, broken);
+    PYBIND11_NUMPY_DTYPE(ContactRow, blocks, joint, end, regime, point, normal, length, normal_force, shear_force, tilt_force, gap,
+                         closure, slip, plastic_slip, broken);
     RunType type(module, "Run");
     type.def(py::init(&make_run), py::arg("case"), py::arg("folder"), py::arg("threads"), py::arg("overwrite"));
     type.def(py::init(&make_restart), py::arg("checkpoint"), py::arg("writes"), py::arg("threads"));

@@ -70,15 +70,27 @@ def bisection(options):
     return {"bisect": {"key": key, "low": low, "high": high, "tolerance": options.tolerance, "fails": options.fails}}
 
 
-def try_first(options, values):
-    """hdem's check of the first run, where hdem is at hand: a misspelt key would else be found by all runs."""
+def extremes(keys, rows):
+    """Numbers of the first run and of those in which a key has its least or its greatest value: a value out of range is among them."""
+    numbers = {0}
+    for place, _ in enumerate(keys):
+        try:
+            column = [float(row[place]) for row in rows]
+        except (TypeError, ValueError):
+            continue
+        numbers |= {column.index(min(column)), column.index(max(column))}
+    return sorted(numbers)
+
+
+def try_run(options, number, values):
+    """hdem's check of a run, where hdem is at hand: a misspelt key would else be found by all runs."""
     words = [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
     try:
         done = subprocess.run([options.program, "check", options.case, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     except OSError:
         return
     if done.returncode == 2:
-        raise SweepError(f"hdem refuses the first run:\n{done.stderr.strip()}")
+        raise SweepError(f"hdem refuses run {number + 1}:\n{done.stderr.strip()}")
 
 
 def digest_of(case):
@@ -127,7 +139,8 @@ def make(options):
     if not options.case.exists():
         raise SweepError(f"{options.case}: no such file. Give a case.")
     require_free(options.output)
-    try_first(options, dict(zip(keys, rows[0])) | {one["key"]: one["low"] for one in chain.values()})
+    for number in extremes(keys, rows):
+        try_run(options, number, dict(zip(keys, rows[number])) | {one["key"]: one["low"] for one in chain.values()})
     options.output.mkdir(parents=True, exist_ok=True)
     plan = {"case": str(options.case.resolve()), "case_sha256": digest_of(options.case), "runs": [dict(zip(keys, row)) for row in rows], **chain}
     if options.command_of_hdem != "run":

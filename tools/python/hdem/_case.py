@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from . import _core
@@ -11,12 +11,22 @@ from ._toml import from_toml, to_toml, toml_value
 
 
 def override_texts(changes: Mapping[str, Any] | Iterable[str]) -> list[str]:
-    """{"generator.seed": 3} or ["generator.seed=3"] -> ["generator.seed=3"]"""
+    """{"generator.seed": 3}, {"generator": {"seed": 3}} or ["generator.seed=3"] -> ["generator.seed=3"]"""
     if isinstance(changes, str):
         raise TypeError('set: a list of texts "key=value", or a dict, is needed')
     if isinstance(changes, Mapping):
-        return [f"{key}={toml_value(value, key)}" for key, value in changes.items()]
+        return [f"{key}={toml_value(value, key)}" for key, value in _members(changes)]
     return [str(change) for change in changes]
+
+
+def _members(changes: Mapping[str, Any], section: str = "") -> Iterator[tuple[str, Any]]:
+    """Members of a section by themselves: what a dict does not name stays."""
+    for key, value in changes.items():
+        is_section = not section and "." not in key and "[" not in key or section in ("joint", "material")
+        if is_section and isinstance(value, Mapping):
+            yield from ((f"{key}.{member}", one) for member, one in _members(value, key if not section else " "))
+        else:
+            yield key, value
 
 
 def whole(name: str, value: Any) -> int | None:
@@ -41,7 +51,8 @@ class Case(_core.Case):
     """A case that has been read, and the blocks that it makes.
 
     source  name of a case file, or a dict with the keys of one (io/case_format.md)
-    set     values laid over it, as --set of the program: {"joint.default.cohesion": 0, "stage[1].max_cycles": 2000}, or texts "key=value"
+    set     values laid over it, as --set of the program: {"joint.default.cohesion": 0, "stage[1].max_cycles": 2000}, or texts "key=value".
+            A dict for a section, {"generator": {"seed": 3}}, leaves the keys that it does not name
     name    of a dict in messages; files that it names (blocks_file, ...) are looked up beside it
 
     Raises CaseError with all problems at once. Lines and columns in messages about a dict are those of `text`.

@@ -55,8 +55,9 @@ class Simulation(_core.Run):
 
     @classmethod
     def from_checkpoint(cls, file: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
-        """The state in a checkpoint file, with the case that it holds. Nothing is written."""
-        return cls._loaded(os.fspath(file), False, threads)
+        """The state in a checkpoint file, or in that of a folder, with the case that it holds. Nothing is written."""
+        place = os.fspath(file)
+        return cls._loaded(os.path.join(place, "checkpoint.h5") if os.path.isdir(place) else place, False, threads)
 
     @classmethod
     def restart(cls, folder: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
@@ -106,6 +107,7 @@ class Simulation(_core.Run):
         length        of the contact that this point bears [m]; force / length is its stress
         normal_force  compression positive [N]
         shear_force   on the second block along the shear axis [N]
+        tilt_force    acts like it and adds to it in the balance of a block, but has nothing to do with friction: great where a corner presses on a side at an angle [N]
         gap           between the faces where the blocks are now, below 0: they overlap [m]
         closure       of the normal spring in the last cycle, with what in-situ stress presses it [m]
         slip          of the second block against the shear axis since the stage began, in the middle of the contact [m]

@@ -76,13 +76,15 @@ TEST(HistorySampler, ContactQuantitiesAreSumsOverThePairWhicheverWayItIsNamed)
     SmallRun run = test::small_run();
     run.state.blocks.motion[block].y -= 1e-5;
     test::load_contact(run, 0, 26487.0, -100.0, Regime::impulse);
+    run.state.contacts.lane[0].tilt_force[1][0] = 7.0;
     for (const std::vector<std::string>& between : {std::vector<std::string>{"ground", "block"}, {"block", "ground"}})
     {
         HistorySampler sampler(run.model, test::history("h", between, contact_history_quantities()));
         const auto v = sample(sampler, run);
-        EXPECT_EQ(v.size(), 13U);
+        EXPECT_EQ(v.size(), 14U);
         EXPECT_DOUBLE_EQ(v.at("normal_force"), 26487.0);
         EXPECT_DOUBLE_EQ(v.at("shear_force"), -100.0);
+        EXPECT_DOUBLE_EQ(v.at("tilt_force"), 7.0);
         EXPECT_NEAR(v.at("overlap"), 1e-5, 1e-15);
         EXPECT_NEAR(v.at("contact_length"), 1.0, 1e-12);
         EXPECT_DOUBLE_EQ(v.at("normal_impulse"), 2.6487);

@@ -50,6 +50,7 @@ TEST(CaseErrors, WrongKeysTypesAndRanges)
         {"2700.0", "1979-05-27", "2:11: material \"rock\": density = a date (", "got a date"},
         {"2700.0", "-5", "2:11: material \"rock\": density = -5 kg/m3 (", "must be > 0"},
         {"2700.0", "0", "2:11: material", "must be > 0"},
+        {"[material.rock]", "[contact]\nlength_floor = 0\n[material.rock]", "2:16: [contact]: length_floor = 0 (", "must be > 0"},
         {"[material.rock]", "blocks_file = \"\"\n[material.rock]", "1:15: case: blocks_file = \"\" (", "names no file"},
         {"2700.0", "nan", "2:11: material \"rock\": density = nan kg/m3 (", "must be finite). Give a number in kg/m3"},
         {"2700.0", "-inf", "2:11: material", "must be finite"},

@@ -119,6 +119,24 @@ TEST(StageEnds, OfMotionEndAtRestWhereNothingCanHappen)
     EXPECT_EQ(run_all(driven)[0].ended_by, 0) << "slower than what counts as at rest, but it goes on";
 }
 
+/// What rounding leaves of the springs' forces is a good part of the light block's weight; and one block has nearly all the weight of the model.
+TEST(StageEnds, ComeToAHeavyBlockOnALightOne)
+{
+    for (const Method method : {Method::force, Method::hybrid, Method::impulse})
+        for (const double angle : {0.0, 37.0, 211.0})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scene.contact.method = method;
+            scene.materials.push_back({.name = "light", .density = 0.04});
+            scenes::add_fixed_block(scene, "ground", scenes::rectangle({-9.0, -2.0}, {9.0, 0.0}));
+            scenes::add_block(scene, "plate", scenes::rectangle({-2.36, 0.0}, {2.36, 0.24})).material = "light";
+            scenes::add_block(scene, "stone", {{-2.12, 0.24}, {2.12, 0.24}, {1.18, 3.54}, {-1.65, 3.54}});
+            scene.stages = {{.name = "rest", .cycles = {}, .until_converged = true, .max_cycles = 200'000}};
+            const StageResult result = run_all(scenes::turned(scene, angle))[0];
+            EXPECT_TRUE(result.at_rest) << "turned by " << angle;
+        }
+}
+
 TEST(StageEnds, WaitForLoadsThatChange)
 {
     for (const char* until : {"quiet for 0.01 s", "speed < 1e-3", "displacement within 1e-6 for 0.01 s", "displacement > 1"})

@@ -74,6 +74,33 @@ class Drawing(unittest.TestCase):
         self.assertGreater(lines[1].count(","), 16, "a circle of 1 m within 10 mm")
         self.assertRegex(self.check('blocks_file = "b.wkt"\n'), r"blocks +2 ")
 
+    def test_hidden_layers_are_left_out_and_units_told(self):
+        drawing = ezdxf.readfile(self.folder / "map.dxf")
+        drawing.header["$INSUNITS"] = 4
+        drawing.layers.add("JOINTS").off()
+        drawing.layers.add("BLOCKS").freeze()
+        drawing.modelspace().add_line((0, 0), (1000, 1000), dxfattribs={"layer": "SEEN"})
+        drawing.saveas(self.folder / "map.dxf")
+        code, said = self.convert("--traces", self.folder / "t.wkt")
+        self.assertEqual(code, 0, said)
+        self.assertIn("t.wkt: 1 traces", said)
+        self.assertIn("left out: 6 on layers that are off or frozen", said)
+        self.assertIn("note: the drawing says that its unit is mm: --scale 0.001", said)
+        code, said = self.convert("--traces", self.folder / "t.wkt", "--layer", "joints", "--scale", "0.001")
+        self.assertIn("t.wkt: 3 traces", said)
+        self.assertNotIn("note:", said)
+
+    def test_blocks_that_refer_to_themselves(self):
+        drawing = ezdxf.new()
+        block = drawing.blocks.new("RING")
+        block.add_line((0, 0), (1, 0))
+        block.add_blockref("RING", (1, 1))
+        drawing.modelspace().add_blockref("RING", (0, 0))
+        drawing.saveas(self.folder / "map.dxf")
+        code, said = self.convert("--traces", self.folder / "t.wkt")
+        self.assertEqual((code, said.count("\n")), (2, 1), said)
+        self.assertIn("or to themselves", said)
+
     def test_endings_decide_what_is_written(self):
         for ending in ("wkt", "csv"):
             code, said = self.convert("--blocks", self.folder / f"b.{ending}", "--traces", self.folder / f"t.{ending}", "--scale", "0.001")

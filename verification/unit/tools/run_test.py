@@ -66,6 +66,25 @@ class TheStart(unittest.TestCase):
             self.assertEqual(run.stdout, (Path(folder) / "out/run.log").read_text(encoding="utf-8"))
             return run.stdout
 
+    def test_pages_of_the_run_before_go(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "small.toml").write_text(CASE.replace("cycles = 2500", "cycles = 10"), encoding="utf-8")
+            words = [HDEM, "run", "small.toml", "-o", "out", "--quiet"]
+            subprocess.run(words, cwd=folder, check=True)
+            others = ("view.html", "report.html", "notes.txt")
+            for name in others:
+                (Path(folder) / "out" / name).write_text("of the first run")
+            subprocess.run(words, cwd=folder, check=True)
+            self.assertEqual([(Path(folder) / "out" / name).exists() for name in others], [False, False, True])
+
+    def test_blocks_are_written_where_there_is_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "small.toml").write_text(CASE, encoding="utf-8")
+            done = subprocess.run([HDEM, "check", "small.toml", "--write-blocks", "nowhere/all.wkt"], cwd=folder, check=False, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("--write-blocks nowhere/all.wkt: (there is no folder nowhere). Make it", done.stderr)
+            self.assertFalse((Path(folder) / "nowhere").exists())
+
     def test_more_threads_than_processors_are_warned_of_once(self):
         processors = len(os.sched_getaffinity(0))
         said = self.said("--threads", str(processors + 1))

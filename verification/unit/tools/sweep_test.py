@@ -170,8 +170,11 @@ class Sweep(unittest.TestCase):
         for varied in (("--vary", "generator.sed=1:3"), ("--vary", "generator.seed=1:2", "--bisect", "joint.default.cohesion=-5:5", "--tolerance", "1", "--fails", "detached_blocks>0")):
             code, said = self.sweep("plan", "small.toml", "-o", "t", *varied, "--program", HDEM)
             self.assertEqual(code, 2, said)
-            self.assertIn("hdem refuses the first run:\nerror: --set ", said)
+            self.assertIn("hdem refuses run 1:\nerror: --set ", said)
             self.assertFalse((self.folder / "t").exists())
+        code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "joint.default.cohesion=3,2,-1,4", "--program", HDEM)
+        self.assertEqual(code, 2, "the least of the values: " + said)
+        self.assertIn("hdem refuses run 3:\nerror: --set joint.default.cohesion=-1", said)
         code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "generator.sed=1:3", "--program", "nowhere")
         self.assertEqual(code, 0, "planned where hdem is not: " + said)
 

@@ -1,5 +1,6 @@
 #include "verification/unit/case_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -104,6 +105,39 @@ TEST_P(MovingGroup, OfManyFallsLikeOneAndLikeARunThatIsTakenUpInEachCycle)
         state = taken_up.state();
     }
     EXPECT_EQ(state_hash(run.model(), state), run.hash());
+}
+
+/// A slender block on its lower edge tips; on a steep slope it slides meanwhile. Damping that takes hold of it as it begins is all that parts it from a run without any.
+TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
+{
+    struct Tipping
+    {
+        double height, slope_deg, friction_deg, time, share;
+    };
+    for (const auto& [height, slope_deg, friction_deg, time, share] :
+         {Tipping{2.4, 40.0, 25.0, 0.9, 0.03}, Tipping{2.5, 45.0, 30.0, 0.9, 0.03}, Tipping{3.0, 25.0, 60.0, 0.9, 0.08}})
+        for (const bool mirrored : {false, true})
+        {
+            const auto run = [&](DampingPreset preset)
+            {
+                CaseDef scene = scenes::empty_scene();
+                scene.contact.method = GetParam();
+                scene.damping.preset = preset;
+                scene.joints[0].friction_angle_deg = friction_deg;
+                scenes::add_fixed_block(scene, "ground", rectangle({-50.0, -2.0}, {50.0, 0.0}));
+                scenes::add_block(scene, "column", rectangle({0.0, 0.0}, {1.0, height}));
+                scene = scenes::turned(scene, -slope_deg);
+                scene.gravity = {0.0, -g};
+                CaseRun moves(mirrored ? scenes::mirrored(scene) : scene);
+                run_for(moves, time);
+                return moves;
+            };
+            const CaseRun free = run(DampingPreset::dynamic), damped = run(DampingPreset::automatic);
+            SCOPED_TRACE(fmt::format("1 m x {} m on {} degrees{}", height, slope_deg, mirrored ? ", mirrored" : ""));
+            EXPECT_GT(free.displacement("column").norm(), 0.1);
+            EXPECT_NEAR(damped.displacement("column").norm(), free.displacement("column").norm(),
+                        share * free.displacement("column").norm());
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MovingGroup, testing::Values(Method::force, Method::hybrid),

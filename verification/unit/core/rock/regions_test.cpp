@@ -241,6 +241,33 @@ TEST(Regions, AFaultThatPartsNothingChangesNoBlock)
     EXPECT_GT(rock.skipped_cuts, 10);
 }
 
+/// Of each set the screen says what became of its joints: those of a region count within it alone.
+TEST(Regions, WhatWasNotCutIsKnownBySet)
+{
+    const auto sets = [](const std::string& more)
+    {
+        return generate_rock_mass(
+                   case_of(square + "[[region]]\nname = \"left\"\npolygon = [[0, 0], [1, 0], [1, 4], [0, 4]]\n" +
+                           "[[joint_set]]\nname = \"a\"\ndip_deg = 0\nspacing = 0.5\norigin = [0, 0.25]\nregion = \"left\"\n" +
+                           "[[joint_set]]\nname = \"b\"\ndip_deg = 90\nspacing = 0.5\norigin = [0.25, 0]\n" + more + laws))
+            .sets;
+    };
+    const std::vector<DrawnSet> whole = sets("");
+    EXPECT_NEAR(whole[0].length, 8.0, 1e-9) << "eight joints of 1 m";
+    EXPECT_NEAR(whole[1].length, 32.0, 1e-9);
+    EXPECT_EQ(whole[0].skipped + whole[0].refused + whole[1].skipped + whole[1].refused, 0.0);
+
+    const std::vector<DrawnSet> some = sets("persistence = 0.5\n");
+    EXPECT_GT(some[1].skipped, 6.0);
+    EXPECT_LT(some[1].skipped, 26.0);
+    EXPECT_EQ(some[0].skipped, 0.0);
+
+    const std::vector<DrawnSet> few = sets("[generator]\nsmallest_block_area = 0.24\n");
+    EXPECT_NEAR(few[0].refused, 0.0, 1e-9);
+    EXPECT_NEAR(few[1].refused, 8.0, 1e-9) << "the two joints of the region, whose blocks have 0.5 m2";
+    EXPECT_NEAR(few[1].length, 32.0, 1e-9);
+}
+
 /// Whatever is drawn: nothing is lost, neighbours meet end to end, and each zone has its area.
 TEST(Regions, FillTheDomainAtRandom)
 {
