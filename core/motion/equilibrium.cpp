@@ -107,7 +107,10 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
         sums.applied_force += loaded.net().norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
-        sums.unbalanced.add(clear_unbalance(i, model, blocks) / reference_acceleration(i, model, load), i);
+        const double scale = reference_acceleration(i, model, load);
+        if (sums.unbalanced.block == no_index ||
+            unbalance(i, model, blocks) > scale * sums.unbalanced.value)  // the clear one is no greater
+            sums.unbalanced.add(clear_unbalance(i, model, blocks) / scale, i);
         sums.fastest.add(rim_speed(i, model, blocks), i);
     }
 }

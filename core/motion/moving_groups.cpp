@@ -76,6 +76,9 @@ constexpr double one_point = 0.01;
 bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
           const BlockContacts& list)
 {
+    const double w = blocks.motion[block].w;
+    if (!(std::abs(w) * model.radius[block] > rule.speed))
+        return false;
     std::optional<Vec2> hinge;
     for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
     {
@@ -96,7 +99,7 @@ bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& 
             hinge = at;
         }
     }
-    return hinge && cross(model.gravity, *hinge) * blocks.motion[block].w > 0.0;
+    return hinge && cross(model.gravity, *hinge) * w > 0.0;
 }
 }  // namespace
 

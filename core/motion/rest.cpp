@@ -15,11 +15,16 @@ double quiet_speed(const RestRule& rule, double step)
     return std::min(rule.quiet_speed, 0.5 * stopped * rest_every * step * rule.quiet_on_average);
 }
 
+bool is_out_of_balance(Index block, double by, const Model& model, const Blocks& blocks)
+{
+    return !(unbalance(block, model, blocks) < by) && !(clear_unbalance(block, model, blocks) < by);
+}
+
 bool is_quiet(Index block, const Model& model, const RestRule& rule, const Blocks& blocks)
 {
     return (blocks.force[block].contacts & contact_impulse) == 0 &&
            rim_speed(block, model, blocks) < quiet_speed(rule, blocks.step.last) &&
-           clear_unbalance(block, model, blocks) < rule.quiet;
+           !is_out_of_balance(block, rule.quiet, model, blocks);
 }
 
 /// The contacts have counted on its way up to their forces: half a step.
@@ -69,7 +74,7 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
                 stop(b, model, blocks, ledger);
             continue;
         }
-        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || !(clear_unbalance(b, model, blocks) < rule.waking);
+        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || is_out_of_balance(b, rule.waking, model, blocks);
         changed = changed || woken || rest == stopped;
         rest = woken ? 0 : left_out;
     }
@@ -102,7 +107,7 @@ bool wake_unbalanced(const Model& model, double limit, Blocks& blocks)
 {
     bool woken = false;
     for (Index b = 0; b < blocks.size(); ++b)
-        if (blocks.is_free(b) && blocks.rest[b] >= stopped && clear_unbalance(b, model, blocks) >= limit)
+        if (blocks.is_free(b) && blocks.rest[b] >= stopped && is_out_of_balance(b, limit, model, blocks))
         {
             blocks.rest[b] = 0;
             woken = true;
