@@ -22,7 +22,8 @@ class Corners
     using Around = geometry::model::box<Place>;
 
   public:
-    explicit Corners(double near) : near_(near) {}
+    /// @param piece  long lines are looked at in pieces of this length: the box around a whole one would have most of the domain in it [m]
+    Corners(double near, double piece) : near_(near), piece_(piece) {}
 
     /// The corner at a place; the place itself becomes one where there is none.
     Vec2 at(const Vec2& place)
@@ -52,8 +53,7 @@ class Corners
             if (is_inside && (corner - from - along * way).norm() < near_)
                 passed.emplace_back(along, corner);
         };
-        // Piece by piece: the box around a long line has most of the domain in it.
-        constexpr int pieces = 32;
+        const int pieces = 1 + static_cast<int>(std::min(way.norm() / piece_, 1000.0));
         for (int i = 0; i < pieces; ++i)
             for_each_within(from + i * way / pieces, from + (i + 1) * way / pieces, look);
         std::ranges::sort(passed, {}, &std::pair<double, Vec2>::first);
@@ -74,14 +74,15 @@ class Corners
             visit(Vec2(it->x(), it->y()));
     }
 
-    double near_;
+    double near_, piece_;
     geometry::index::rtree<Place, geometry::index::quadratic<16>> tree_;
 };
 }  // namespace
 
 void lead_through_corners(const Polygon& domain, double near, std::vector<Polygon>& lines)
 {
-    Corners corners(near);
+    const Box box = bounding_box(domain);
+    Corners corners(near, (box.high - box.low).norm() / 32.0);
     for (const Vec2& vertex : domain)
         corners.at(vertex);
     for (Polygon& line : lines)
