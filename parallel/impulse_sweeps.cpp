@@ -57,7 +57,7 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
         return;
     const IndexRange parts = team.share(static_cast<Index>(partition.contacts.size()));
     for (Index i = parts.begin; i < parts.end; ++i)
-        partition.contacts[i].unsolved = are_unsolved(model, which, partition.contacts[i].impulses, blocks, work.pseudo);
+        partition.contacts[i].unsolved = are_unsolved(model, which, masses, partition.contacts[i].impulses, blocks, work.pseudo);
     team.barrier();
     if (std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
         return;

@@ -18,7 +18,8 @@ namespace
 /// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves of that.
 constexpr double left_by_sweeps = 1e-3;
 constexpr double solved = 1e-2;
-/// The same where rest is looked for, as a share of what a block at rest, and all together, may be out of balance by: more, and the stage would wait for what nobody solves.
+/// The same where rest is looked for, as a share of what a block at rest may be out of balance by: more, and the stage would wait for what nobody solves. (Where one block has most of
+/// the weight, as a share of what all together may be.)
 constexpr double left_at_rest = 0.3;
 /// The same in an impact, where it stays: no later cycle takes it back.
 constexpr double left_in_impact = 1e-6;
@@ -35,12 +36,13 @@ constexpr double worth = 3.0;
 /// What a larger cluster gets, times the sweeps of a cycle.
 constexpr int more_sweeps = 10;
 
-double noticeable(const Model& model, ExactIslands which)
+double noticeable(const Model& model, ExactIslands which, bool suits_sweeps)
 {
     if (which != ExactIslands::small)
         return left_by_sweeps;
     const ConvergenceDef& rest = model.convergence;
-    return std::min(left_by_sweeps, left_at_rest * std::min(rest.block_unbalanced_ratio, rest.unbalanced_force_ratio));
+    const double together = suits_sweeps ? rest.block_unbalanced_ratio : rest.unbalanced_force_ratio;
+    return std::min(left_by_sweeps, left_at_rest * std::min(rest.block_unbalanced_ratio, together));
 }
 
 /// Least error of a velocity at the point that counts [m/s].
@@ -107,10 +109,11 @@ MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& bloc
     return range;
 }
 
-bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points, const Blocks& blocks,
-                  const std::vector<Triple>& pseudo)
+bool are_unsolved(const Model& model, ExactIslands which, const MassRange& masses, const std::vector<ImpulsePoint>& points,
+                  const Blocks& blocks, const std::vector<Triple>& pseudo)
 {
-    const double share = which == ExactIslands::hit ? left_in_impact : noticeable(model, which);
+    const double share = which == ExactIslands::hit ? left_in_impact
+                                                    : noticeable(model, which, masses.suits_sweeps(model.contact.impulse_sweeps));
     return leave_more_than(share, model, points, blocks, pseudo);
 }
 
@@ -329,10 +332,10 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
         if (cluster.points.size() > small_cluster)
         {
             if (!suits_sweeps)
-                island.loss += sweep_more(model, noticeable(model, which), blocks, pseudo, cluster);
+                island.loss += sweep_more(model, noticeable(model, which, suits_sweeps), blocks, pseudo, cluster);
             continue;
         }
-        island.loss += solve_velocities(noticeable(model, which), blocks, cluster);
+        island.loss += solve_velocities(noticeable(model, which, suits_sweeps), blocks, cluster);
         solve_correction(model, blocks, pseudo, cluster);
     }
 }

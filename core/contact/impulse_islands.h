@@ -45,8 +45,8 @@ struct MassRange
 [[nodiscard]] MassRange mass_range(const std::vector<ImpulsePoint>& points, const Blocks& blocks);
 
 /// Has one of the points velocities, or pseudo velocities, that another sweep would change noticeably?
-[[nodiscard]] bool are_unsolved(const Model& model, ExactIslands which, const std::vector<ImpulsePoint>& points,
-                                const Blocks& blocks, const std::vector<Triple>& pseudo);
+[[nodiscard]] bool are_unsolved(const Model& model, ExactIslands which, const MassRange& masses,
+                                const std::vector<ImpulsePoint>& points, const Blocks& blocks, const std::vector<Triple>& pseudo);
 
 struct Island
 {
