@@ -72,7 +72,8 @@ Index other_block(Index block, Index contact, const Contacts& contacts)
 /// Of the radius: points so near to each other are one.
 constexpr double one_point = 0.01;
 
-/// Does all that bears the block meet it in one point, about which its weight turns it on? (One that its weight turns back is damped: a block that rocks comes to rest.)
+/// Does all that bears the block meet it in one point, about which its weight turns it on and away from where it stood? (One that comes back is damped: a block that rocks or hops comes
+/// to rest. So is one that slides there while the force of the joint turns it back: it would tip if it stuck.)
 bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
           const BlockContacts& list)
 {
@@ -80,6 +81,8 @@ bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& 
     if (!(std::abs(w) * model.radius[block] > rule.speed))
         return false;
     std::optional<Vec2> hinge;
+    Vec2 borne = Vec2::Zero();
+    bool sticks = false;
     for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
     {
         const Index contact = list.entry[e] / 2;
@@ -87,9 +90,13 @@ bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& 
             continue;
         for (int end = 0; end < 2; ++end)
         {
-            if (tie_of(contact, end, rule, blocks, contacts) == Tie::none)
+            const Tie tie = tie_of(contact, end, rule, blocks, contacts);
+            if (tie == Tie::none)
                 continue;
+            sticks = sticks || tie == Tie::sticks;
             const EdgeTouch touch = touch_of(contact, blocks, contacts);
+            if (!(touch.slope * (blocks.motion[contacts.inc[contact]].w - blocks.motion[contacts.ref[contact]].w) > 0.0))
+                return false;  // the faces come together
             const TouchPoint& p = touch.point[end];
             const bool is_ref = contacts.ref[contact] == block;
             const double t = is_ref ? p.ref_t : p.inc_t, m = is_ref ? p.ref_m : p.inc_m;
@@ -97,9 +104,13 @@ bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& 
             if (hinge && (*hinge - at).norm() > one_point * model.radius[block])
                 return false;
             hinge = at;
+            const double shear = contacts.shear_force(end, contact) + contacts.tilt_force(end, contact),
+                         normal = contacts.normal_force(end, contact);
+            const Vec2 on_inc(shear * touch.ex + normal * touch.ey, shear * touch.ey - normal * touch.ex);
+            borne += is_ref ? Vec2(-on_inc) : on_inc;
         }
     }
-    return hinge && cross(model.gravity, *hinge) * w > 0.0;
+    return hinge && cross(model.gravity, *hinge) * w > 0.0 && (sticks || cross(*hinge, borne) * w > 0.0);
 }
 }  // namespace
 
