@@ -265,7 +265,8 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
     moving.clear();
     for (const Member& member : members_)
     {
-        if (member.touched && tips(member.block, model, rule, blocks, contacts, list))
+        const bool is_bolted = std::ranges::find(bolted, member.block) != bolted.end();
+        if (member.touched && !is_bolted && tips(member.block, model, rule, blocks, contacts, list))
         {
             moving.push_back({member.block, true, 1.0F, 0.0F});
             continue;

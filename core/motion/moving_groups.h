@@ -33,7 +33,7 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
 ///   others                                         as each block by itself
 ///
-/// A block that all others meet in one point tips about it, and slides there if it slides: it is not damped either. Damped it tipped at half of its speed, and crept where it
+/// A block without bolts that all others meet in one point, and that tips about it away from where it stood, is not damped either. Damped it tipped at half of its speed, and crept where it
 /// slid, too: 1 m x 2.5 m on 45 degrees, friction 30, went 0.2 m/s after half a second, not 1.8.
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
