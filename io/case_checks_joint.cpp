@@ -23,9 +23,9 @@ struct LawKeys
     Keys needed, possible;
 };
 
-const std::array<LawKeys, 7>& law_keys()
+const std::array<LawKeys, 8>& law_keys()
 {
-    static const std::array<LawKeys, 7> table{
+    static const std::array<LawKeys, 8> table{
         {{"coulomb",
           {"normal_stiffness", "friction_angle_deg"},
           {"cohesion", "tension", "residual_friction_angle_deg", "residual_cohesion", "residual_tension", "dilation_angle_deg",
@@ -41,6 +41,7 @@ const std::array<LawKeys, 7>& law_keys()
          {"saeb_amadei",
           {"normal_stiffness", "friction_angle_deg", "asperity_angle_deg", "transition_stress"},
           {"rock_cohesion", "rock_friction_angle_deg", "residual_displacement", "residual_share"}},
+         {"slip_weakening", {"normal_stiffness", "friction_angle_deg", "residual_friction_angle_deg", "wear_length"}, {}},
          {"*.so", {"normal_stiffness", "friction_angle_deg"}, {"parameters"}}}};
     return table;
 }
@@ -132,10 +133,10 @@ class JointCheck : public CaseCheck
     {
         const double friction = joint_.friction_angle_deg, residual = joint_.residual_friction_angle_deg.value_or(friction);
         const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
+        if ((joint_.law == JointLaw::coulomb || joint_.law == JointLaw::slip_weakening) && residual > friction)
+            add("residual_friction_angle_deg", "is greater than friction_angle_deg", "Give no more than that.");
         if (joint_.law == JointLaw::coulomb)
         {
-            if (residual > friction)
-                add("residual_friction_angle_deg", "is greater than friction_angle_deg", "Give no more than that.");
             if (joint_.residual_cohesion.value_or(0.0) > joint_.cohesion)
                 add("residual_cohesion", "is greater than cohesion", "Give no more than that.");
             if (joint_.residual_tension.value_or(0.0) > joint_.tension.value_or(0.0))

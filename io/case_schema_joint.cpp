@@ -85,7 +85,7 @@ std::vector<KeySpec> coulomb_keys()
         field<&JointDef::residual_friction_angle_deg>(
             {.name = "residual_friction_angle_deg",
              .unit = "deg",
-             .effect = "φ_r: of a broken joint (coulomb), of a worn one (barton_bandis, patton).",
+             .effect = "φ_r: of a broken joint (coulomb), of a worn one (barton_bandis, patton, slip_weakening).",
              .range = acute,
              .default_note = "friction_angle_deg"}),
         field<&JointDef::residual_cohesion>(
@@ -165,11 +165,13 @@ std::vector<KeySpec> other_law_keys()
                                                .effect = "φ_m before any slip; falls to φ. continuously_yielding.",
                                                .range = acute,
                                                .default_note = "must be given for it"}),
-        field<&JointDef::wear_length>({.name = "wear_length",
-                                       .unit = "m",
-                                       .effect = "R: slip over which φ_m falls. continuously_yielding.",
-                                       .range = length,
-                                       .default_note = "must be given for it"}),
+        field<&JointDef::wear_length>(
+            {.name = "wear_length",
+             .unit = "m",
+             .effect = "R: slip over which φ_m falls (continuously_yielding), D: over which φ falls to φ_r "
+                       "(slip_weakening).",
+             .range = length,
+             .default_note = "must be given for these"}),
         field<&JointDef::wear>({.name = "wear",
                                 .unit = "m2/J",
                                 .effect = "C: α = α_0 exp(-C W), W the work of slip per area. plesha.",
@@ -216,7 +218,8 @@ SectionSpec joint_section()
                                     "your own, from "
                                     "the folder of the case file on; core/joint/hdem_joint_law.h says what it must have. It is "
                                     "run as part of hdem: name only what you trust.",
-                          .choices = {"coulomb", "barton_bandis", "patton", "continuously_yielding", "plesha", "saeb_amadei"},
+                          .choices = {"coulomb", "barton_bandis", "patton", "continuously_yielding", "plesha", "saeb_amadei",
+                                      "slip_weakening"},
                           .ending = ".so"}),
                      assign_law, "\"coulomb\"")},
         append<&CaseDef::joints>};

@@ -8,6 +8,7 @@
 #include "core/joint/patton.h"
 #include "core/joint/plesha.h"
 #include "core/joint/saeb_amadei.h"
+#include "core/joint/slip_weakening.h"
 #include "core/joint/user_law.h"
 
 #include <tuple>
@@ -24,7 +25,7 @@ struct Named
 template <typename... Types>
 using List = std::tuple<Named<Types>...>;
 
-using AllLaws = List<CoulombResidual, BartonBandis, Patton, ContinuouslyYielding, Plesha, SaebAmadei, UserLaw>;
+using AllLaws = List<CoulombResidual, BartonBandis, Patton, ContinuouslyYielding, Plesha, SaebAmadei, SlipWeakening, UserLaw>;
 using AllCurves = List<Linear, Hyperbolic, PowerLaw>;  ///< in the order of CurveKind
 
 inline constexpr int law_count = std::tuple_size_v<AllLaws>;

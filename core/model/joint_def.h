@@ -18,6 +18,7 @@ enum class JointLaw
     continuously_yielding,  ///< core/joint/continuously_yielding.h
     plesha,                 ///< core/joint/plesha.h
     saeb_amadei,            ///< core/joint/saeb_amadei.h
+    slip_weakening,         ///< core/joint/slip_weakening.h
     library                 ///< of a shared library: core/joint/user_law.h
 };
 

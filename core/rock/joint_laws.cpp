@@ -114,6 +114,12 @@ Law law_of(const JointDef& joint, const JointSurroundings& around, const JointNu
                                                     .residual_slip = joint.residual_displacement,
                                                     .residual_share = joint.residual_share},
                                     curve);
+    case JointLaw::slip_weakening:
+        return law_with<SlipWeakening>(SlipWeakeningInput{.shear_stiffness = k,
+                                                          .friction = phi,
+                                                          .residual_friction = residual_angle(joint),
+                                                          .weakening_length = joint.wear_length},
+                                       curve);
     case JointLaw::library:
         return law_with<UserLaw>(UserLawInput{.function = joint.function, .parameters = joint.parameters, .shear_stiffness = k},
                                  curve);
@@ -167,6 +173,8 @@ CoulombSlip slip_of(const JointDef& joint, const JointRow& row, const JointSurro
         slip.shear_stiffness = row.numbers[BartonBandis::shear_stiffness];
         slip.friction_coefficient = row.residual_friction;
     }
+    if (joint.law == JointLaw::slip_weakening)
+        slip.friction_coefficient = row.residual_friction;
     if (joint.law == JointLaw::continuously_yielding)
         slip.shear_stiffness = std::min(joint.shear_stiffness * power(stress, joint.shear_exponent.value_or(0.0)),
                                         greatest_shear_stiffness(joint));

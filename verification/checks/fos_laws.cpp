@@ -49,6 +49,9 @@ void check_laws(Report& report)
                  tan_deg(40.0) / slope, 0.01},
                 {"plesha", law("law = \"plesha\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, wear = 1e-7"),
                  tan_deg(40.0) / slope, 0.01},
+                {"slip_weakening",
+                 law("law = \"slip_weakening\", friction_angle_deg = 40.0, residual_friction_angle_deg = 25.0, wear_length = 0.1"),
+                 tan_deg(40.0) / slope, 0.01},
                 {"saeb_amadei",
                  law("law = \"saeb_amadei\", friction_angle_deg = 30.0, asperity_angle_deg = 10.0, transition_stress = 5e7, "
                      "rock_cohesion = 5e6, rock_friction_angle_deg = 40.0, greatest_closure = 3e-4"),

@@ -31,6 +31,10 @@ const std::string yielding = "law = \"continuously_yielding\", normal_stiffness 
                              "= 30.0, mobilised_angle_deg = "
                              "50.0, wear_length = 5e-4";
 
+const std::string
+    weakening = "law = \"slip_weakening\", normal_stiffness = 1e10, shear_stiffness = 5e9, friction_angle_deg = 35.0, "
+                "residual_friction_angle_deg = 25.0, wear_length = 6e-3";
+
 /// Mean over a stretch of way, in which the block trembles.
 double mean_over(const CaseRun& run, const std::string& column, double from, double to)
 {
@@ -116,6 +120,25 @@ void check_yielding(Report& report)
                    relative(5e-3));
 }
 
+void check_weakening(Report& report)
+{
+    const CaseRun run(report, "joint/box.toml", with_joint(weakening));
+    const auto friction = [](double slip)
+    {
+        const double residual = std::tan(radians(25.0)), lost = std::tan(radians(35.0)) - residual;
+        return residual + lost * std::max(1.0 - slip / 6e-3, 0.0);
+    };
+    for (const double way : {1e-3, 3e-3, 5e-3, 8e-3})
+    {
+        double slip = way;  // the elastic part of the way is that of the strength
+        for (int k = 0; k < 50; ++k)
+            slip = way - friction(slip) * pressure / 5e9;
+        report.require({fmt::format("shear over normal stress at {:g} mm", 1e3 * way), "tan φ_r + (tan φ − tan φ_r)(1 − P/D)",
+                        friction(slip), stress_ratio(run, 0.98 * way, 1.02 * way)},
+                       relative(2e-3));
+    }
+}
+
 double fallen(Report& report, const std::string& method, double tension, double residual, double pull)
 {
     const CaseRun run(report, "joint/hung.toml",
@@ -154,6 +177,7 @@ std::vector<Check> joint_checks()
         {"joint.J8", "Continuously yielding in direct shear", check_yielding},
         {"joint.J9", "Plesha in direct shear there and back", check_plesha},
         {"joint.J10", "Saeb-Amadei in direct shear: strength and opening", check_saeb},
+        {"joint.weakening", "Slip weakening in direct shear", check_weakening},
         {"joint.laws", "Each law by itself: J1 to J10, ten cycles of ±5 mm, four lanes against one", check_joint_laws},
         {"joint.contacts", "Each law on 1, 2 and 16 contacts, and its energy over ten cycles of ±5 mm", check_contacts},
         {"joint.fall", "A slab with cohesion that falls on rock of the same joint does not stick", check_fall},

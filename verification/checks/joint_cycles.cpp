@@ -23,8 +23,8 @@ namespace
 using namespace scenes;
 
 /// Names of the laws of sample_joints.
-constexpr std::array<const char*, 7> law_names{"coulomb",     "barton_bandis",      "patton", "continuously_yielding", "plesha",
-                                               "saeb_amadei", "of a shared library"};
+constexpr std::array<const char*, 8> law_names{"coulomb", "barton_bandis", "patton",         "continuously_yielding",
+                                               "plesha",  "saeb_amadei",   "slip_weakening", "of a shared library"};
 
 Simulation simulation_of(const CaseDef& scene)
 {
@@ -162,14 +162,15 @@ void check_bits(Report& report)
     const Overrides begun{{"stage", R"([{name = "heading", excavate = ["heading"], relax_cycles = 100, cycles = 200}])"}};
     const std::string
         coulomb = "friction_angle_deg = 30.0, cohesion = 1e5, residual_friction_angle_deg = 25.0, dilation_angle_deg = 10.0";
-    const std::array<std::pair<const char*, std::string>, 6> laws{
+    const std::array<std::pair<const char*, std::string>, 7> laws{
         {{"coulomb", coulomb},
          {"barton_bandis", "jrc = 10.0, jcs = 1e8, residual_friction_angle_deg = 30.0"},
          {"patton", "friction_angle_deg = 30.0, asperity_angle_deg = 15.0, residual_friction_angle_deg = 35.0, cohesion = 1e6"},
          {"continuously_yielding", "friction_angle_deg = 30.0, mobilised_angle_deg = 50.0, wear_length = 5e-4"},
          {"plesha", "friction_angle_deg = 30.0, asperity_angle_deg = 15.0, wear = 2e-5"},
          {"saeb_amadei", "greatest_closure = 3e-4, friction_angle_deg = 30.0, asperity_angle_deg = 15.0, transition_stress = 5e7, "
-                         "rock_cohesion = 5e6, rock_friction_angle_deg = 40.0"}}};
+                         "rock_cohesion = 5e6, rock_friction_angle_deg = 40.0"},
+         {"slip_weakening", "friction_angle_deg = 35.0, residual_friction_angle_deg = 25.0, wear_length = 1e-3"}}};
     constexpr std::array<const char*, 2> methods{"force", "hybrid"};
     constexpr std::array<int, 3> threads{2, 3, 8};
     for (const auto& [name, keys] : laws)

@@ -6,6 +6,7 @@
 #include "core/joint/patton.h"
 #include "core/joint/plesha.h"
 #include "core/joint/saeb_amadei.h"
+#include "core/joint/slip_weakening.h"
 #include "verification/checks/joint_checks.h"
 #include "verification/scenes/law_point.h"
 
@@ -241,6 +242,9 @@ void check_joint_laws(Report& report)
     check_energy_and_lanes<ContinuouslyYielding, Linear>(report, "continuously_yielding", yielding_numbers(), yielding_numbers(),
                                                          5e9, 2e-4, 5000);
     check_energy_and_lanes<Plesha, Linear>(report, "plesha", plesha_numbers(1e9), plesha_numbers(3e9), 5e8, 1e-3, 5000);
+    const JointNumbers weakening = SlipWeakening::numbers(
+        {.shear_stiffness = 5e9, .friction = 35.0, .residual_friction = 25.0, .weakening_length = 2e-2}, Linear::numbers(1e10));
+    check_energy_and_lanes<SlipWeakening, Linear>(report, "slip_weakening", weakening, weakening, 5e8, 2.5e-4, 2000);
     check_energy_and_lanes<SaebAmadei, Hyperbolic>(report, "saeb_amadei", saeb_numbers(1e10), saeb_numbers(3e10), 1e9, 2e-4,
                                                    20'000);
 }

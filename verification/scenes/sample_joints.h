@@ -22,7 +22,7 @@ inline void weakening_law(const hdem_joint_points* p)
     }
 }
 
-inline std::array<JointDef, 7> sample_joints()
+inline std::array<JointDef, 8> sample_joints()
 {
     return {JointDef{.name = "default",
                      .normal_stiffness = 1e10,
@@ -72,6 +72,13 @@ inline std::array<JointDef, 7> sample_joints()
                      .transition_stress = 5e7,
                      .rock_cohesion = 5e6,
                      .rock_friction_angle_deg = 40.0},
+            JointDef{.name = "default",
+                     .law = JointLaw::slip_weakening,
+                     .normal_stiffness = 1e10,
+                     .shear_stiffness = 1e9,
+                     .friction_angle_deg = 35.0,
+                     .residual_friction_angle_deg = 25.0,
+                     .wear_length = 5e-3},
             JointDef{.name = "default",
                      .law = JointLaw::library,
                      .normal_stiffness = 1e10,

@@ -174,8 +174,8 @@ TEST_F(ContactWidths, LawsBesideEachOtherGiveTheSameBits)
 {
     CaseDef scene = scenes::joints(12.0, 12.0, 1.3, 10.0);
     scene.joint_sets.push_back({.name = "cross", .dip_deg = 50.0, .spacing = 3.0});
-    const std::array<JointDef, 7> laws = scenes::sample_joints();
-    for (std::size_t i : {1, 6})  // the third set stays plain
+    const std::array<JointDef, 8> laws = scenes::sample_joints();
+    for (std::size_t i : {1, 7})  // the third set stays plain
     {
         scene.joints.push_back(laws[i]);
         scene.joints.back().name = "rough" + std::to_string(i);

@@ -41,6 +41,7 @@ const std::string joints[] = {
     "law = \"patton\"\nfriction_angle_deg = 30.0\nasperity_angle_deg = 10.0\nresidual_friction_angle_deg = 33.0\ncohesion = 1e6\n",
     "law = \"continuously_yielding\"\nfriction_angle_deg = 30.0\nmobilised_angle_deg = 45.0\nwear_length = 2e-3\n",
     "law = \"plesha\"\nfriction_angle_deg = 30.0\nasperity_angle_deg = 12.0\nwear = 1e-6\n",
+    "law = \"slip_weakening\"\nfriction_angle_deg = 35.0\nresidual_friction_angle_deg = 25.0\nwear_length = 1e-2\n",
     "law = \"saeb_amadei\"\nfriction_angle_deg = 30.0\nasperity_angle_deg = 12.0\ntransition_stress = 5e7\nrock_cohesion = "
     "5e6\nrock_friction_angle_deg = 40.0\ngreatest_closure = 3e-4\n"};
 
