@@ -23,12 +23,11 @@ struct StrengthReduction
 ///
 ///   coulomb                 tan phi / F, c / F, T / F; residual values likewise
 ///   patton                  tan(phi + i) / F, tan phi_r / F, c_x / F
-///   barton_bandis, continuously_yielding, plesha, saeb_amadei
-///                           tau_max / F: all of the envelope
+///   others                  tau_max / F: all of the envelope
 ///
 /// Dilation and, but for `stiffness`, springs stay as they are.
-/// `keeps_peak`: the residual values of coulomb are the peak ones; continuously_yielding and plesha do not wear; saeb_amadei stays at its peak;
-/// patton has nothing to lose; barton_bandis keeps its curve, whose peak is part of it.
+/// `keeps_peak`: `keep_peak` of each law (core/joint). The residual values of coulomb become the peak ones; asperities do not wear. A law without
+/// that function has nothing to lose, or its curve has its peak in it (barton_bandis).
 /// @see verification/unit/core/rock/strength_reduction_test.cpp
 [[nodiscard]] StageLaws reduced_laws(const JointTable& table, const StrengthReduction& how);
 
