@@ -1,6 +1,7 @@
 #include "io/block_shapes.h"
 
 #include "core/model/edge_sources.h"
+#include "core/rock/excavation.h"
 #include "io/polygons.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -44,21 +47,52 @@ struct OuterEdge
     std::int32_t source;
 };
 
-/// What an edge was cut by.
-std::string name_of(const CaseDef& def, std::int32_t source)
+/// Names of what cut the edges of a case.
+class EdgeNames
 {
-    if (source < 0)
-        return source == edge_plain ? "domain" : source == edge_outline ? "excavation" : "other";
-    const EdgeSources sources(def);
-    const auto number = static_cast<std::size_t>(source);
-    if (number < def.faults.size())
-        return "fault " + def.faults[number].name;
-    if (source < sources.region(def.regions.size()))
-        return "outline of " + def.regions[number - def.faults.size()].name;
-    if (source < sources.traces())
-        return def.joint_sets[number - def.faults.size() - def.regions.size()].name;
-    return source == sources.traces() ? "traces" : "voronoi";
-}
+  public:
+    explicit EdgeNames(const CaseDef& def) : def_(def), sources_(def)
+    {
+        for (const ExcavationDef& excavation : def.excavations)
+            outlines_.push_back(outline_polygon(excavation));
+    }
+
+    [[nodiscard]] std::string of(const OuterEdge& edge) const
+    {
+        if (edge.source == edge_plain)
+            return def_.domain.given ? "domain" : "block";
+        if (edge.source < 0)
+            return edge.source == edge_outline ? excavation_of(edge) : "other";
+        const auto number = static_cast<std::size_t>(edge.source);
+        if (number < def_.faults.size())
+            return "fault " + def_.faults[number].name;
+        if (edge.source < sources_.region(def_.regions.size()))
+            return "outline of " + def_.regions[number - def_.faults.size()].name;
+        if (edge.source < sources_.traces())
+            return def_.joint_sets[number - def_.faults.size() - def_.regions.size()].name;
+        return edge.source == sources_.traces() ? "traces" : "voronoi";
+    }
+
+  private:
+    /// The excavation with the outline nearest to the middle of the edge.
+    [[nodiscard]] std::string excavation_of(const OuterEdge& edge) const
+    {
+        const Vec2 middle = 0.5 * (edge.from + edge.to);
+        std::size_t nearest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < outlines_.size(); ++i)
+            if (const double away = std::abs(distance_to_boundary(outlines_[i], middle)); away < least)
+            {
+                least = away;
+                nearest = i;
+            }
+        return "excavation " + def_.excavations[nearest].name;
+    }
+
+    const CaseDef& def_;
+    EdgeSources sources_;
+    std::vector<Polygon> outlines_;
+};
 
 /// Outer edges one after another, ring by ring. No ring meets itself: where one comes back to one of its points, what lies between
 /// is a ring of its own, as around a block whose corner touches the outline of the block around it.
@@ -109,6 +143,7 @@ Polygon points_of(const std::vector<OuterEdge>& ring)
 std::vector<BlockShape> block_shapes(const CaseDef& def, const RockMass& rock)
 {
     std::vector<BlockShape> shapes;
+    const EdgeNames names(def);
     for (std::size_t b = 0; b + rock.walls.size() < rock.blocks.size(); ++b)
     {
         const RockBlock& from = rock.blocks[b];
@@ -124,16 +159,20 @@ std::vector<BlockShape> block_shapes(const CaseDef& def, const RockMass& rock)
         for (const std::vector<OuterEdge>& ring : rings_of(from))
         {
             Polygon points = points_of(ring);
+            std::vector<std::string> edges;
+            for (const OuterEdge& edge : ring)
+                edges.push_back(names.of(edge));
             if (const double size = signed_area(points); size > greatest)
             {
                 greatest = size;
                 to.block.polygon.swap(points);
-                to.edges.clear();
-                for (const OuterEdge& edge : ring)
-                    to.edges.push_back(name_of(def, edge.source));
+                to.edges.swap(edges);
             }
             if (points.size() > 2)
+            {
                 to.holes.push_back(std::move(points));
+                to.hole_edges.push_back(std::move(edges));
+            }
         }
     }
     return shapes;
@@ -157,6 +196,8 @@ std::string to_geojson(std::span<const BlockShape> blocks)
                               {"excavation", shape.excavation},
                               {"edges", shape.edges}}},
                             {"geometry", {{"type", "Polygon"}, {"coordinates", std::move(rings)}}}});
+        if (!shape.holes.empty())
+            features.back()["properties"]["hole_edges"] = shape.hole_edges;
     }
     const Json document = {{"type", "FeatureCollection"}, {"features", std::move(features)}};
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -168,6 +209,8 @@ std::string to_wkt(std::span<const BlockShape> blocks)
     for (const BlockShape& shape : blocks)
     {
         out << "# edges: " << fmt::format("{}", fmt::join(shape.edges, "; ")) << '\n';
+        for (const std::vector<std::string>& edges : shape.hole_edges)
+            out << "# edges of a hole: " << fmt::format("{}", fmt::join(edges, "; ")) << '\n';
         write_polygon(out, shape.block, shape.holes);
     }
     return out.str();

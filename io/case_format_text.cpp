@@ -279,7 +279,7 @@ ogr2ogr -f GeoJSON blocks.geojson blocks.shp
 ```
 
 The other way round, `hdem check CASE.toml --write-blocks blocks.geojson` (or `.wkt`) writes all blocks with name, material, what is fixed and, for each edge from the first vertex to
-the second on, the set, fault or outline that cut it. Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials. Blocks around other blocks have holes, and are refused there: draw a joint through them.
+the second on, the set, fault, outline or excavation that cut it (`hole_edges` for the edges of holes; "domain" and "block" for given edges). Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials. Blocks around other blocks have holes, and are refused there: draw a joint through them.
 
 ## The traces file
 

@@ -16,10 +16,11 @@ namespace
 {
 namespace py = pybind11;
 
-constexpr double greatest = 1e12;  // in SI units; farther places would be read by no program
+constexpr double greatest_place = 1e8;   // [m], as in case files
+constexpr double greatest_other = 1e12;  // angles [rad] and velocities, in SI units
 
 /// Rows of an array of the users, checked: `width` numbers a block, all finite.
-const double* rows_of(const DoubleArray& array, const Model& model, py::ssize_t width, const char* name)
+const double* rows_of(const DoubleArray& array, const Model& model, py::ssize_t width, double greatest, const char* name)
 {
     const bool is_right = width == 1 ? array.ndim() == 1 && array.shape(0) == model.blocks()
                                      : array.ndim() == 2 && array.shape(0) == model.blocks() && array.shape(1) == width;
@@ -62,7 +63,8 @@ struct Column
 void write_columns(DrivenRun& run, const DoubleArray& array, const std::vector<Column>& columns, const char* name)
 {
     const Simulation& now = run.simulation();
-    const double* const values = rows_of(array, now.model(), static_cast<py::ssize_t>(columns.size()), name);
+    const double* const values = rows_of(array, now.model(), static_cast<py::ssize_t>(columns.size()),
+                                         columns.front().value == &BlockMotion::x ? greatest_place : greatest_other, name);
     struct Change
     {
         Index slot;

@@ -138,6 +138,8 @@ TEST(BlockShapes, AreReadAgain)
         std::ofstream(folder / "again.toml") << "blocks_file = \"" << name << "\"\n" << test::laws;
         const LoadedCase again = load_case(folder / "again.toml");
         ASSERT_EQ(again.setup.model.blocks(), loaded.setup.model.blocks()) << name;
+        for (const BlockShape& shape : block_shapes(again.file.def, generate_rock_mass(again.file.def)))
+            EXPECT_EQ(shape.edges, std::vector<std::string>(shape.block.polygon.size(), "block")) << shape.block.name;
         for (Index b = 0; b < again.setup.model.blocks(); ++b)
         {
             const Index as_cut = loaded.setup.model.slot_of_user[b], as_read = again.setup.model.slot_of_user[b];
@@ -170,9 +172,14 @@ TEST(BlockShapes, HaveTheRingsOfTheBlocksInsideAsHoles)
             for (const Vec2& corner : shape.block.polygon)
                 EXPECT_TRUE(corners.emplace(corner.x(), corner.y()).second) << "a ring that meets itself: " << opening;
             EXPECT_EQ(shape.edges.size(), shape.block.polygon.size());
+            ASSERT_EQ(shape.hole_edges.size(), shape.holes.size());
+            for (std::size_t hole = 0; hole < shape.holes.size(); ++hole)
+                EXPECT_EQ(shape.hole_edges[hole], std::vector<std::string>(shape.holes[hole].size(), "excavation hole"));
             sum += shape.area;
             const std::string text = to_wkt(std::span(&shape, 1));
             EXPECT_EQ(text.find("), (") != std::string::npos, !shape.holes.empty()) << text;
+            EXPECT_EQ(text.find("# edges of a hole: excavation hole; ") != std::string::npos, !shape.holes.empty()) << text;
+            EXPECT_EQ(to_geojson(std::span(&shape, 1)).find("hole_edges") != std::string::npos, !shape.holes.empty());
         }
         EXPECT_NEAR(sum, 36.0, 1e-12);
     }
@@ -193,7 +200,7 @@ TEST(BlockShapes, SayWhatEachEdgeWasCutBy)
             ++seen[edge.get<std::string>()];
         EXPECT_EQ(properties["excavation"] == "hole", properties["name"].get<std::string>().starts_with("hole"));
     }
-    for (const char* name : {"domain", "beds", "cross", "excavation"})
+    for (const char* name : {"domain", "beds", "cross", "excavation hole"})
         EXPECT_GT(seen[name], 3) << name;
     EXPECT_EQ(seen.size(), 4u);
 }

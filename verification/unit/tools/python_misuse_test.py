@@ -71,7 +71,7 @@ def test_a_case_that_holds_itself():
         hdem.Case(case)
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, 1e13, -1e300])
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1.1e8, -1e300])
 def test_places_where_nothing_can_be(value):
     run = simulation()
     free = [i for i, fixed in enumerate(hdem.Case(CASE).fixed) if not np.any(fixed)][0]
