@@ -13,22 +13,23 @@ struct StoredEnergy
     double elastic_normal = 0.0;
     double elastic_shear = 0.0;
     double pending = 0.0;        ///< of elastic_normal, see SpringEnergy
-    double one_step_fall = 0.0;  ///< kinetic energy that gravity, and what impulses take, give in one step, for scale
+    double one_step_fall = 0.0;  ///< kinetic energy that gravity and impulses give in one step, for scale
     [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
 };
 
 /// Sum over all blocks and closed force points, in their order.
 ///
 /// Velocities live half a step after the poses, so the energy of a spring is taken there too: 1/2 F(t) u(t + dt). With it
-/// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2. In the cycles in which a spring closes and opens
-/// this is less than what it holds, and the next one makes up for it: the ledger's sums explain total(), and total() - pending is there.
+/// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2. In the cycles in which a spring closes or opens, this
+/// differs from the energy in the spring by `pending`, which
+/// the next cycle makes up for. The ledger's sums explain total(); the energy in the system is total() - pending.
 [[nodiscard]] StoredEnergy stored_energy(const Model& model, const State& state);
 
 /// Energy in the springs of one contact at the time of its last forces, 1/2 F u + 1/2 F_S^2 / (K_S L), whatever has moved since [J].
 [[nodiscard]] double held_energy(const Model& model, const Contact& contact);
 
-/// Energy in the springs of one contact, at the same half step [J]. As far as it depends on how its blocks turn to second order in the turn of a step: stored_energy takes
-/// only its split from here.
+/// Energy in the springs of one contact, at the same half step [J]. Exact to second order in the rotation of a step, so stored_energy takes only the split
+/// into its terms from here.
 struct SpringEnergy
 {
     double normal = 0.0;
@@ -61,11 +62,11 @@ template <typename R>
 /// The same as a share of the energy that went through: the largest of the ledger's terms, or of one step's fall where nothing moves [-].
 [[nodiscard]] double relative_residual(const EnergyLedger& ledger, const StoredEnergy& stored);
 
-/// Largest relative residual that is as it should be: of springs alone, and with impulses [-]. Ten times as much is an error of the run.
+/// Largest relative residual of a sound run: of springs alone, and with impulses [-]. Ten times as much is an error of the run.
 inline constexpr double springs_residual = 1e-6;
 inline constexpr double impulses_residual = 1e-4;
 inline constexpr double wrong_residual = 10.0;
 
-/// Remember the present residual if it is the worst so far, against what it should be.
+/// Remember the present residual if it is the worst so far, compared with its limit.
 void watch_ledger(const Model& model, State& state);
 }  // namespace hdem

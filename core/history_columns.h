@@ -1,5 +1,5 @@
 #pragma once
-/// What a [[history]] can say, column by column.
+/// Quantities of a [[history]], column by column.
 
 #include "core/history_sampler.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Arrays that begin with a cache line; large ones in huge pages, where the system gives them: with pages of 4 kB processors lose time to find where those lie that
-/// every cycle goes through.
+/// Arrays that begin at a cache line. Large ones lie in huge pages, if the system gives them: every cycle goes through all of them, and with pages of 4 kB
+/// processors lose time translating addresses.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct HugePageAllocator
 {
     using value_type = T;
     static constexpr std::size_t page = std::size_t{1} << 21;
-    static constexpr std::size_t least = 4 * page;  ///< smaller arrays fit a cache, or nearly
+    static constexpr std::size_t least = 4 * page;  ///< smaller arrays nearly fit a cache
     static constexpr std::size_t most = std::size_t{PTRDIFF_MAX} / 2 / sizeof(T);
     static constexpr std::align_val_t alignment{alignof(T) > 64 ? alignof(T) : 64};
 
@@ -40,7 +40,7 @@ struct HugePageAllocator
         if (memory == nullptr)
             throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-        static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));  // a wish: without it all is as before
+        static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));  // only a hint; the results do not depend on it
 #endif
         return static_cast<T*>(memory);
     }

@@ -1,12 +1,12 @@
 #pragma once
-/// The loops that take most of a cycle's time, compiled for several kinds of processors. Which of them a run uses is asked when it begins. All give the same bits.
+/// The loops that take most of a cycle's time, compiled for several kinds of processors. A run chooses its version when it begins. All versions give the same bits.
 ///
 ///     contact/contacts_by_four.cpp, contact/joint_points.cpp    laws of contacts, four at a time
 ///     contact/load_sums.cpp                                     forces on blocks
 ///     motion/integrator_kernels.cpp                             velocities and positions
 ///     statics/front_kernels.cpp, statics/front_solve.cpp        dense part of the static solver's factorisation
 ///
-/// A build for any x86-64 processor holds them twice: as they are, and with AVX2 (kernels_avx2.cpp). contact/contact_forces_wide.cpp is for AVX-512.
+/// A build for any x86-64 processor holds two versions: plain, and with AVX2 (kernels_avx2.cpp). contact/contact_forces_wide.cpp is for AVX-512.
 
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
@@ -38,8 +38,8 @@ struct Kernels
     void (*substitute_backward)(const FrontShape& shape, const double* factor, double* x);
 };
 
-/// Those for this processor.
+/// Kernels for this processor.
 [[nodiscard]] const Kernels& kernels();
-/// Those for any processor that the program runs on.
+/// Kernels for any processor that the program runs on.
 [[nodiscard]] const Kernels& plain_kernels();
 }  // namespace hdem

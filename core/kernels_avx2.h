@@ -5,7 +5,7 @@
 
 namespace hdem
 {
-/// Does this processor have what they need, and were they built?
+/// Can this processor run these kernels, and were they built?
 [[nodiscard]] bool has_avx2_kernels();
 
 /// @pre  has_avx2_kernels()

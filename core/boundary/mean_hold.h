@@ -1,5 +1,5 @@
 #pragma once
-/// Rock that tractions press from all sides: two translations and a rotation of the whole are free, and are held here.
+/// Holds a model that only tractions press, from all sides. Nothing else stops it from moving or turning as a whole.
 
 #include "core/check.h"
 #include "core/model/case_def.h"
@@ -20,16 +20,17 @@ namespace hdem
 ///
 ///   F_i -= m_i (A + alpha x r_i),  M_i -= I_i alpha,    A = sum F / M,  alpha = sum (r x F + M_i) / J,  J = sum (m r^2 + I)
 ///
-/// What is left sums to no force and no moment: contacts between them and with others are as they were.
+/// The remaining forces sum to no force and no moment. Contacts of these blocks are not changed.
 void hold_forces(const std::vector<Index>& held, const Model& model, Blocks& blocks);
 
-/// The same for their velocities, where damping and impulses have left some: with v for F / m and w for M / I. Their mean way and mean turn of the coming step are then 0.
+/// The same for the velocities that damping and impulses have left, with v for F / m and w for M / I.
+/// The mean displacement and the mean rotation of these blocks over the coming step are then 0.
 ///
 /// @param pseudo  velocities of the position correction, which move the blocks too, one entry a block; or none
 void hold_velocities(const std::vector<Index>& held, const Model& model, const std::vector<Triple>* pseudo, Blocks& blocks,
                      EnergyLedger& ledger);
 
-/// Where holding makes no sense: something is fixed, nothing presses, or what presses is not in equilibrium.
+/// Problems of holding: something is fixed, no traction acts, or the tractions are not in equilibrium.
 /// @pre the model has its boundaries; `blocks` what the case fixes
 [[nodiscard]] std::vector<Problem> find_hold_problems(const CaseDef& def, const Model& model, const Blocks& blocks);
 }  // namespace hdem

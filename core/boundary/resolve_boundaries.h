@@ -10,18 +10,18 @@
 
 namespace hdem
 {
-/// Fill model.boundaries, and bring walls and fixed sides of the first stage into the blocks: walls of later stages are not there yet.
-/// Where tractions act and nothing holds the rock, it would move as a whole: that is a problem.
+/// Fill model.boundaries, and bring walls and fixed sides of the first stage into the blocks. Walls of later stages come later.
+/// Tractions on rock that nothing holds are a problem: it would move as a whole.
 /// @param rock    whose blocks are in the user's order
 /// @param origin  of the model in the coordinates of the blocks of `rock`
 /// @pre the model has its blocks and its in-situ stress; `blocks` their places and what the case fixes
 [[nodiscard]] std::vector<Problem> resolve_boundaries(const CaseDef& def, const RockMass& rock, const Vec2& origin, Model& model,
                                                       Blocks& blocks);
 
-/// The blocks with those of fixed sides free that do not act in all stages: a time step must be good for them too.
+/// The blocks, with those free that a fixed side does not hold in all stages. The time step must be stable for free ones, too.
 [[nodiscard]] Blocks with_freed_sides(const Model& model, Blocks blocks);
 
-/// Does it act in the stage of this name?
+/// Does the boundary act in the stage of this name?
 [[nodiscard]] bool acts_in(const BoundaryDef& def, const std::string& stage);
 
 /// Law of the contacts of walls: springs of the default joint that bear no shear.

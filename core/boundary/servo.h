@@ -14,10 +14,11 @@ struct WallForce
     double stiffness = 0.0;  ///< sum of K_N l over its closed points [N/m]
 };
 
-/// By the last forces of its contacts.
+/// From the last forces of the wall's contacts.
 [[nodiscard]] WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, const BlockContacts& list);
 
-/// Length of a side that a wall presses [m]: as drawn, without what lies before blocks that are held. Between a wall and a block that cannot move there is no force, and
+/// Length of a side on which a wall presses [m]: as drawn, without the parts in front of held blocks. Between a wall and a block that cannot move there is
+/// no force, and
 /// the rock beside it must not bear its share.
 [[nodiscard]] double pressed_length(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks);
 
@@ -29,10 +30,10 @@ struct WallForce
 /// @see verification/unit/core/boundary/servo_test.cpp
 [[nodiscard]] double servo_velocity(const WallForce& force, double target, double max_velocity, double step);
 
-/// Set the velocities of all walls of the running stage that move, before the contacts are evaluated: of kind servo, and of kind velocity where
-/// that has a factor. A wall has no mass: that is no energy.
+/// Set the velocities of the moving walls of the running stage, before the contacts are evaluated: servo walls, and walls of kind velocity
+/// that have a factor. A wall has no mass, so no energy is booked.
 void drive_walls(const Model& model, const BlockContacts& list, State& state);
 
-/// Does each servo wall of the running stage press with its target of now, up to 0.1 % of the whole one?
+/// Does each servo wall of the running stage press with its present target, within 0.1 % of the full target?
 [[nodiscard]] bool servos_press(const Model& model, const State& state);
 }  // namespace hdem

@@ -16,7 +16,7 @@ namespace hdem
 /// @param first, second  traction on the block at `face.from` and `face.to` [Pa]
 [[nodiscard]] BoundaryForce force_of_traction(const BoundaryFace& face, const Vec2& first, const Vec2& second);
 
-/// What a side is multiplied with in the state's cycle.
+/// Factor of a side in the state's cycle [-].
 [[nodiscard]] double factor_of(const Boundary& boundary, const Model& model, const State& state);
 
 /// Forces on present blocks in the state's stage and cycle, one entry a block; empty where no traction acts.
@@ -25,22 +25,23 @@ namespace hdem
 /// Blocks on which such forces act in the state's stage, whatever their size in its cycle; ascending.
 [[nodiscard]] std::vector<Index> pushed_blocks(const Model& model, const State& state);
 
-/// The same forces added to `forces`, which may be empty: then it stays so if there are none.
+/// Add the same forces to `forces`, which may be empty. It stays empty if there are none.
 void add_constant_forces(const Model& model, const State& state, std::vector<Triple>& forces);
 
-/// Work of constant forces along the way from one pose to another.
+/// Work of constant forces as the blocks move from one pose to another [J].
 [[nodiscard]] double work_of(const std::vector<Triple>& given, const std::vector<BlockMotion>& from,
                              const std::vector<BlockMotion>& to);
 
-/// Book the work of given forces along such a way: of these, what the sides and the water give in `state`, and what remains of excavated blocks.
+/// Book the work of given forces from one pose to another. The parts of the sides and of the water in `state` go to their own terms; the rest,
+/// which remains of excavated blocks, counts as work of loads.
 void book_given_work(const std::vector<Triple>& given, const Model& model, const State& state, const std::vector<BlockMotion>& from,
                      const std::vector<BlockMotion>& to, EnergyLedger& ledger);
 
 /// First half of the work of these forces over a step, with the velocities before it; `pushed` lists the blocks.
-/// They count to where the blocks are, also on those that come to rest in this cycle (motion/rest.cpp).
+/// The work counts up to the present poses, also for blocks that come to rest in this cycle (motion/rest.cpp).
 void add_work_before(const std::vector<Index>& pushed, const std::vector<Triple>& forces, const State& state, EnergyLedger& ledger);
 
-/// What update_velocities has booked as work of prescribed motions is that of the boundary where walls of a side move.
+/// Where walls of a side move, make work of the boundary of what update_velocities has booked as work of prescribed motions.
 void book_walls(const std::vector<Index>& walls, const Blocks& blocks, EnergyLedger& ledger);
 
 /// Second half, once the velocities of the step are final.

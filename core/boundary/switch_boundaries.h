@@ -21,7 +21,7 @@ struct BoundaryChange
 
 [[nodiscard]] BoundaryChange boundary_change(const Model& model, Index from, Index to);
 
-/// What tractions that end have given goes to the forces that the stage takes off over its relax_cycles.
+/// Forces of tractions that end join the forces that the stage removes over its relax_cycles.
 void release_tractions(const Model& model, Index from, Index to, State& state);
 
 /// Take walls away.
@@ -31,6 +31,6 @@ void remove_walls(const std::vector<std::uint8_t>& walls, State& state);
 /// Before the first cycle of a run they stand as drawn.
 void place_walls(const Model& model, State& state);
 
-/// Walls of kind velocity begin to move in the state's stage, all others stand. A wall has no mass: that is no energy.
+/// Start the walls of kind velocity of the state's stage, and stop all others. A wall has no mass, so no energy is booked.
 void start_walls(const Model& model, State& state);
 }  // namespace hdem

@@ -26,8 +26,9 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     return weight;
 }
 
-/// Square of the load from which on a joint of a block counts as one that is in use: a millionth of the block's weight [N2]. Before rock has settled many joints bear no
-/// more than round-off, and all of a strength of next to nothing is soon in use: round-off would choose the joint along which the block is damped.
+/// Square of the load from which on a joint of a block counts as in use: a millionth of the block's weight [N2].
+/// Before rock has settled, many joints bear only round-off. Round-off may use up the whole of a tiny strength; it would then choose the joint along which
+/// the block is damped.
 [[nodiscard, gnu::always_inline]] inline double least_joint_load(const Triple& weight)
 {
     return 1e-12 * (weight.x * weight.x + weight.y * weight.y);
@@ -38,8 +39,8 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
 
-/// The same sums, formed contact by contact: loads need not go through memory. A sum begins with the block's first contact and is done after its last one, so
-/// it has the same bits. Where threads share the contacts, the loads of blocks with contacts in several shares are kept for sum_forces.
+/// The same sums, formed contact by contact, so that loads need not go through memory. A sum begins with the block's first contact
+/// and ends with its last one: the bits are the same. Where threads share the contacts, the loads of blocks with contacts in several shares are kept for sum_forces.
 class RunningSums
 {
   public:

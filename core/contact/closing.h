@@ -18,7 +18,7 @@ struct BasicOverlapCourse
 };
 using OverlapCourse = BasicOverlapCourse<double>;
 
-/// Share of its force that a normal spring gives in this cycle: 1 but where it has closed since the last cycle or will be open by the next.
+/// Share of its force that a normal spring gives in this cycle: It is 1, except where the spring has closed since the last cycle or will be open by the next.
 ///
 ///   F = s K_N L u,  s = (u'+ - u"+) / (u' - u"),  u' = u + coast + others - s answer
 ///
@@ -30,8 +30,7 @@ using OverlapCourse = BasicOverlapCourse<double>;
 ///
 /// Exact for one point, and for the two points of a face. Other forces are estimated from the last cycle, biased so that the scheme dissipates: as a spring
 /// closes, what presses counts; as it opens, twice what pulls. Where the answer is more than the overlap what presses counts too; nothing could rest there
-/// otherwise. As a spring opens, a negative answer, by which the other point presses this one, belongs to the other forces: where they
-/// balance it, the point rests.
+/// otherwise. As a spring opens, a negative answer, by which the other point presses this one, belongs to the other forces: where these balance it, the point rests.
 ///
 /// Not in the paper: see Closing in regime.h.
 /// @see verification/unit/core/contact/closing_test.cpp
@@ -65,7 +64,8 @@ template <typename P>
     return max(square(touch.point[0]), square(touch.point[1])) > P(speed * speed);
 }
 
-/// What closing asks of a touch, with overlaps as they press [m, m/s]. (A struct of its own: a whole touch that is handed on stays in memory, not in registers.)
+/// What closing needs of a touch, with overlaps as the springs see them, preload included [m, m/s]. (A struct of its own: a whole touch, passed on, would
+/// stay in memory and not in registers.)
 template <typename P>
 struct ClosingTouch
 {
@@ -73,14 +73,14 @@ struct ClosingTouch
     P pressed[2], v_m[2], ref_t[2], inc_t[2];
 };
 
-/// Square of two of the longer step: what may_close_or_open asks for [s2].
+/// Square of twice the longer step, for may_close_or_open [s2].
 [[nodiscard]] inline double closing_ways(const Steps& step)
 {
     const double dt = std::max(step.last, step.next);
     return 4.0 * dt * dt;
 }
 
-/// Contacts that may close or open within a cycle: one of their points goes as far as it overlaps, or gapes, in two cycles.
+/// Contacts that may close or open within a cycle: in two cycles, one of their points moves by more than its overlap or gap.
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline MaskOf<P> may_close_or_open(const ClosingTouch<P>& touch, P ways)
 {
@@ -128,7 +128,7 @@ template <typename P>
                                              .coast = touch.v_m[k] * blocks.step.next,
                                              .others = others * acting,
                                              .answer = answer * acting});
-        // In the first cycle of a run what presses is not known yet.
+        // In the first cycle of a run, the forces of a last cycle are not known yet.
         share[k] = select((last_normal[k] > P(0.0)) | (past > u[k]), of_point, 1.0);
     }
     return share;

@@ -8,11 +8,11 @@
 
 namespace hdem
 {
-/// What a pass does beyond its laws. Without any of it, where it is not needed, the results are the same and a third less memory is touched.
+/// What a pass does besides the laws. What is not needed can be left out: the results are the same, and a third less memory is touched.
 struct PassNeeds
 {
     bool views =
-        true;  ///< look whether incident vertices have left the place at which features were found; else none has, nor is marked so
+        true;  ///< look whether incident vertices have left the places at which features were found; false: none has, and no flag is written
     bool rests = true;  ///< some contact may have a rest overlap
     bool tilts = true;  ///< store tilt forces: they are read before the next pass
 };
@@ -28,7 +28,7 @@ struct PassNeeds
 ContactTally evaluate_contacts(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums = {}, const PassNeeds& needs = {});
 
-/// Tilt forces that the last pass over `range` has found, stored where it has not: the same bits.
+/// Store the tilt forces that the last pass over `range` found but did not store: the same bits.
 /// @pre  blocks have not moved since
 void store_tilt_forces(IndexRange range, const Blocks& blocks, Contacts& contacts);
 }  // namespace hdem

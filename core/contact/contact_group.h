@@ -37,7 +37,7 @@ struct BasicContactGroup
     const BasicEdgeTouch<P>& touch;
     TurningRate<P> turning[2];
     P w;  ///< of inc relative to ref
-    // Set later: to fill them with zeros here, or to copy the touch, cost a tenth of the law's time.
+    // Set later: filling these with zeros here, or copying the touch, would cost a tenth of the law's time.
     const Index* ref;
     const Index* inc;
     const BasicJointLanes<P>* joint;
@@ -59,17 +59,17 @@ using ContactGroup = BasicContactGroup<Pack>;
 ///
 ///   F_N  force of the last cycle, of springs or impulses [N]
 ///
-/// Differs from the paper: there the threshold is 0 without gravity, as impulses store nothing. Loads and walls press joints then too, and one that had taken an impulse
-/// would obey impulses for ever: without its stiffness, without its roughness, and with any force where a wall moves. A point that touches first has no
-/// force yet, so that its impact is one.
+/// Differs from the paper: there the threshold is 0 without gravity, as impulses store nothing. But loads and walls press joints then, too. A joint that
+/// had once taken an impulse would obey impulses for ever: without its stiffness, without its roughness,
+/// and with an arbitrary force where a wall moves. A point that touches for the first time has no force yet, so it still counts as an impact.
 template <typename R>
 [[nodiscard]] inline R load_velocity(R last_normal, R inverse_mass_normal, R dt)
 {
     return dt * abs(last_normal) * inverse_mass_normal;
 }
 
-/// Masses of blocks in the threshold velocity. A fixed block may keep its mass, but never turns: where the paper's ground counts,
-/// m_c = m/2 without levers.
+/// Masses of blocks in the threshold velocity. With contact.fixed_mass_counts a fixed block counts with its mass, as the ground does in the paper
+/// (m_c = m/2 for equal blocks without levers). Its moment of inertia never counts.
 template <typename P>
 inline BasicInertia<P> threshold_inertias(const Model& model, const Blocks& blocks, const Index* at)
 {
@@ -84,7 +84,7 @@ inline BasicInertia<P> threshold_inertias(const Model& model, const Blocks& bloc
 }
 
 /// Regime under the hybrid method, Eq. (24): impulse as soon as one of a contact's closed points is faster than the threshold.
-/// In line, as the next two: calls would cost the force law instructions (core/tried.md).
+/// Inline, as the next two: calls would cost instructions (core/tried.md).
 template <typename P>
 [[gnu::always_inline]] inline MaskOf<P> are_fast(const BasicContactGroup<P>& g, P speed_squared, const Model& model,
                                                  const Blocks& blocks, const Threshold& threshold)
@@ -143,7 +143,7 @@ template <ContactLaw law, typename P>
     const MaskOf<P> none{};
     if constexpr (law != ContactLaw::by_speed)
         return law == ContactLaw::impulses ? !none : none;
-    // The elastic part only adds: at rest nothing more needs to be known.
+    // The elastic part only raises the threshold. Slower contacts need no more work.
     const double least = threshold.least();
     if (!any(speed > P(least * least)))
         return none;

@@ -43,7 +43,7 @@ template <typename P>
             load(l.p0x), load(l.p0y), load(l.p1x),     load(l.p1y)};
 }
 
-/// Rows of four doubles of the blocks at `at`, `offset` doubles after their beginning: columns of them.
+/// Load four doubles of each block in `at`, `offset` doubles after the beginning of its row, as columns.
 template <typename Row>
 [[gnu::always_inline]] inline void load_rows(const Row* rows, const Index* at, std::ptrdiff_t offset, Pack& a, Pack& b, Pack& c,
                                              Pack& d)
@@ -96,7 +96,7 @@ struct BasicJointLanes
     P normal_compliance, shear_compliance;  ///< 1/K_N, 1/K_S [m/Pa]
 };
 
-/// Neighbours mostly have the same laws: what was loaded last is kept.
+/// Joint laws of a pack. Neighbours mostly have the same laws, so the last ones are kept.
 template <typename P>
 class LawLanes
 {
@@ -131,7 +131,7 @@ class LawLanes
     BasicJointLanes<P> joint_;
 };
 
-/// Four bytes, each in a word and at its place among the four: so they are loaded and stored as one number, and compared as words.
+/// Four bytes, each in a word of its own and at its place among the four. So all are loaded and stored as one number, and compared as words.
 inline constexpr WordLanes byte_places{0xffU, 0xff00U, 0xff0000U, 0xff000000U};
 inline constexpr WordLanes byte_ones{1U, 1U << 8, 1U << 16, 1U << 24};
 static_assert(std::endian::native == std::endian::little);
@@ -157,7 +157,7 @@ static_assert(std::endian::native == std::endian::little);
     return mask_of(WordLanes(load_bytes(regime) == byte_ones * static_cast<std::uint32_t>(Regime::impulse)));
 }
 
-/// Regimes of four contact points, as load_bytes has them: `slips` are among `spring`, and none of `held` is.
+/// Regimes of four contact points, as load_bytes gives them. `slips` is a part of `spring`; `held` and `spring` have no lane in common.
 [[nodiscard, gnu::always_inline]] inline WordLanes regimes_of(Mask spring, Mask slips, Mask held)
 {
     return (words_of(spring) & byte_ones) + (words_of(slips) & byte_ones) + (words_of(held) & (byte_ones * 3U));
@@ -209,7 +209,8 @@ template <typename F>
     return found;
 }
 
-/// Incident vertices that have left the place at which the features were found. `slack`: by how much any of the others may move before it has.
+/// Incident vertices that have left the place at which the features were found. `slack`: least distance that any vertex may still move before it has left
+/// its place [m].
 [[nodiscard]] inline Mask have_moved(const ContactLanes& l, const BasicEdgeView<Pack>& v, FloatLanes& slack)
 {
     const auto off = [](Pack now, const std::array<float, lanes>& seen)
@@ -233,7 +234,7 @@ inline void add_pack(Pack a, Pack& sum)
     sum += a;
 }
 
-/// The other sign in lanes of `m`.
+/// Change the sign in lanes of `m`.
 [[nodiscard, gnu::always_inline]] inline Pack turned(Mask m, Pack value)
 {
     constexpr std::int64_t sign = std::numeric_limits<std::int64_t>::min();
@@ -257,7 +258,7 @@ inline void add_pack(Pack a, Pack& sum)
     put(turned(inc_first, x), turned(inc_first, y), select(inc_first, moment_ref, moment_inc), reserve, 1);
 }
 
-/// `touching` contacts, of which `springs` have no impulse.
+/// Store the joint use of four contacts. `touching` have a closed point; `springs` are those of them without an impulse.
 [[gnu::always_inline]] inline void store_use(Pack mobilised, Pack t_x, Pack t_y, Mask touching, Mask springs, JointUse* to)
 {
     const WordLanes by_springs = words_of(springs), others = words_of(touching) & ~by_springs;

@@ -37,7 +37,7 @@ template <ContactLaw law, Joints joints, typename P>
     }
     P speed = motion_squared(g);
     if constexpr (joints == Joints::laws)
-        if (rows.any)  // impulses know no roughness, nor what dilation takes: springs until the blocks approach fast
+        if (rows.any)  // impulses know neither roughness nor the work of dilation: springs act until the blocks approach fast
             speed = select(rows.is_rough, approach_squared(g), speed);
     MaskOf<P> impulsive = are_impulsive<law>(g, speed, model, rule.blocks, rule.threshold);
     if constexpr (joints == Joints::laws && law == ContactLaw::by_speed)
@@ -92,7 +92,7 @@ template <Joints joints, typename P>
     if (rule.closing != Closing::whole_cycles && (!remembers || any(shared)))
         share = closing_shares<P>(rule.blocks, l, g.ref, g.inc, closing_touch<joints>(g), g.joint->law.normal_stiffness * g.length,
                                   g.recovery);
-    for (P& s : share)  // what is slow must not depend on which contacts it is handled with
+    for (P& s : share)  // a slow contact must not depend on the others in its pack
         s = select(shared, s, 1.0);
     if constexpr (joints == Joints::laws)
         if (remembers)
@@ -108,10 +108,10 @@ template <Joints joints, typename P>
     return false;
 }
 
-/// Direction in which the blocks of a contact slide along each other, for damping: along the joint, and where slip opens it as much across it as it does.
-/// Damping across the joint would see the opening as a motion to be stopped, and a block above its friction limit would creep: each swing of its normal springs presses
-/// it on harder than it is thrown off.
-/// What does not slip, or does not dilate, keeps the direction of its edge.
+/// Direction in which the blocks of a contact slide along each other, for damping: along the joint. Where slip opens the joint, the direction is tilted by
+/// that opening.
+/// Else damping across the joint would brake the opening, and a block above its friction limit would creep: each swing of its normal springs would press
+/// the joint more than it relieves it. Contacts that do not slip or do not dilate keep the direction of their edge.
 template <typename P>
 struct SlideDirection
 {
@@ -130,8 +130,8 @@ struct SlideDirection
     }
 };
 
-/// Share of its shear strength that a joint without any has in use: it slides (sliding_from, core/motion/damping.h), but one with friction that slides comes before it. A block in a row
-/// goes along its base, not along its neighbours.
+/// Share of its strength that a joint without shear strength counts as having in use. It slides (sliding_from, core/motion/damping.h), but a sliding joint with
+/// friction has precedence: a block in a row is damped along its base, not along its neighbours.
 inline constexpr double used_without_strength = 0.995;
 
 /// What the contacts of a pack put on their blocks.
@@ -154,13 +154,13 @@ template <Joints joints, typename P>
         store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, use);
 }
 
-/// Ask for the memory of contacts that come later. Processors foresee that ContactLanes follow each other, but too late: without this a pass over contacts that no
-/// cache of a core holds takes up to twice as long (perf/measured.md).
+/// Prefetch the memory of contacts that come later. The processor's own prefetching is too late: without this, a pass over contacts that do not fit
+/// a core's caches takes up to twice as long (perf/measured.md).
 template <Joints joints, typename P>
 [[gnu::always_inline]] inline void fetch_ahead(Contacts& contacts, Index i, const PassNeeds& needs)
 {
     constexpr std::size_t always = offsetof(ContactLanes, moved_limit), group = sizeof(ContactLanes);
-    // From memory they come faster into the second cache: few lines at a time can be on their way to the first one.
+    // From memory, prefetch into the second cache: only few lines at a time can be on their way to the first one.
     constexpr Index near = 16, far = 32, beyond_caches = 100'000;
     const auto all = static_cast<Index>(contacts.stale.size());
     const bool is_far = all > beyond_caches;

@@ -1,5 +1,5 @@
 #pragma once
-/// A contact as its observers see it: where it is, which way it faces, what it carries. Not used by the cycle itself.
+/// A contact as observers see it: place, direction and forces. Not used by the cycle itself.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -58,7 +58,7 @@ struct MeanStress
     [[nodiscard]] double magnitude() const;
 };
 
-/// Of every block, in the model's order, from the forces of its contacts and the tractions on its sides:
+/// Mean stress of every block, in the model's order, from the forces of its contacts and the tractions on its sides:
 ///
 ///   sigma = -1/A sum (x_c (x) f_c), made symmetric                  mean of a body in equilibrium
 ///

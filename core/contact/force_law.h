@@ -15,7 +15,7 @@ struct BasicPointForce
 {
     R normal = 0.0;    ///< F_N >= 0 [N]
     R shear = 0.0;     ///< F_S [N]
-    R excess = 0.0;    ///< what slip has taken off the shear force; over K_S L it is the plastic displacement of this cycle [N]
+    R excess = 0.0;    ///< what slip has taken off the shear force [N]; divided by K_S L, the plastic displacement of this cycle
     R strength = 0.0;  ///< shear strength F_max [N]
 };
 using PointForce = BasicPointForce<double>;
@@ -82,8 +82,8 @@ template <typename R>
     return select(inside < R(0.0), normal * slope, pull * inside / max(max(inside, overlap), tiny));
 }
 
-/// The same of a point that is preloaded by `preload` >= 0 [m]: both parts grow from 0 over that way. N slope of 10 MPa jumps by hundreds of newtons where the
-/// vertices of blocks lie on each other, as in all cut rock, and their blocks would rattle about the kink for ever.
+/// The same of a point that is preloaded by `preload` >= 0 [m]: both parts grow from 0 over that distance. Else, at 10 MPa, N slope would jump by hundreds of newtons
+/// where vertices of blocks lie on each other, as in all cut rock, and the blocks would rattle about the kink for ever.
 template <typename R>
 [[nodiscard]] inline R preloaded_tilt_force(R normal, R slope, R pull, R inside, R overlap, R preload)
 {

@@ -15,9 +15,9 @@ namespace hdem
 /// Which islands are solved all at once.
 enum class ExactIslands
 {
-    great_mass_ratios,  ///< those that sweeps would need many cycles for
-    hit,                ///< while blocks hit each other these, and small ones that are hit get more sweeps; else as `small`
-    small  ///< great mass ratios, and all others of few points: a tall stack sways on what sweeps leave, and never comes to rest
+    great_mass_ratios,  ///< islands for which sweeps would need many cycles
+    hit,                ///< while blocks hit each other: islands of great mass ratios, and more sweeps for small ones that are hit; else as `small`
+    small  ///< great mass ratios, and all others of few points: after sweeps alone, a tall stack sways and never comes to rest
 };
 
 /// How much the masses of movable blocks differ.
@@ -37,8 +37,8 @@ struct MassRange
         greatest_inverse = std::max(greatest_inverse, other.greatest_inverse);
         least_inverse = std::min(least_inverse, other.least_inverse);
     }
-    /// Are sweeps all that blocks so different need? A heavy block on a light one takes about as many sweeps as its mass is greater; those of
-    /// ten cycles do no harm, as each cycle begins with the impulses of the last.
+    /// Are sweeps enough for such mass ratios? A heavy block on a light one takes about as many sweeps as the ratio of their masses. The sweeps
+    /// of ten cycles may be needed, as each cycle begins with the impulses of the last.
     [[nodiscard]] bool suits_sweeps(int sweeps) const { return greatest_inverse <= greatest_ratio(sweeps) * least_inverse; }
     [[nodiscard]] static double greatest_ratio(int sweeps) { return 10.0 * sweeps; }
 };
@@ -70,10 +70,11 @@ class IslandFinder
     std::vector<Index> place_;      ///< of blocks in their islands
 };
 
-/// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much. Of an island of
-/// more than 100 points only the clusters, where the sweeps have left more than around them: there is nothing to be gained where the cluster's
-/// neighbours are not known better. Where masses differ much, clusters of more than 200 points get more sweeps instead, ten times those of a cycle at most: there a
-/// heavy block may still sink into what it lies on. An island that is hit, of up to 200 points, gets more sweeps in the same way: the sweeps of one cycle are too few for
-/// an impact, which has no other cycle to be shared out in.
+/// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much.
+/// Of an island of more than 100 points only the clusters are solved, and only where the sweeps have left more in a cluster than around it: its solution
+/// is no better than what is
+/// known of its neighbours. Where masses differ much, clusters of more than 200 points get more sweeps instead, at most ten times those of a cycle; a heavy
+/// block may still sink into its support there. An island of up to 200 points that is hit gets more sweeps in the same way, since
+/// an impact must be solved within one cycle.
 void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #pragma once
-/// What an impulse at a contact point does to the velocities of its blocks, and what these are there.
+/// Effect of an impulse at a contact point on the velocities of its blocks, and their relative velocity at the point.
 
 #include "core/state/blocks.h"
 #include "core/state/workspace.h"
@@ -46,7 +46,7 @@ struct Kick
     }
 };
 
-/// What a kick changes. A block that cannot move is not written to at all: parts of one colour may share it.
+/// Apply a kick to one block. A block that cannot move is not written to at all: parts of one colour may share it.
 inline void change_velocity(const BlockInertia& inertia, double x, double y, double moment, double& vx, double& vy, double& w)
 {
     if (!can_move(inertia))

@@ -23,17 +23,16 @@ void collect_impulse_points(IndexRange range, const Model& model, const Blocks& 
 ///
 /// R applies once, to the velocity v_m that the blocks have before this cycle's forces. Differs from the paper in two points:
 /// - Forces act after the impact: what they press together is no part of the impact, and is not thrown back. R applied to v_m* would throw a resting block
-///   up by R g dt in each cycle. Forces that part the blocks are left out, else needles gain energy.
-/// - The impact was up to a cycle ago, u / v_m. The way by which the blocks should have parted since is added to the overlap taken back. Without it flights
-///   are too short by up to a cycle.
-/// With both, errors of the velocity in a bounce are a third (verification/README.md).
+/// up by R g dt in each cycle. Forces that part the blocks do not count, else needles gain energy.
+/// - The impact was up to a cycle ago, u / v_m. The way by which the blocks should have parted since is added to the overlap taken back. Without it
+/// flights are too short by up to a cycle.
 void aim_impulses(const Blocks& blocks, std::vector<ImpulsePoint>& points);
 
 /// Do blocks hit each other at the point, faster than weight and the step make them meet? The same before and after aim_impulses.
 [[nodiscard]] bool is_impact(const ImpulsePoint& p);
 
-/// Begin with the impulses of the contacts' last forces, F dt. Those of a stack at rest then hold from cycle to cycle, and the springs' share between two points
-/// is handed over as it is. After an impact the full start would add energy: then it is scaled by the factor that minimises the remaining work.
+/// Begin with the impulses of the contacts' last forces, F dt. The impulses of a stack at rest then hold from cycle to cycle, and the springs' share
+/// between two points is kept. After an impact the full start would add energy: then it is scaled by the factor that minimises the remaining work.
 /// In rock with in-situ stress all points must be started together (`are_stressed`): the forces of one part alone are far from balance.
 /// @return energy lost, as for sweep_impulses [J]
 double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool are_stressed, Blocks& blocks);
@@ -51,7 +50,8 @@ double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool
 /// @return energy lost: the work of the impulses, taken with the mean of the velocities before and after each [J]
 double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
 
-/// Once all impulses of the cycle are found. A joint that bears tension allows J >= -T L dt: until here its impulses are counted from that pull, and its cohesion is what
-/// is left at it, so that sweeps and solutions see the cone of friction with its tip at 0.
+/// Count the impulses from 0 again. Call it once all impulses of the cycle are found. A joint that bears tension allows J >= -T L dt. During the solution
+/// its impulses are counted from that pull,
+/// and its cohesion is that at the pull, so that the cone of friction has its tip at 0.
 void count_from_zero(std::vector<ImpulsePoint>& points);
 }  // namespace hdem

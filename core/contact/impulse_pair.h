@@ -16,7 +16,8 @@ namespace hdem
     return std::max(0.0, p.impulse_normal + p.mass_normal * (v_m - p.target));
 }
 
-/// The blocks of a contact can only part, or only turn against each other about one axis: an impulse at one point does what one at the other does, more or less of it.
+/// Normal impulses of two points that stop the same motion: the blocks can only part, or only turn against each other about one axis. The effects of the two
+/// impulses then differ by a factor only.
 /// @param k  what a unit impulse does at a, at b, and at the other one [1/kg]
 /// @param r  approach velocities beyond the targets if neither point had an impulse yet [m/s]
 [[nodiscard]] inline std::array<double, 2> one_motion_normal(const ImpulsePoint& a, const ImpulsePoint& b,

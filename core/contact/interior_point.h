@@ -23,16 +23,16 @@ namespace hdem
 /// Each product on a line is not 0 but epsilon, which falls towards 0 from step to step; a step is one of Newton's, as far as all stay positive. As
 /// all points are seen at once, neither ratios of mass nor the length of a chain matters: 5 to 20 steps. Where points carry more than equilibrium asks
 /// for, the load ends up between the possible ones.
-/// The matrix has a row a component of a block, scaled by the root of its mass, and one for each J and J_S. (Without the latter it has numbers J / s, which
-/// grow without bound: at mass ratios of 1e6 light blocks lost all digits.)
+/// The matrix has a row a component of a block, scaled by the root of its mass, and one for each J and J_S. (Without rows for J and J_S, the matrix would
+/// hold numbers J / s, which grow without bound: at mass ratios of 1e6 light blocks would lose all digits.)
 /// @see verification/unit/core/contact/interior_point_test.cpp
 class InteriorPoint
 {
   public:
     explicit InteriorPoint(const IslandProblem& problem);
 
-    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met. (Without a bound, those of blocks that jam
-    /// in each other would grow to 1e18, and lose all digits of the energy.)
+    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met. (Impulses are bounded: those
+    /// of blocks that jam in each other would grow to 1e18, and the energy would lose all digits.)
     [[nodiscard]] IslandProblem solve(double goal);
 
   private:
@@ -96,8 +96,8 @@ class InteriorPoint
 
 /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met.
 ///
-/// By InteriorPoint. The limit of friction follows the normal impulses, so the path to the solution may end on the way; that happens in islands of random
-/// points and masses, and has not been met in islands of blocks. Then the problem is solved step by step, with the limits of the step before: each of these
+/// By InteriorPoint. The limit of friction follows the normal impulses, so the path to the solution may end on the way (rare, core/tried.md). Then the
+/// problem is solved step by step, with the limits of the step before: each of these
 /// problems is convex (Haslinger's fixed point).
 [[nodiscard]] IslandProblem solve_all_at_once(const IslandProblem& problem, double goal);
 }  // namespace hdem

@@ -6,7 +6,7 @@
 
 namespace hdem
 {
-/// What a cycle reads and writes of the contacts of a pack besides their places. Wider packs go on in the next of `lanes` and `memory`.
+/// What a cycle reads and writes of the contacts of a pack, besides positions. Wider packs continue in the next element of `lanes` and `memory`.
 template <typename P>
 struct BasicJointPlace
 {
@@ -16,7 +16,7 @@ struct BasicJointPlace
     const BasicRowLanes<P>& rows;
 };
 
-/// Ask the law of each lane and let the points remember. Lanes that are plain are computed as in rock without memories.
+/// Evaluate the law of each lane and update the points' memories. Plain lanes are computed as in rock without memories.
 /// @param share  of the force that a spring gives that closes or opens in this cycle (closing.h)
 /// @pre   one of the four contacts has a memory
 void evaluate_joint_points(const ContactGroup& g, Mask impulsive, const std::array<Pack, 2>& share, Pack dt,

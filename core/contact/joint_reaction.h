@@ -1,5 +1,5 @@
 #pragma once
-/// A point of joints with a memory, a pack of contacts at a time: asks the law, and lets the point remember.
+/// A point of joints with a memory, a pack of contacts at a time: evaluates the law and updates the memory.
 
 #include "core/contact/joint_points.h"
 
@@ -23,7 +23,7 @@ struct OneLaw
         memory.opening = stress.opening;
         return stress;
     }
-    /// Impulses know no stress normal to the joint: of dilation they give what follows from slip alone.
+    /// By impulses no stress normal to the joint is known. Only dilation that follows from slip alone can be given.
     template <typename P>
     [[nodiscard]] static MaskOf<P> dilate_by_slip(const BasicRowLanes<P>&, MaskOf<P> held)
     {
@@ -49,11 +49,12 @@ void take(MaskOf<P> lanes_of, const BasicJointStress<P>& from, BasicJointStress<
         to.*field = select(lanes_of, from.*field, to.*field);
 }
 
-/// Forces of a point that nothing moves may differ by so much of their size: round-off.
+/// Relative difference by which forces of a point that nothing moves may differ: round-off [-].
 inline constexpr double memory_round_off = 1e-13;
 
-/// How many pieces of a cycle a law is asked for, one after another. Blocks that slide on a dilatant joint part by as much as slip opens it. Asked once a cycle, the law sees
-/// all of that gap before slip fills it: a joint would let go from the speed on at which it opens by its closure in a cycle, 0.1 m/s where 4 MN/m2 press 2e-6 m.
+/// Number of substeps in which a law is evaluated. Blocks that slide on a dilatant joint part by as much as slip opens it. In one step, the law would see
+/// all of that gap before slip fills it. The joint would then lose contact above the speed at which it opens by its closure in a cycle: 0.1 m/s where 4 MN/m2
+/// give a closure of 2e-6 m.
 /// @param gaps     by which the faces part in this cycle [m]
 /// @param stretch  closure before it [m]
 template <typename P>
@@ -67,7 +68,7 @@ template <typename P>
     return pieces;
 }
 
-/// React::react in so many pieces, along a straight way from `from` to the closure of `step`.
+/// React::react in so many substeps, in equal parts of the way from the closure `from` to that of `step`.
 template <typename React, typename P>
 [[gnu::noinline]] BasicJointStress<P> react_in_pieces(const BasicRowLanes<P>& rows, const BasicJointStep<P>& step, P from, P pieces,
                                                       BasicJointMemory<P>& memory)
@@ -93,7 +94,7 @@ template <typename React, typename P>
     return sum;
 }
 
-/// What remains of the state before: lanes that this cycle changes are stored, the others stay as they were.
+/// Store the lanes that this cycle changes; the others keep their values.
 template <bool has_all_lanes, typename Owner, typename P>
 [[gnu::always_inline]] inline void put(MaskOf<P> changed, Owner& owner, ContactLanes::Lane& lane, P value)
 {
@@ -159,7 +160,7 @@ template <typename React, typename P>
             freed = select(breaks, now.freed * g.length, zero);
         slips = spring & !(now.slid == zero);
         energy = force(now.energy + shear_energy(now.shear, now.shear_compliance));
-        // Where nothing moves nothing changes, not by round-off either: how often a block at rest is looked at must not matter.
+        // Where nothing moves, nothing changes, not even by round-off: results must not depend on how often a block at rest is evaluated.
         const M still = spring & (slide == zero) & (overlap == seen(last.overlap[k])) & (rest == last_rest) &
                         (abs(normal - last_normal) + abs(shear - handed) <= P(memory_round_off) * (abs(last_normal) + abs(handed)));
         if (any(still))
@@ -176,7 +177,7 @@ template <typename React, typename P>
         opened = select(slips, now.opening - before.opening, zero);
         put<false>(spring & !still, memory, m.stiffness, now.normal_stiffness);
     }
-    // What a joint slides by impulses is slip too.
+    // Sliding under impulses is slip, too.
     after.slip = select(held, before.slip - slide, after.slip);
     if (any(held))
         after.opening = select(React::template dilate_by_slip<P>(rows, held), CoulombResidual::opening(rows.numbers, after),
@@ -219,7 +220,7 @@ template <typename React, typename P>
     sums.moment_ref += mine(p.ref_t * normal + p.ref_m * shear);
 }
 
-/// Both of them: their chains of operations do not wait for each other (perf/measured.md).
+/// Both points in one function: their chains of operations do not wait for each other (perf/measured.md).
 template <typename React, typename P>
 [[gnu::noinline, gnu::flatten]] void evaluate_points_by(const BasicContactGroup<P>& g, MaskOf<P> impulsive,
                                                         const std::array<P, 2>& share, P dt, const BasicJointPlace<P>& place,

@@ -1,5 +1,5 @@
 #pragma once
-/// Overlap of contact points in the impulse regime is taken back from positions.
+/// Position correction: removes the overlap of contact points in the impulse regime.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -13,8 +13,8 @@ namespace hdem
     return (p.excess_overlap > 0.0 ? model.contact.correction_fraction : 1.0) * p.excess_overlap / step.next;
 }
 
-/// One sweep of the position correction: pseudo velocities, added to positions but never to velocities, take the overlap
-/// back. As a real velocity, Eq. (19) to the letter, it would feed energy into every bounce (Table 4 is destroyed).
+/// One sweep of the position correction: pseudo velocities, added to positions but never to velocities, remove the
+/// overlap. As a real velocity, Eq. (19) to the letter, it would feed energy into every bounce (Table 4 could not be met).
 ///
 ///   P <- max(0, P + m_cN (pv_m + share * excess / dt))                 after [Lee2025] Eq. (19)
 ///
@@ -23,7 +23,7 @@ namespace hdem
 void sweep_correction(const Model& model, const Blocks& blocks, std::vector<ImpulsePoint>& points, std::vector<Triple>& pseudo);
 
 /// Work that the position correction of this cycle takes: against the gravity of a range of blocks, and into the normal springs of a range of
-/// contacts (shear springs follow velocities, and do not notice it).
+/// contacts (shear springs follow velocities only).
 void add_correction_gravity(IndexRange range, const Model& model, const Blocks& blocks, const std::vector<Triple>& pseudo,
                             EnergyLedger& ledger);
 void add_correction_springs(IndexRange range, const Blocks& blocks, const Contacts& contacts, const std::vector<Triple>& pseudo,

@@ -7,14 +7,14 @@
 
 namespace hdem
 {
-/// Whose normal springs give only a share of their force in the cycles in which they close and open (contact/closing.h).
+/// Which normal springs give only a share of their force in the cycles in which they close or open (contact/closing.h).
 enum class Closing
 {
-    /// None: so the paper has it.
+    /// None, as in the paper.
     whole_cycles,
-    /// Contacts with a point that goes as far as it overlaps in two cycles: all that matter where springs take many cycles to turn a motion round.
+    /// Contacts with a point that moves in two cycles by more than its overlap. These are all that matter where springs take many cycles to reverse a motion.
     fast_points,
-    /// Where they do not.
+    /// All: where springs reverse a motion within few cycles.
     all_points
 };
 
@@ -35,12 +35,13 @@ struct RegimeRule
     /// momentum to the rock at once and undamped, where springs let local damping and the rock behind take their part. So a tunnel in which blocks fall on
     /// standing rock moves as by springs alone.
     bool rock_keeps_springs = false;
-    /// A corner on a corner, of blocks that lie where they were (`drawn_share`), keeps its springs. Differs from the paper: such a contact has next to no length, so it stores
-    /// nothing and its threshold is 0, and an impulse at it is a rigid prop in rock that gives way elastically beside it. A hole in rock under stress moved a third too little.
+    /// A corner on a corner, of blocks that lie where they were (`drawn_share`), keeps its springs. Differs from the paper: such a contact has next to no
+    /// length. It stores nothing, and its threshold is 0. An impulse there would be
+    /// a rigid prop in rock that gives way elastically beside it, and rock around a hole would move too little.
     bool corners_keep_springs = false;
     Closing closing = Closing::fast_points;
     double closing_speed =
-        0.0;  ///< slower contacts give whole forces in each cycle: rock would take a third more time to come to rest [m/s]
+        0.0;  ///< slower contacts give whole forces in each cycle [m/s]; else rock would take a third more time to come to rest
 };
 
 inline constexpr double gentle_impact = 0.1;
@@ -73,7 +74,7 @@ template <typename R>
 /// A contact stores the energy of its two points; their contributions add up.
 ///
 /// Differs from the paper's wording: u_N is not the geometric overlap. A first touch has stored nothing, and with the
-/// overlap v dt in its place u_elastic grows with the impact speed itself, so that no impact would ever be one.
+/// overlap v dt in its place u_elastic grows with the impact speed itself, so that no impact would count as one.
 /// In terms of forces K u^2 = F^2 / K.
 template <typename R>
 [[nodiscard]] inline R elastic_velocity_squared(R last_normal, R normal_stiffness, R inverse_mass_normal, R last_shear,

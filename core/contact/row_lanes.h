@@ -11,7 +11,7 @@
 
 namespace hdem
 {
-/// Neighbours mostly have the same rows: what was loaded last is kept.
+/// Joint rows of a pack. Neighbours mostly have the same rows, so the last ones are kept.
 template <typename P>
 class BasicRowLanes
 {
@@ -32,7 +32,7 @@ class BasicRowLanes
     M has_memory{};           ///< the others are plain
     M is_linear{};            ///< of these: with a linear normal spring
     M is_bonded{};            ///< JointRow::is_bonded
-    M is_rough{};             ///< dilates, or is of a law of which impulses know no more than its basic friction
+    M is_rough{};             ///< dilates, or has a law of which impulses use the basic friction only
     bool any = false;         ///< one of them has a memory
     bool is_uniform = false;  ///< all have, and the same law and curve
     P reach = 0.0, torn_reach = 0.0;
@@ -60,14 +60,14 @@ template <typename P>
     return mask_of(WordLanes(load_bytes(regime) == byte_ones * static_cast<std::uint32_t>(Regime::slip)));
 }
 
-/// By which slip of this cycle may open a joint at most that has slipped, and opened, before: the law must be asked whether it still touches [m].
+/// Greatest opening by this cycle's slip of a joint that slipped and opened before [m]. Within it only the law can tell whether the point still touches.
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline P climb_of(const MemoryLanes& memory, int k, MaskOf<P> slipped, P slide)
 {
     return select(slipped & (load_lane<P>(memory, memory.point[k].opening) > P(0.0)), abs(slide), 0.0);
 }
 
-/// Points that no impulse may take from their springs: bonds until they break, and closures that are no straight line.
+/// Points that stay with springs at any speed: bonds that are not broken, and joints whose closure is not linear.
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline MaskOf<P> keep_springs(const BasicRowLanes<P>& rows, const MemoryLanes& memory, int k)
 {

@@ -34,11 +34,11 @@ using Sums = BasicSums<Pack>;
 /// What the contacts of a pack need of the laws.
 enum class Contact4
 {
-    rests,  ///< springs only, none with a rest overlap, none that closes or opens: so is most rock, at the price of the force method under the hybrid one too
+    rests,  ///< springs only, none with a rest overlap, none that closes or opens. Most rock is so: then the hybrid method costs no more than the force method
     any
 };
 
-/// What the contacts of a model carry besides springs and Coulomb slip: a loop of its own for each, so that none pays for the others.
+/// What the contacts of a model carry besides springs and Coulomb slip. Each kind has its own loop, so that none pays for the others.
 enum class Joints
 {
     plain,
@@ -55,7 +55,7 @@ inline P kept_share(const BasicContactGroup<P>& g, int k, P stretch)
     return select(g.last_normal[k] > zero, min(kept / g.last_normal[k], P(1.0)), zero);
 }
 
-/// Overlap of a point, and what it is pressed by where the blocks are drawn [m].
+/// Overlap of a point, with its preload: that at which the blocks are pressed as drawn [m].
 template <Joints joints, typename P>
 [[gnu::always_inline]] inline P pressed_by(const BasicContactGroup<P>& g, int k)
 {
@@ -115,7 +115,7 @@ template <Contact4 contact, Joints joints, typename P>
     store_lane(l, l.shear_force[k], rests ? shear : select(held, g.last_shear[k], shear));
 
     sums.normal[k] = normal;
-    // A preload is no stretch that a change of the contact length could give back: nothing may move where the blocks are drawn.
+    // A preload is no stretch that a change of the contact length could give back: blocks as drawn must not begin to move.
     sums.work += normal * (rests ? p.overlap : p.overlap - rest);
     sums.used += abs(shear);
     sums.strength += select(spring, f.strength, zero);

@@ -1,5 +1,5 @@
 #pragma once
-/// What springs do against velocities that are no motion of the run: position corrections.
+/// Work of springs along velocities that only correct positions.
 
 #include "core/state/state.h"
 #include "core/state/workspace.h"

@@ -32,7 +32,7 @@ struct WidePack
     WidePack(double value) : v{value, value, value, value, value, value, value, value} {}
 };
 
-/// The general one asks for 32 bytes, less than its members need here: clang refuses that.
+/// The general template aligns to 32 bytes, less than its members need here, which clang refuses.
 template <>
 struct alignas(64) BasicInertia<WidePack>
 {
@@ -168,7 +168,7 @@ template <typename Owner>
     _mm256_store_pd(reinterpret_cast<double*>(at + sizeof(Owner)), _mm512_extractf64x4_pd(value.v, 1));
 }
 
-/// Rows of four doubles of eight blocks: columns of them.
+/// Load four doubles of each of eight blocks as columns.
 template <typename Row>
 [[gnu::always_inline]] inline void load_rows(const Row* rows, const Index* at, std::ptrdiff_t offset, WidePack& a, WidePack& b,
                                              WidePack& c, WidePack& d)
@@ -242,13 +242,13 @@ struct Floats<WidePack>
     return {static_cast<__mmask8>(~near)};
 }
 
-/// The other sign in lanes of `m`.
+/// Change the sign in lanes of `m`.
 [[nodiscard]] inline __m512d turned(WideMask m, __m512d value)
 {
     return _mm512_mask_xor_pd(value, m.v, value, _mm512_set1_pd(-0.0));
 }
 
-/// Columns to rows: loads of eight contacts on both of their blocks, a line of 64 bytes each.
+/// Store the loads of eight contacts on both of their blocks, a cache line of 64 bytes for each contact.
 [[gnu::always_inline]] inline void store_loads(WidePack x, WidePack y, WidePack moment_ref, WidePack moment_inc, WidePack reserve,
                                                const std::uint8_t* swapped, BlockLoad* to)
 {

@@ -13,8 +13,9 @@ namespace hdem
 /// How far any point of a block moves in the next cycle, at most [m].
 [[nodiscard]] double way_a_cycle(Index block, const Model& model, const Blocks& blocks);
 
-/// Give each block its margin: half the skin, for fast ones their way in the next 64 cycles, up to eight times as much. Two blocks are tracked as a contact
-/// when they are nearer than their margins together. With one margin for all, a single block that falls has all contacts found anew every few cycles.
+/// Give each block its margin: half the skin, and for fast blocks the distance they move in the next 64 cycles, at most eight times as much. Two blocks are tracked
+/// as a contact when their distance is less than the sum of their margins. With one margin for all, a single falling block would cause a search for all
+/// contacts every few cycles.
 void set_margins(const Model& model, Blocks& blocks);
 
 /// Boxes of the parts in `range` at the blocks' poses, widened by the block's margin; empty for excavated blocks.
@@ -26,9 +27,10 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
                                  const std::vector<BlockMotion>& rebuilt_at);
 
 /// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out. Contacts that `old` already has
-/// (same parts) keep their history; those between blocks at rest, which have not moved, their features as well. Appends to `out` in key order.
+/// (same parts) keep their history; contacts between blocks at rest, which have not moved, keep their features as well. Contacts that touch and move are
+/// searched: their energy
+/// depends on it (core/tried.md). Appends to `out` in key order.
 /// @param old_order  numbers of the contacts of `old` by ascending keys, of order_by_parts
-/// Those that touch and move are searched too: their energy depends on it (core/tried.md).
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
                     const Contacts& old, const std::vector<Index>& old_order, std::vector<Contact>& out, EnergyLedger& ledger);
 

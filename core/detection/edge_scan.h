@@ -35,17 +35,17 @@ struct RelativePose
     return shapes.edge_source[edge] != edge_internal;
 }
 
-/// Of a part from the line of an edge.
+/// Distance of a part from the line of an edge.
 struct Distance
 {
     double least = std::numeric_limits<double>::infinity();  ///< < 0 when it reaches behind it [m]
     double plain = std::numeric_limits<double>::infinity();  ///< of its vertices that are no reflex corners of its block
 
-    /// Does only a reflex corner reach behind the line? There the block goes on in the next part: nothing lies against the line in that corner.
+    /// Does only a reflex corner reach behind the line? The block continues in the next part there, so nothing lies against the line in that corner.
     [[nodiscard]] bool is_at_seam(double margin) const { return least < -margin && plain > least + margin; }
 };
 
-/// Of part `other` from the line of `edge`. `pose` is that of the other block in the frame of the edge's.
+/// Distance of part `other` from the line of `edge`. `pose` is that of the other block in the frame of the edge's block.
 [[nodiscard]] Distance edge_distance(const Shapes& shapes, Index edge, Index other, const RelativePose& pose);
 
 /// Result of scanning one part's edges against the other's vertices.
@@ -66,8 +66,8 @@ struct PartPair
     Index a, b;
     const BlockMotion& motion_a;
     const BlockMotion& motion_b;
-    double margin;     ///< distances that differ by less are equal [m]
-    double round_off;  ///< lengths and differences of distances below it are none [m]
+    double margin;     ///< distances that differ by less count as equal [m]
+    double round_off;  ///< lengths and differences of distances below it count as 0 [m]
     RelativePose b_from_a{motion_a, motion_b};
     RelativePose a_from_b{motion_b, motion_a};
 };

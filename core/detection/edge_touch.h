@@ -20,7 +20,7 @@ struct BasicTouchPoint
     R v_t = 0.0;  ///< velocity of inc relative to ref at the point, Eq. (3) [m/s]; along the edge
     R v_m = 0.0;  ///< into ref: > 0 when approaching
     R inside =
-        0.0;  ///< by how far the incident vertex lies within the reference edge's end; < 0: that end is the point, else the vertex [m]
+        0.0;  ///< how far the incident vertex lies within the reference edge's end [m]; < 0: the point is that end, else the vertex
 };
 using TouchPoint = BasicTouchPoint<double>;
 
@@ -149,8 +149,8 @@ struct TurningRate
 
 /// A contact point is closed down to this gap: far below any real overlap (a 1 m block rests on 4e-6 m), yet enough for
 /// faces that were drawn as touching to count as touching, whatever their rounding. As a share of Contacts::length_floor,
-/// that is 1e-9 of the smaller block's size at the default floor. A contact length must be more than that, too: of corners that meet in a point, rounding would choose
-/// which bear, each with the stiffness of a floor.
+/// that is 1e-9 of the smaller block's size at the default floor. The contact length must exceed it, too: else rounding would choose which of the corners
+/// that meet in a point bear, each with the stiffness of the length floor.
 inline constexpr double closed_gap = 1.0e-6;
 
 template <typename R>
@@ -160,7 +160,7 @@ template <typename R>
     return (contact_length > gap) & (overlap > -gap);
 }
 
-/// How much of a change of the contact length changes the length that counts, see point_length [-].
+/// Derivative of the bearing length by the contact length, see point_length [-].
 template <typename R>
 [[nodiscard]] inline R length_growth(R contact_length, R length_floor)
 {

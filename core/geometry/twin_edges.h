@@ -7,7 +7,7 @@
 
 namespace hdem
 {
-/// For each edge of a block, part after part: in how many steps from its place the same edge of the part beyond it stands. 0: not an internal edge, or no part has
+/// For each edge of a block, part after part: by how many places the same edge of the neighbouring part lies from it. 0: not an internal edge, or no part has
 /// the same two ends.
 [[nodiscard]] std::vector<Index> twin_edges(const std::vector<ConvexPart>& parts);
 }  // namespace hdem

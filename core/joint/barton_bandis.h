@@ -44,13 +44,14 @@ struct BandisClosure
 ///   dw = tan(m i / M) d delta                                        dilation
 ///   JRC_n = JRC_0 (L/L_0)^(-0.02 JRC_0),  JCS_n = JCS_0 (L/L_0)^(-0.03 JRC_0),  delta_p = L/500 (JRC_n/L)^0.33
 ///
-/// delta is the greatest total shear displacement |u_p + tau/K_S| so far. It is known before the return, which so needs no iteration. dw is booked in proportion to slip,
-/// at the rate of constant stress. Where sigma grows as the joint opens, less of d delta is slip: what is left of dw raises the rate, and comes within 0.01 delta_p.
+/// delta is the greatest total shear displacement |u_p + tau/K_S| so far. It is known before the return to the strength, so no iteration
+/// is needed. dw is booked in proportion to slip, at the rate that holds for constant stress. Where sigma grows as the joint opens, less of d delta is slip.
+/// The remainder of dw is carried over: it raises the rate, so that it is made up within 0.01 delta_p of slip.
 /// After a reversal: elastic, then slip at m(delta) with no gain. The opening stays: given back, it would unload the stiff normal spring faster
 /// than the shear spring can follow (K_N tan phi dw/du_p is ten times K_S in the example of the test), and each reversal would be a jump.
 /// K_S is raised so that each part of the curve leaves slip enough to pay for its dilation under sigma = normal_stress.
 ///
-/// Memory: state is delta; opening is w; turn is what is left of dw [m]; broken means nothing.
+/// Memory: state is delta; opening is w; turn is the remainder of dw [m]; broken means nothing.
 /// Differs from the source: no hysteresis of closure; |u_p + tau/K_S| counts, which on reversal is less than |u_p| + |tau|/K_S.
 /// @see verification/unit/core/joint/barton_bandis_test.cpp
 struct BartonBandis
@@ -72,7 +73,7 @@ struct BartonBandis
     static_assert(strength_share + 1 < joint_numbers);  // the last is that of user_law.h
 
     static constexpr double first_mobilised = 0.3;  ///< delta / delta_p from which on roughness acts
-    static constexpr double left_within = 0.01;     ///< slip / delta_p within which what is left of dw comes
+    static constexpr double left_within = 0.01;     ///< slip / delta_p within which the remainder of dw is made up
 
     /// m over x = delta / delta_p, from 0.3 on.
     template <typename R>
@@ -92,7 +93,7 @@ struct BartonBandis
     {
         return base_angle(n, x) + mobilised(x) * i;
     }
-    /// What is mobilised of phi_r [rad].
+    /// Mobilised part of phi_r [rad].
     template <typename R>
     [[nodiscard]] static R base_angle(const BasicJointNumbers<R>& n, R x)
     {
@@ -144,9 +145,9 @@ struct BartonBandis
         return tan(mobilised(R(0.5) * (from + to) * n[per_displacement]) * i * n[damage]);
     }
 
-    /// dw/du_p meanwhile: of d delta the share 1 - (d tau_max/d delta) / K_S is slip under constant stress. No more than slip pays for.
+    /// dw/du_p over the same step. Under constant stress, the share 1 - (d tau_max/d delta) / K_S of d delta is slip. Dilation takes no more work than slip gives.
     /// @param t     tan(angle), not reduced
-    /// @param left  what is left of dw [m]
+    /// @param left  remainder of dw [m]
     template <typename R>
     [[nodiscard]] static R rate_of_slip(const BasicJointNumbers<R>& n, R from, R to, R i, R angle, R t, R normal, R dilation,
                                         R left)
@@ -173,7 +174,7 @@ struct BartonBandis
         const double x = m.state / n[peak_displacement];
         return x > 1.0 ? 1.0 - mobilised(x) : 0.0;
     }
-    /// A joint that bears a shear stress where it is drawn has been displaced as far as that stress asks for.
+    /// delta of a joint that bears a shear stress as drawn: that at which this stress is mobilised, at most delta_p [m].
     [[nodiscard]] static double drawn_state(const JointNumbers& n, double normal, double shear)
     {
         if (normal <= 0.0 || shear == 0.0)
@@ -189,7 +190,7 @@ struct BartonBandis
         return high * n[peak_displacement];
     }
 
-    /// It slips on until it bears a shear stress, to its peak at most.
+    /// Let the joint slip until it bears a shear stress, at most to its peak.
     static void mobilise(const JointNumbers& n, double normal, double shear, JointMemory& m)
     {
         const double delta = drawn_state(n, normal, shear);
@@ -218,7 +219,7 @@ struct BartonBandis
         const BasicCurvePoint<R> before = Curve::at(n, step.closure + w);
         const auto open = before.stress <= zero;
 
-        const R sigma = max(before.stress, R(1.0));  // [Pa]; nothing is left of the law below
+        const R sigma = max(before.stress, R(1.0));  // [Pa]; the law has no meaning below
         const R x = delta * n[per_displacement];
         R free_i = zero, i = zero, share = zero;
         const bool is_rough = any(x > R(first_mobilised));  // else neither roughness nor dilation acts, as in most rock

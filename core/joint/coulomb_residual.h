@@ -61,7 +61,7 @@ struct CoulombResidual
         return n;
     }
 
-    /// Pulled no harder than T_r. The closure stays the variable of the energy, so the joint closes where it opened.
+    /// Tension is limited to T_r. The closure stays the variable of the energy, so the joint closes where it opened.
     template <typename R>
     [[nodiscard]] static BasicCurvePoint<R> torn(const BasicJointNumbers<R>& n, R closure, BasicCurvePoint<R> p)
     {
@@ -121,7 +121,7 @@ struct CoulombResidual
     {
         return n[residual_friction] < n[friction] || n[residual_cohesion] < n[cohesion] || n[residual_tension] < n[tension];
     }
-    /// F from which on dilation takes more than residual friction pays for.
+    /// F above which dilation takes more work than residual friction gives.
     [[nodiscard]] static double greatest_factor(const JointNumbers& n) { return safe_ratio(n[residual_friction], n[dilation]); }
     static void stiffen(JointNumbers& n, double times)
     {

@@ -34,14 +34,14 @@ template <typename R, typename Bits>
         return R(std::bit_cast<typename R::V>(bits));
 }
 
-/// |x|, with the same sign of 0 in a lane and in a double; that of simd.h has not.
+/// |x|. The sign of 0 is the same in a lane and in a double, unlike with abs of simd.h.
 template <typename R>
 [[nodiscard]] inline R magnitude(R x)
 {
     return select(x < R(0.0), -x, x);
 }
 
-/// c[from] + c[from + 1] x + ... of `count` coefficients; powers[k] is x^(2^k). In halves that do not wait for each other (Estrin), three times as fast as one after another.
+/// c[from] + c[from + 1] x + ... of `count` coefficients; powers[k] is x^(2^k). In halves that do not wait for each other (Estrin's scheme).
 template <std::size_t from, std::size_t count, typename R, std::size_t n>
 [[nodiscard, gnu::always_inline]] inline R polynomial_part(const std::array<R, 4>& powers, const std::array<double, n>& c)
 {
@@ -118,7 +118,7 @@ template <typename R>
 template <typename R>
 [[nodiscard]] inline R tan(R x)
 {
-    constexpr std::array<double, 4> more{11486475.0, -810810.0, 12870.0, -44.0};  // by which it is greater than y
+    constexpr std::array<double, 4> more{11486475.0, -810810.0, 12870.0, -44.0};  // of (numerator / y - denominator) / y^2
     constexpr std::array<double, 5> under{34459425.0, -16216200.0, 945945.0, -13860.0, 45.0};
     constexpr double quarter = 0.78539816339744831, half_high = 1.5707963267948966, half_low = 6.123233995736766e-17;
     const R size = magnitude(x);

@@ -1,5 +1,5 @@
 #pragma once
-/// What impulses ask of a joint: how much it bears, and how far its slip has opened it.
+/// What impulses need of a joint: its strength, and how far its slip has opened it.
 
 #include "core/joint/coulomb_slip.h"
 #include "core/joint/joint_row.h"
@@ -14,7 +14,7 @@ struct ImpulseStrength
     double tension = 0.0;   ///< T [Pa]
 };
 
-/// Of a point with this memory: a broken one has its residual strength. Laws with roughness have their basic friction.
+/// Strength of a point with this memory. A broken point has its residual strength. Laws with roughness give their basic friction.
 [[nodiscard]] ImpulseStrength impulse_strength(const CoulombSlip& slip, const JointRow& row, const JointMemory& memory);
 
 /// By how much slip has opened the joint, where that follows from the slip alone (coulomb); else 0 [m].

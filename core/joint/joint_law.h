@@ -1,5 +1,5 @@
 #pragma once
-/// What all joint laws share: their numbers, their memory, what they are asked and what they answer. All per area of joint.
+/// What all joint laws share: parameters, memory, input and output of a cycle. All per area of joint.
 ///
 /// A law is a struct with
 ///
@@ -68,7 +68,7 @@ struct BasicJointStep
 };
 using JointStep = BasicJointStep<double>;
 
-/// The answer.
+/// What a law gives for a point in a cycle.
 template <typename R>
 struct BasicJointStress
 {

@@ -1,5 +1,5 @@
 #pragma once
-/// A joint of the case as its law needs it.
+/// A joint of the case, in the form that its law needs.
 
 #include "core/joint/joint_law.h"
 
@@ -25,13 +25,13 @@ struct JointRow
     JointKind kind = JointKind::plain;
     CurveKind curve = CurveKind::linear;
     JointNumbers numbers{};
-    double reach = 0.0;              ///< gap up to which an intact point asks its law: it bears tension, or breaks [m]
-    double torn_reach = 0.0;         ///< the same of a broken point: 0 but with residual tension [m]
+    double reach = 0.0;              ///< gap up to which the law of an intact point is evaluated: it bears tension, or breaks [m]
+    double torn_reach = 0.0;         ///< the same for a broken point: 0 without residual tension [m]
     double tension = 0.0;            ///< T [Pa]
     double residual_friction = 0.0;  ///< tan phi_r of impulses at broken points [-]
     double residual_cohesion = 0.0;  ///< c_r of the same [Pa]
     bool is_bonded = false;          ///< intact points have cohesion or tension, which impulses cannot break
-    bool begins_broken = false;      ///< also where the blocks are drawn
+    bool begins_broken = false;      ///< broken also where the blocks are drawn
 
     [[nodiscard]] bool has_memory() const { return kind != JointKind::plain; }
 };
@@ -46,7 +46,7 @@ struct NormalState
 };
 [[nodiscard]] NormalState normal_state(const JointRow& row, double closure);
 
-/// What a joint with a memory answers where nothing moves.
+/// Stress of a joint with a memory where nothing moves.
 [[nodiscard]] JointStress stress_at_rest(const JointRow& row, double closure, double shear, double normal, JointMemory memory);
 
 /// Memory of a joint that bears these stresses where it is drawn.

@@ -1,10 +1,10 @@
 #pragma once
-/// Joints whose strength grows with slip at first, put where they bear a given stress.
+/// Memory of joints whose strength first grows with slip, such that they bear a given stress.
 
 #include "core/joint/joint_row.h"
 
 namespace hdem
 {
-/// Memory after so much more slip that the joint bears these stresses. Of a law without `mobilise` (barton_bandis.h has it) it is as it was.
+/// Memory after enough further slip for the joint to bear these stresses. Laws without `mobilise` (barton_bandis.h has it) keep their memory.
 [[nodiscard]] JointMemory mobilised_memory(const JointRow& row, double normal_stress, double shear_stress, JointMemory memory);
 }  // namespace hdem

@@ -2,7 +2,7 @@
 /// The normal spring of a joint: stress over closure, in total form.
 ///
 /// Three curves with the same interface: `at` gives stress, stiffness and energy at a closure, `closure_under` the closure at a stress (for
-/// the preload of rock under stress). Under tension all are linear with the stiffness at closure 0; a law without tension does not ask.
+/// the preload of rock under stress). Under tension all are linear with the stiffness at closure 0; a law without tension does not use that part.
 
 #include "core/joint/functions.h"
 #include "core/joint/joint_law.h"

@@ -86,7 +86,7 @@ struct Patton
         for (const int i : {friction, residual_friction, cohesion})  // sigma_T stays
             n[i] /= factor;
     }
-    /// F from which on slip climbs more than friction pays for.
+    /// F above which climbing takes more work than friction gives.
     [[nodiscard]] static double greatest_factor(const JointNumbers& n) { return safe_ratio(n[friction], n[dilation]); }
     static void stiffen(JointNumbers& n, double times)
     {

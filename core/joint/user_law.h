@@ -18,7 +18,7 @@ struct UserLawInput
     double shear_stiffness = 0.0;  ///< K_S [Pa/m]
 };
 
-/// What a call takes and gives, for one to four points.
+/// Input and output of a call, for one to four points.
 struct UserLawPoints
 {
     static constexpr int most = 4;
@@ -78,7 +78,7 @@ struct UserLaw
     {
         ask_user_law(static_cast<int>(n[number]), {n[curve_stiffness], n[shear_stiffness] / n[strength_share]}, 0, 1, points);
     }
-    /// Lanes of one joint at once. Lanes of other laws have no number: nobody is asked.
+    /// Lanes of one joint at once. Lanes of other laws have the number 0: no function is called.
     static void ask(const BasicJointNumbers<Pack>& n, UserLawPoints& points)
     {
         const Pack::V& joint = n[number].v;
@@ -106,7 +106,7 @@ struct UserLaw
         const auto give = [](UserLawPoints::Values& to, const R& value) { std::memcpy(to.data(), &value, sizeof value); };
         give(points.closure, step.closure);
         give(points.slide, step.slide);
-        // A strength tau_max / F is that of the law for F times the shear stress, by a shear spring F times as stiff.
+        // For a strength tau_max / F, the law gets F times the shear stress and a shear spring F times as stiff. Its answer is divided by F.
         const R share = n[strength_share];
         give(points.last_shear, select(share > R(0.0), step.last_shear / max(share, R(1e-200)), R(0.0)));
         give(points.last_normal, step.last_normal);

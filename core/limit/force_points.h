@@ -42,7 +42,7 @@ struct ForcePoint
 [[nodiscard]] std::vector<ForcePoint> force_points(const Model& model, const State& state, const std::vector<Index>& kept,
                                                    bool corners_bear);
 
-/// Share of the cohesion of these blocks on all others that is that of open points: limit analysis counts it, and what is open does not have it [-].
+/// Share of open points in the cohesion between these blocks and all others [-]. Limit analysis counts it, although open points have none now.
 /// @param users  the user's numbers
 [[nodiscard]] double open_share_of_cohesion(const Model& model, const State& state, const std::vector<Index>& users);
 

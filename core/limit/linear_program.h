@@ -6,7 +6,7 @@
 
 namespace hdem
 {
-/// Columns first, then `solve`. Numbers of the matrix may be changed between two solutions, which begins from the last basis.
+/// Add the columns first, then call `solve`. The matrix may be changed between two solutions; the next one begins from the last basis.
 class LinearProgram
 {
   public:
