@@ -19,7 +19,7 @@ class Observer
     Observer& operator=(const Observer&) = delete;
     virtual ~Observer() = default;
 
-    /// First cycle after `now` that it wants to see; `never` for none. The end of a stage is always shown.
+    /// First cycle after `now` that the observer wants to see; `never` for none. The end of a stage is always shown.
     [[nodiscard]] virtual std::int64_t next_cycle(std::int64_t now) const = 0;
     /// A stage has begun, or goes on after a restart.
     virtual void begin_stage(const Model& /*model*/, const State& /*state*/) {}

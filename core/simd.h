@@ -2,8 +2,8 @@
 /// Four doubles handled together. The laws are templates on a number type: `double` for one contact point, `Pack` for four.
 ///
 /// Compiled to one AVX or two SSE2 registers (compiler vector extensions); the width is always four, and no operation is fused or reordered, so every
-/// build gives the same bits. Measured against the compiler's own vectorisation of a loop over doubles, which gave up at the
-/// gathers of block motions: see perf/measured.md.
+/// build gives the same bits. The compiler's own vectorisation of a loop over doubles fails at the
+/// gathers of block motions (perf/measured.md).
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 #include <immintrin.h>
 #endif
 
-/// Some files are compiled for several kinds of processors (core/kernels.h). Each kind has packs of another name: so the linker keeps all functions on packs apart,
-/// and none for a newer processor is called on an older one.
+/// Some files are compiled for several kinds of processors (core/kernels.h). Each kind has its own name for packs. So the linker keeps their functions apart, and no
+/// function for a newer processor is called on an older one.
 #if defined(__AVX512F__)
 #define HDEM_LANES lanes_avx512
 #elif defined(__AVX2__)
@@ -28,7 +28,7 @@ namespace hdem
 {
 inline constexpr int lanes = 4;
 
-/// A number for each lane, as files that are compiled for other processors hand it on.
+/// A number for each lane, in a form that files compiled for different processors share.
 struct alignas(32) LaneSums
 {
     double v[lanes] = {};

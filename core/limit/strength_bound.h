@@ -52,7 +52,8 @@ struct StrengthBound
 
 /// The same where corners that touch a side or a corner bear nothing (force_points). A corner that cannot be crushed holds more than rock
 /// does: the tip of a wedge at a bend of its slip surface, for example, stands on the lower plane.
-/// @param with_corners  the bound where they bear; found, or none: then the search begins at its `most`. It is given back where the other one is less than a fiftieth below
+/// @param with_corners  the bound where corners bear; found, or none: then the search begins at its `most`. It is returned if the bound without corners is
+/// lower by less than a fiftieth
 [[nodiscard]] StrengthBound strength_bound_without_corners(const Model& model, const State& state,
                                                            const std::vector<std::uint8_t>& weakened, double least,
                                                            const StrengthBound& with_corners, bool weakens_bolts = false);

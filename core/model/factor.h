@@ -1,5 +1,5 @@
 #pragma once
-/// What a load or a side is multiplied with as a run goes on.
+/// Factor of a load or a side in the course of a run.
 
 #include "core/model/factor_def.h"
 #include "core/model/stage_def.h"
@@ -13,7 +13,7 @@ struct Factor
 {
     FactorTable rows;         ///< ascending; empty: always 1
     bool is_by_time = false;  ///< the first column is in seconds, else in cycles
-    Index since = no_index;   ///< stage at whose start it is 0; no_index: at the run's
+    Index since = no_index;   ///< stage at whose start the first column is 0; no_index: at the start of the run
 
     [[nodiscard]] bool varies() const { return !rows.empty(); }
 
@@ -26,6 +26,6 @@ struct Factor
     [[nodiscard]] std::int64_t last_cycle(double step) const;
 };
 
-/// Of what a case says; its stage by number.
+/// The factor that a case gives, with its stage by number.
 [[nodiscard]] Factor factor_of(const FactorDef& def, const std::vector<StageDef>& stages);
 }  // namespace hdem

@@ -20,7 +20,7 @@ enum class TableColumn
     time
 };
 
-/// By what a load or a side is multiplied as the run goes on; at most one of ramp_cycles, ramp_time, table, table_file.
+/// Factor of a load or a side in the course of a run; at most one of ramp_cycles, ramp_time, table, table_file.
 struct FactorDef
 {
     std::optional<Vec2> ramp_cycles;  ///< from and until: the factor grows from 0 to 1
@@ -28,6 +28,6 @@ struct FactorDef
     FactorTable table;                ///< rows; of table_file once io/ has read it
     std::string table_file;           ///< CSV with a heading: cycle,factor or time,factor
     TableColumn table_by = TableColumn::cycle;
-    std::string since;  ///< name of a stage at whose start cycles and times are 0; "": the run's
+    std::string since;  ///< name of a stage at whose start cycles and times are 0; "": at the start of the run
 };
 }  // namespace hdem

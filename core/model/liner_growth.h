@@ -1,5 +1,5 @@
 #pragma once
-/// What acts on a lining grows from its installation on.
+/// Loads of a lining that grow from its installation on.
 
 #include "core/model/support.h"
 
@@ -8,10 +8,10 @@
 
 namespace hdem
 {
-/// Weight that was there at once would swing: a lining fell off whose bond bears it 1.6 times.
+/// Over so many cycles the weight grows. Applied at once it would make the lining swing, and fall off even if its bond bears 1.6 times the weight.
 inline constexpr std::int64_t liner_weight_cycles = 500;
 
-/// Share of what grows over so many cycles at an age [-].
+/// Share that is reached at an age, of a load that grows over so many cycles [-].
 [[nodiscard]] inline double grown_share(std::int64_t over, std::int64_t age)
 {
     return age < over ? static_cast<double>(age) / static_cast<double>(over) : 1.0;
@@ -38,7 +38,7 @@ inline constexpr std::int64_t liner_weight_cycles = 500;
     return liner.hardening.empty() ? 0 : static_cast<std::int64_t>(liner.hardening.back()[0]);
 }
 
-/// Age up to which it can come to move: its weight or its pressure grows, or its strength falls. Forces stay as it hardens.
+/// Age up to which a liner may begin to move: its weight or its pressure grows, or its strength falls. Hardening changes no forces.
 [[nodiscard]] inline std::int64_t settled_at(const Liner& liner)
 {
     const auto weaker = [](const auto& a, const auto& b) { return b[1] < a[1]; };

@@ -31,7 +31,7 @@ struct ConvergenceDef
     double mean_speed = 5.0e-4;              ///< kinetic energy of all free blocks at this speed is the limit [m/s]
     double unbalanced_force_ratio = 1.0e-5;  ///< [-]
     double block_unbalanced_ratio = 1.0e-4;  ///< [-]
-    double hold_time = 0.025;                ///< they must have held at all checks for so long [s]
+    double hold_time = 0.025;                ///< all criteria must have held at all checks for so long [s]
     std::int64_t least_cycles = 1000;        ///< not tested earlier in a stage
     std::int64_t check_every = 10;           ///< tested at multiples of this many cycles
     double loose_distance = 0.05;            ///< a block that moved farther in its stage is loose [m]

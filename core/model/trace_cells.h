@@ -24,7 +24,7 @@ struct SourceLine
     Polygon points;  ///< [m]
 };
 
-/// What was drawn of a number: how often, its sum, and the mean of the distribution as it was cut.
+/// Random values drawn for one quantity: their count and sum, and the mean of the truncated distribution.
 struct DrawnNumber
 {
     std::int64_t count = 0;
@@ -50,7 +50,7 @@ struct DrawnSet
     DrawnNumber gap;          ///< [m]
     double length = 0.0;      ///< in the domain and where the set may be [m]
     double skipped = 0.0;     ///< of it left out by persistence [m]
-    double refused = 0.0;     ///< of it in blocks that a cut would have left too small a piece or an edge of [m]
+    double refused = 0.0;     ///< of it in blocks of which a cut would have left too small a piece or too short an edge [m]
     double dead_ends = 0.0;   ///< of it that parts nothing, and was dropped [m]
     double welded = 0.0;      ///< of it along slivers that were joined to a neighbour [m]
 };
@@ -65,7 +65,7 @@ struct TraceCells
     std::int64_t traces = 0;
     std::int64_t dead_ends = 0;   ///< stretches of traces dropped, because they part nothing
     double trace_length = 0.0;    ///< of the traces of a file, in the domain [m]
-    double trace_dropped = 0.0;   ///< of it what was dropped [m]
+    double trace_dropped = 0.0;   ///< of this the part that was dropped [m]
     std::vector<double> dropped;  ///< the same of faults, outlines and sets: length by source [m]
     std::vector<DrawnSet> sets;   ///< of each joint set, then of the Voronoi cells; empty when none of them was cut here
 };

@@ -13,7 +13,7 @@
 
 namespace hdem
 {
-/// Run `work(first, count)` for groups of four of `range`; the last may have fewer. The count of the others is a constant: nothing need be asked for them.
+/// Run `work(first, count)` for groups of four of `range`; the last may have fewer. For full groups `count` is a compile-time constant, so that its tests vanish.
 template <typename Work>
 void for_groups(IndexRange range, const Work& work)
 {
@@ -24,7 +24,7 @@ void for_groups(IndexRange range, const Work& work)
         work(i, range.end - i);
 }
 
-/// Rows of four doubles that begin at from[0], from[stride], ...: columns of them. Rows beyond `count` are zero.
+/// Columns of up to four rows of four doubles, which begin at from[0], from[stride], ... Rows beyond `count` are zero.
 struct Columns
 {
     Pack a = 0.0, b = 0.0, c = 0.0, d = 0.0;
@@ -60,7 +60,7 @@ static_assert(offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) 
 template <typename Entry>
 inline constexpr std::ptrdiff_t row_stride = sizeof(Entry) / sizeof(double);
 
-/// Columns of what follows `reserve` in four BlockForces.
+/// Columns of the members after `reserve` in four BlockForces.
 struct JointColumns
 {
     using Words = std::uint32_t __attribute__((vector_size(16)));

@@ -18,7 +18,7 @@ using Vec3 = Eigen::Vector3d;
 struct ContactSpring
 {
     double stiffness;  ///< K L of the point [N/m]
-    Vec3 ref, inc;     ///< how fast it stretches by a motion of ref, of inc [-, -, m]
+    Vec3 ref, inc;     ///< derivative of its stretch by the motion of ref, of inc [-, -, m]
 };
 
 /// K_N of a point: of a law with a memory no less than at the last forces [Pa/m].

@@ -43,13 +43,13 @@ struct DampingRule
     double global = 0.0;  ///< alpha_d = 2 xi_g omega_avg of Eq. (22) [1/s]
     LocalDamping form = LocalDamping::by_axis;
     double settling =
-        0.0;  ///< below this speed along the joint, or of the rim, all of local damping acts, whatever friction has left, above twice of it only that [m/s]
+        0.0;  ///< below this speed (along the joint, or of the rim) all of local damping acts, above twice this speed only what unused friction allows [m/s]
     bool follows_support =
         false;                  ///< local damping opposes motions against `support`: a block that rides on a base is at rest there
     SupportMotion support;      ///< of this cycle
-    bool frees_sliding = true;  ///< along the joint: blocks that slide are damped less; else by alpha across it, however they swing
+    bool frees_sliding = true;  ///< form along_joint: blocks that slide are damped less across the joint; else by alpha
 
-    /// Is the most mobilised joint of a block asked for?
+    /// Does this rule need the most mobilised joint of each block?
     [[nodiscard]] bool needs_joint() const { return form == LocalDamping::along_joint; }
 };
 
@@ -60,15 +60,15 @@ struct BasicBlockDamping
     R local = 0.0;           ///< alpha of Eqs. (13), (14) for translation [-]
     R local_across = 0.0;    ///< the same across the joint [-]
     R local_rotation = 0.0;  ///< the same for rotation [-]
-    R braking = 0.0;         ///< by so much more moments act that brake a rotation [-]
-    bool slides = false;     ///< one of the blocks does: else the last two say nothing new
+    R braking = 0.0;         ///< share that is added to moments that brake a rotation [-]
+    bool slides = false;     ///< one of the blocks slides; else local_across is local, and braking is 0
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
     LocalDamping form = LocalDamping::by_axis;
     double settling = 0.0;  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
 
-/// Of the shear strength in use: from here on a joint slides [-]
+/// Share of the shear strength in use above which a joint slides [-]
 inline constexpr double sliding_from = 0.99;
 
 /// Share of local damping that acts across a joint that slides [-]
@@ -80,8 +80,8 @@ inline constexpr double sliding_share = 0.6;
 ///   only force contacts:           local damping, alpha, Eqs. (11)-(14)
 ///   no contact:                    none
 ///
-/// By axis that is all. Along the joint, hdem's own form, local damping holds a block back no more than the friction it has left could. Along the joint whose
-/// strength is in use most the damping force is at most the sum of what all its force points have in reserve,
+/// The form by axis does no more. In the form along the joint, hdem's own, local damping holds a block back by no more than its unused friction could. Along the most
+/// mobilised joint, the damping force is at most the sum of what all force points of the block have in reserve,
 ///
 ///   |F_d,t| <= sum (F_max - |F_S|)
 ///
@@ -89,12 +89,12 @@ inline constexpr double sliding_share = 0.6;
 /// alpha (1 - |F_S| / F_max) of that joint.
 ///
 /// A block that slides has nothing in reserve and moves freely. It may also tip. But if it swings on its normal springs, damping by the sign of the velocity presses
-/// it into the joint as soon as the swing is not symmetric (it hops on a corner, it tips): forces of the joint grow, and with them friction. Blocks on slopes of 30 to 40
-/// degrees whose load was near the edge of their base went a tenth of their way. So, of a block that slides (`sliding_from`),
+/// it into the joint as soon as the swing is not symmetric (it hops on a corner, it tips): forces of the joint grow, and with them friction. So, for a
+/// block that slides (`sliding_from`),
 ///
 ///   0.6 alpha             damps it across the joint
-///   2 alpha / (1 - alpha) times a moment that brakes its rotation is added to it (braked_rotation): half a swing loses what local damping would take of it, while
-///                         what speeds a rotation up is not damped
+///   2 alpha / (1 - alpha) times a moment that brakes its rotation is added to it (braked_rotation): half a swing loses as much as by local damping, while
+/// moments that speed a rotation up are not damped
 ///
 /// (core/tried.md: other shares.) A block about to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
 /// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D).
@@ -131,7 +131,7 @@ template <typename R>
 ///
 ///   2 / (omega_max sqrt(1 + alpha)),  0.745 of the stable limit at alpha = 0.8
 ///
-/// feed the swinging of a block on a spring by itself. (core/tried.md: how far a wall and a tunnel bear longer ones.)
+/// feed energy into the swinging of a block on a spring (core/tried.md: longer steps in a wall and a tunnel).
 /// @param limit  greatest damping force [N]
 template <typename R>
 [[nodiscard]] inline R locally_damped(R force, R velocity, R alpha, R limit = std::numeric_limits<double>::infinity())
@@ -202,7 +202,8 @@ template <typename R>
             select(on_axis, along(acting.y, vy, inertia.inverse_mass_y), damped.y)};
 }
 
-/// What is added to a moment that brakes a rotation. It takes at most half of the rotation in a cycle: what brakes cannot hold, so that no block rests out of balance.
+/// Moment that is added to one that brakes a rotation. It takes at most half of the rotation in a cycle: it can slow a block but not hold it,
+/// so that no block rests out of balance.
 template <typename R>
 [[nodiscard]] inline R braked_rotation(R moment, R w, R inverse_inertia, R dt, R braking)
 {

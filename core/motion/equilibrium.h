@@ -1,5 +1,5 @@
 #pragma once
-/// How near to rest: kinetic energy and unbalanced forces of a range of blocks, and what they are measured against.
+/// How near blocks are to rest: kinetic energy and unbalanced forces of a range of blocks, and the scales of both.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -14,15 +14,15 @@ inline constexpr double earth_gravity = 9.81;  ///< scale of forces where there 
 /// Net force and moment on a block as an acceleration of its rim, by the components that can move [m/s2]. Impulses count as J / dt.
 [[nodiscard]] double unbalance(Index block, const Model& model, const Blocks& blocks);
 
-/// The same above what rounding leaves of it. Positions are rounded, and stiff springs make forces of that; as an acceleration
+/// The same without the part that rounding of positions makes of the forces of stiff springs. As an acceleration this part is
 ///
 ///   16 eps K_max 2 r (|x| + |y| + r) / m      r   radius of the block
 ///
-/// A light block beneath or between heavy ones, or a sliver, has so much for ever. Taken off where it is more than a hundredth of what a block at rest may have, and at most ten
-/// times that.
+/// A light block beneath or between heavy ones, or a sliver, keeps such an unbalance for ever. It is subtracted where it exceeds a hundredth of the
+/// unbalance that a block at rest may have, and up to ten times that unbalance.
 [[nodiscard]] double clear_unbalance(Index block, const Model& model, const Blocks& blocks);
 
-/// Speed of its rim [m/s].
+/// Speed of a block's rim [m/s].
 [[nodiscard]] double rim_speed(Index block, const Model& model, const Blocks& blocks);
 
 /// A block and a value of it.
@@ -62,7 +62,7 @@ struct Equilibrium
 /// Reads motion and the cycle's forces of all free blocks, or of those that stand; adds in block order.
 void add_equilibrium(IndexRange range, const Model& model, const State& state, ConvergenceBlocks which, Equilibrium& sums);
 
-/// Do all criteria hold that are listed?
+/// Do all listed criteria hold?
 ///
 ///   kinetic_energy           of all blocks, below that at mean_speed                      [Lee2025] sect. 4.4
 ///   unbalanced_force_ratio   mean over all blocks, below unbalanced_force_ratio
@@ -89,6 +89,6 @@ struct DisplacementReport
 };
 [[nodiscard]] DisplacementReport report_displacements(const Model& model, const State& state);
 
-/// Is its centroid farther outside the model than convergence.lost_distance?
+/// Is the block's centroid farther outside the model than convergence.lost_distance?
 [[nodiscard]] bool has_left(Index block, const Model& model, const Blocks& blocks);
 }  // namespace hdem

@@ -17,9 +17,10 @@ void find_flying(IndexRange range, const BlockContacts& list, const Blocks& bloc
 ///
 ///   v' = v + (k - 1) g dt,   x' = x + (k - 1) v dt + k (k - 1) / 2 g dt^2,
 ///
-/// which are the places and velocities that k cycles would give it. k is the greatest whole number for which it uses up a tenth of its margin at most, and
-/// 4096. Nothing acts on it but its weight, so that a state of rest does not depend on when it flies; what it comes near to is found in time, and
-/// from then on it goes step by step with all others. The times of outputs are those of the others.
+/// the same places and velocities as after k cycles. k is the greatest whole number up to 4096 for which the block uses up at most a tenth
+/// of its margin. Nothing acts on it but its weight, so that a state of rest does not depend on when the block flies. Blocks that it comes near to are
+/// found in time, and
+/// from then on it moves step by step like all others. The times of outputs are those of the others.
 /// @return  greatest share of its margin that a block has used
 double fly_ahead(const std::vector<Index>& flying, double loose_distance, const Model& model, Blocks& blocks, EnergyLedger& ledger);
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #pragma once
-/// What a case's loads do: forces, prescribed velocities, and their work.
+/// Loads of a case: forces, prescribed velocities, and their work.
 
 #include "core/model/model.h"
 #include "core/motion/damping.h"
@@ -11,7 +11,7 @@ namespace hdem
 /// Find from and until of all loads [cycles]; to be done anew when the model's time step has changed.
 void time_loads(Model& model);
 
-/// What a load was multiplied with in the last cycle; 0 where it did not act.
+/// Factor of a load in the last cycle; 0 where the load did not act.
 [[nodiscard]] double last_factor_of(const Load& load, const Model& model, const State& state);
 
 /// Forces of the case's loads that act in this cycle, in `external`, one entry a block, on top of `constant` ones (none: empty). `before` receives the

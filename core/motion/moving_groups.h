@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks that move together: what holds them from outside, and so how local damping may act on them.
+/// Groups of blocks that move together. What holds a group from outside decides how local damping acts on it.
 
 #include "core/model/model.h"
 #include "core/state/blocks.h"
@@ -12,29 +12,31 @@
 
 namespace hdem
 {
-/// Which blocks are looked at.
+/// Which blocks may form groups.
 struct GroupRule
 {
-    double speed = std::numeric_limits<double>::infinity();  ///< faster ones, or of whose rim [m/s]
+    double speed = std::numeric_limits<double>::infinity();  ///< of a block or of its rim: faster ones [m/s]
 };
 
-/// Are groups looked for among all blocks in the cycle that follows so many of the stage, where many are fast? If all are, looking takes as long as a good part of a cycle. So it is done in
-/// each of a stage's first cycles, in which most of what falls gets free, and then now and then. In between only those that are known are looked at again, in each cycle: a group that hits
-/// something is damped from then on.
+/// Are groups searched for among all blocks, in the cycle that follows so many cycles of the stage? If all blocks are fast, a search takes a good part of
+/// a cycle's time.
+/// So it is made in each of a stage's first cycles, in which most falling blocks come free, and later now and then. In between, only the known groups are
+/// checked, in each
+/// cycle: a group that hits something is damped from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
 
-/// Groups of fast blocks. Local damping stands for what the rock around takes up: a block is held back by no more than the friction that its joints have left. But joints
-/// between blocks that fall or slide together hold nothing: a stack of two fell with 0.2 g, and slid 0.16 m where one block slides 0.91 m. So
+/// Groups of fast blocks. Local damping stands for the energy that the surrounding rock takes up, so it holds a block back by no more than the unused
+/// friction of its joints. But
+/// joints between blocks that fall or slide together hold nothing back. So groups
 ///
 ///   that touch nothing outside of the group        are not damped
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
 ///   others                                         as each block by itself
 ///
-/// A block without bolts that all others meet in one point, and that tips about it away from where it stood, is not damped either. Damped it tipped at half of its speed, and crept where it
-/// slid, too: 1 m x 2.5 m on 45 degrees, friction 30, went 0.2 m/s after half a second, not 1.8.
+/// A block without bolts that all others meet in one point, and that tips about it away from where it stood, is not damped either (core/tried.md).
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups
@@ -83,6 +85,6 @@ class MovingGroups
     std::vector<Index> queue_;  ///< members
 };
 
-/// Let damping know, once forces are summed. Writes: force of these blocks.
+/// Mark these blocks for damping, once forces are summed. Writes: force of these blocks.
 void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks);
 }  // namespace hdem

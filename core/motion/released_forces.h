@@ -1,5 +1,5 @@
 #pragma once
-/// What excavated blocks have given to those that stay, taken off over some cycles of the stage; and the weight of rock without stress, put on likewise.
+/// Forces of excavated blocks on those that stay, removed over some cycles of the stage; and loads of rock that begins without stress, applied likewise.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -7,32 +7,32 @@
 
 namespace hdem
 {
-/// Keep the forces of all contacts between a removed block and one that stays, summed block by block, in State::released. What blocks removed now were given
-/// before is forgotten. Forces are those of the last cycle; of impulses J / dt.
+/// Keep the forces of all contacts between a removed block and one that stays, summed block by block, in State::released. Released forces on blocks that
+/// are removed now are dropped. Forces are those of the last cycle; of impulses J / dt.
 /// @param removed  1 for each block that goes
 /// @pre    the contacts are still those of before the excavation
 void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 
-/// What the water of the stage before gave, and that of the stage that begins does not: to the forces that the stage takes off over its relax_cycles.
+/// Add the water forces of the stage before, less those of the stage that begins, to the forces that the stage removes over its relax_cycles.
 void release_water(const std::vector<Triple>& before, State& state);
 
-/// Weight, tractions on sides and water of rock that begins without stress, turned round: so they grow from nothing over the relax_cycles of the first stage. All
-/// at once they are felt up to 1.33 times under the default damping, and what breaks or slips by that does not go back.
+/// Release the weight, tractions on sides and water of rock that begins without stress, with opposite sign. So these loads grow from nothing over the relax_cycles of
+/// the first stage. Applied at once, they would act up to 1.33 times under the default damping, and what breaks or slips by that does not go back.
 void hold_back_loads(const Model& model, State& state);
 
-/// The cycle from which on nothing is left of them, or the stage's relax_to.
+/// Cycle from which on none of the released forces is left, or only the stage's share relax_to.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);
 
-/// Do they become less from cycle to cycle?
+/// Do the released forces decrease from cycle to cycle?
 [[nodiscard]] bool are_forces_released(const Model& model, const State& state);
 
-/// What is left of them now becomes F_0 of the stage that follows.
+/// What is left of the released forces now becomes F_0 of the stage that follows.
 void keep_released_forces(const Model& model, State& state);
 
-/// No force on their blocks in `external` but the `constant` ones (none: empty): before loads and released forces are put there.
+/// Reset `external` on the blocks with released forces to the `constant` forces (none: empty). Call it before loads and released forces are added.
 void clear_released_forces(const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external);
 
-/// What is left of them in this cycle, added to `external`, one entry a block. In the n-th cycle of the stage
+/// Add what is left of the released forces in this cycle to `external`, one entry a block. In the n-th cycle of the stage
 ///
 ///   F = (r + (1 - r) (1 - n / relax_cycles)) F_0      in the axes of the model, at the centroid, with their moment about it
 ///
@@ -40,6 +40,6 @@ void clear_released_forces(const State& state, const std::vector<Triple>& consta
 /// `before` receives the velocities of their blocks, for add_released_work.
 void apply_released_forces(const Model& model, const State& state, std::vector<Triple>& external, std::vector<Triple>& before);
 
-/// Their work, once the velocities are updated.
+/// Work of the released forces, once the velocities are updated.
 void add_released_work(const Model& model, const std::vector<Triple>& before, State& state);
 }  // namespace hdem

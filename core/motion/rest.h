@@ -10,15 +10,16 @@
 
 namespace hdem
 {
-/// Which blocks are at rest. Values are the speed of a block's rim, and its net force and moment as an acceleration of the rim (motion/equilibrium.h).
+/// Limits below which a block counts as resting. Values are the speed of a block's rim, and its net force and moment as an acceleration of the rim
+/// (motion/equilibrium.h).
 ///
 /// A block that is quiet at eight checks in a row is stopped: its last kinetic energy goes to local damping, its velocity is set to zero, its pose and contact forces
 /// stay frozen. Contacts between blocks that are stopped, or fixed, give the same forces in every cycle and are not evaluated again. A block is woken in the
 /// cycle in which its unbalance reaches `waking`, or an impulse reaches it.
-/// While some blocks still move these limits are wide; when none does, they are those that a stage may end with (core/stage/rules.cpp).
+/// While some blocks still move, these limits are wide. When none moves, they are the limits with which a stage may end (core/stage/rules.cpp).
 struct RestRule
 {
-    bool leaves_out = false;                                            ///< blocks at rest are left out
+    bool leaves_out = false;                                            ///< skip resting blocks
     double quiet_speed = 0.0;                                           ///< [m/s]
     double quiet = 0.0;                                                 ///< at each check [m/s2]
     double quiet_on_average = std::numeric_limits<double>::infinity();  ///< over the checks [m/s2]
@@ -38,11 +39,11 @@ void wake_all(Blocks& blocks);
 /// Does no free block take part any more? Blocks of `taking_part` (ascending) always do: these need to be as quiet as others that are stopped.
 [[nodiscard]] bool all_rest(const Model& model, const RestRule& rule, const std::vector<Index>& taking_part, const Blocks& blocks);
 
-/// Where the stage may not end yet: stopped blocks whose unbalance is `limit` or more take part again [m/s2].
+/// Wake stopped blocks whose unbalance is `limit` [m/s2] or more; for a stage that may not end yet.
 /// @return  whether there are any
 bool wake_unbalanced(const Model& model, double limit, Blocks& blocks);
 
-/// Does it touch, or nearly touch, a block that takes part, or take part itself?
+/// Does the block take part, or touch or nearly touch a block that takes part?
 [[nodiscard]] bool is_beside_moving(Index block, const BlockContacts& list, const Contacts& contacts, const Blocks& blocks);
 
 /// Groups of `lanes` contacts, or of blocks, of `range` that are not left out.

@@ -1,5 +1,5 @@
 #pragma once
-/// Is the step too great for the springs that act while a case runs? At its start only what touches there is known.
+/// Checks during a run whether the step is too large for the springs that act. At the start of a run, only the contacts of the start are known.
 
 #include "core/contact/regime.h"
 #include "core/model/model.h"
@@ -15,26 +15,26 @@ struct StiffContact
     bool acts = false;  ///< its springs gave forces in the last cycle
 };
 
-/// All of `range` of which that cannot be excluded, into `stiff`: none in most models. For a contact of two blocks of mass m, inertia I and radius r, no
+/// Collect the contacts of `range` that may be too stiff in `stiff`: none in most models. For a contact of two blocks of mass m, inertia I and radius r, no
 /// matter where they touch, the trace of M^-1 K gives
 ///
 ///   omega_max^2 <= max(K_N, K_S) L  sum over both of (2 / m + r^2 / I)         L the diameter of the smaller
 void find_stiff_contacts(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
                          std::vector<StiffContact>& stiff);
 
-/// What one of the springs of `range` may by itself take of an overlap in a cycle, at most, over the square of the step [1/s2]. Counted with all blocks free and the
+/// Greatest share of an overlap that one spring of `range` may remove by itself in a cycle, over the square of the step [1/s2]. Counted with all blocks free and the
 /// stiffest joint everywhere, so that it is the same for as long as the pairs are.
 [[nodiscard]] double greatest_answer(IndexRange range, const Model& model, const Contacts& contacts);
 
-/// Which springs must be looked at for closing and opening: all, if one may by itself take more than 0.3 of an overlap in a cycle; slower ones take six
-/// cycles or more to turn a motion round. (With Eq. (32)'s step 0.1 to 0.3; needles of 1:100 2.)
+/// Which springs must be checked for closing and opening: all, if one may by itself remove more than 0.3 of an overlap in a cycle. Slower springs take six
+/// cycles or more to reverse a motion. (The share is 0.1 to 0.3 with Eq. (32)'s step, and 2 for needles of 1:100.)
 [[nodiscard]] inline Closing closing_of(double greatest_answer, double step)
 {
     return greatest_answer * step * step > 0.3 ? Closing::all_points : Closing::fast_points;
 }
 
-/// The first whose springs have begun to act in this cycle though, without all others, 2 / omega_max is below the step; no_index without one. Other contacts
-/// of its blocks can only make omega_max greater. An impact at such a step lasts one cycle, or two, and throws the blocks apart: it has to be seen in that cycle.
+/// First contact whose springs have begun to act in this cycle although its own 2 / omega_max is below the step; no_index: none. Other contacts of its blocks
+/// can only raise omega_max. An impact at such a step lasts one or two cycles and throws the blocks apart, so it must be found in that cycle.
 /// @pre  poses are those at which the contacts were evaluated
 [[nodiscard]] Index find_unstable(const Model& model, const Blocks& blocks, const Contacts& contacts,
                                   std::vector<StiffContact>& stiff);

@@ -1,5 +1,5 @@
 #pragma once
-/// Steps of a stage that looks for a state of rest: as long as all that moves, or is about to move, can bear.
+/// Time steps of a stage that seeks a state of rest: as long as all blocks that move, or are about to move, allow.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -14,11 +14,11 @@ struct StepRule
 {
     bool varies = false;  ///< else all steps are those of the case
     bool keeps_given =
-        false;  ///< the case gives the step: it is kept as long as rock that stands is not slow; loose blocks, and slow rock, may take longer ones
+        false;  ///< the case gives the step: it is kept while standing rock moves faster than `slow`; loose blocks, and slow rock, may take longer steps
     bool flies_ahead = false;     ///< blocks with nothing near them take longer steps (core/motion/flight.h)
     double stable_share = 0.9;    ///< of the largest stable step [-]
     double falls_by = 0.0;        ///< where impulses alone carry blocks: what a block falls by between two of them [m/s2]
-    double slow = 0.0;            ///< rock that stands keeps the given step while it is faster [m/s]
+    double slow = 0.0;            ///< standing rock keeps the given step while it moves faster than this [m/s]
     double loose_distance = 0.0;  ///< a block that moved farther in its stage is loose [m]
 
     /// Is the case's own step never shortened, so that it must be stable?
@@ -28,18 +28,19 @@ struct StepRule
 /// A bound on the stable step of one block, 2 / omega [s]: omega is at least that of the block on the springs of all that it touches or may touch before
 /// the contacts are found anew, see stable_step (time_step.h).
 ///
-/// Faces that lie over each other, closed or open, count as closed along their present length. Next to a block that has moved by more than a hundredth of its size in its
-/// stage what is open now may be closed along a whole side in the next cycle: it counts with the longest side that both parts have and with the
-/// longest levers. So the step is short enough for an impact before it happens.
+/// Faces that lie over each other, closed or open, count as closed along their present length. Next to a block that has moved by more than a hundredth of
+/// its size in its
+/// stage, an open contact may be closed along a whole side in the next cycle. It counts with the longest side that both parts have and with the longest
+/// levers. So the step is short enough for an impact before it happens.
 [[nodiscard]] double stable_step_of(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts,
                                     const Blocks& blocks);
 
-/// The one place that says when Blocks::stable_step holds no more; 0 there means: not looked at. What was looked at counts within one stage, and from the cycle on
-/// in which its steps vary: while they do not, contacts change without anybody looking. bound_steps looks at each block for which nothing is known.
+/// Set Blocks::stable_step to 0 (not known) where it is no longer valid. Only this function decides that. Values hold within one stage, from the cycle on in which
+/// its steps vary: as long as steps do not vary, contacts change and the values are not updated. bound_steps finds the value of each block for which none is known.
 /// @pre  before cycles run under this rule
 void forget_stable_steps(const StepRule& rule, State& state);
 
-/// What a range of blocks says about the next step.
+/// Bounds on the next step from a range of blocks.
 struct StepBound
 {
     double touching = std::numeric_limits<double>::infinity();  ///< least of all others [s]
@@ -57,7 +58,7 @@ struct StepBound
 
 /// The least over all blocks of `range` that take part, or are beside one that does, of
 ///
-///   stable_share stable_step_of      found anew if `look_at_all`, else as Blocks::stable_step has it
+///   stable_share stable_step_of      found anew if `look_at_all`, else from Blocks::stable_step
 ///   1.5e-3 size / speed              of what moves and touches something; 0.02 with something near it
 ///   (1e-7 size / falls_by)^1/2       by impulses alone: a stack that fell by more between two of them walked on its joints
 ///   0.1 margin / speed               of what moves with nothing near it: what it is about to hit is found in time
@@ -67,7 +68,7 @@ struct StepBound
 /// The next step: base 2^(k/8) with the greatest whole number k that the bound allows; at most twice as long as the last one.
 [[nodiscard]] double next_step(double last, const StepBound& bound, const StepRule& rule, double base, bool may_grow);
 
-/// Do blocks in flight go ahead? Where they alone move the step itself grows, and the clock is theirs.
+/// Do blocks in flight go ahead of the others? Where only they move, the step itself grows instead.
 [[nodiscard]] bool flies_ahead(const StepBound& bound, const StepRule& rule, double base);
 
 /// Cycles between two looks at speeds, two at which the step may grow, and two at the stable step of all blocks.

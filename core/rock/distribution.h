@@ -30,10 +30,10 @@ class Distribution
 
     [[nodiscard]] double draw(boost::random::mt19937_64& engine) const { return quantile(draw_share(engine)); }
 
-    /// Of the distribution as it is cut: the number below which a share of all lies. @pre 0 < share < 1
+    /// Number below which a share of the truncated distribution lies. @pre 0 < share < 1
     [[nodiscard]] double quantile(double share) const;
 
-    /// Of the distribution as it is cut.
+    /// Mean of the truncated distribution.
     [[nodiscard]] double mean() const;
 
     /// Share of the whole distribution between least and most.

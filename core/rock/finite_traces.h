@@ -11,8 +11,8 @@ namespace hdem
 /// Does a joint of the set end in the rock?
 [[nodiscard]] bool is_finite(const JointSetDef& set);
 
-/// Are the joints of the set cut as lines, all at once with those of other sets? So are finite ones, and beside them through-going sets that
-/// cut every block: only together do they close around blocks.
+/// Are the joints of the set cut as lines, all at once with those of other sets? Finite sets are, and with them through-going sets
+/// that cut every block: only together do their lines enclose blocks.
 [[nodiscard]] bool is_cut_as_lines(const CaseDef& def, const JointSetDef& set);
 
 /// Length of traces an area of a set, without persistence, regions and stops [m/m2].

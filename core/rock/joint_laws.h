@@ -8,7 +8,7 @@
 
 namespace hdem
 {
-/// What the numbers of a law depend on besides its own.
+/// What the numbers of a law depend on besides the joint's own values.
 struct JointSurroundings
 {
     double normal_stress = 0.0;  ///< greatest that is expected, where the joint does not say [Pa]

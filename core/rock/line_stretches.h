@@ -21,8 +21,7 @@ void add_crossings(const Polygon& line, bool is_closed, const Vec2& from, const 
 /// [m]
 [[nodiscard]] double length_inside(const Polygon& domain, const Vec2& from, const Vec2& to);
 
-/// What of the line is left by the set's regions and by the faults at which it stops, seen from its middle. Ends that are cut off are made
-/// longer by line_slack.
+/// Parts of the line that are left by the set's regions and by the faults at which it stops, seen from its middle. Cut ends are made longer by line_slack.
 [[nodiscard]] std::vector<Stretch> find_stretches(const CaseDef& def, const Regions& regions, const JointSetDef& set,
                                                   const Polygon& domain, const Vec2& from, const Vec2& to);
 }  // namespace hdem

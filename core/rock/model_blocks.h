@@ -11,7 +11,7 @@
 
 namespace hdem
 {
-/// Of one block.
+/// Moments of one block.
 struct BlockMoments
 {
     AreaMoments of;
@@ -39,7 +39,7 @@ struct PlacedRock
 /// Put all blocks into the model, sorted along a Hilbert curve, and set its mean size.
 void add_blocks(const CaseDef& def, const RockMass& rock, const PlacedRock& placed, Model& model);
 
-/// The state in which they begin.
+/// The state in which the blocks begin.
 void add_initial_state(const RockMass& rock, const PlacedRock& placed, const Model& model, State& state);
 
 /// Eq. (28): model area over the area of a block, here the mean one. The model's width and height are those of the smallest

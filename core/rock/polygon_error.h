@@ -7,7 +7,7 @@
 
 namespace hdem
 {
-/// Of one polygon. A star of so many, the slowest shape of those tried, is cut into convex parts in some seconds.
+/// Greatest number of vertices of one polygon. A star with so many, a slow shape, is cut into convex parts in some seconds.
 inline constexpr std::size_t most_vertices = 25'000;
 
 /// Value, reason and remedy, ready to follow "object: polygon: "; empty for a simple polygon with an area.

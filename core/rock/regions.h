@@ -34,7 +34,7 @@ class Regions
     /// Adds the shares of a way at which the boundary of one region is met.
     void add_boundary(const std::string& region, const Vec2& from, const Vec2& to, std::vector<double>& shares) const;
 
-    /// That of the first region with a material around the block, else of the domain.
+    /// Material of the first region with one around the block, else of the domain.
     [[nodiscard]] const std::string& material(const CutBlock& block) const;
 
   private:

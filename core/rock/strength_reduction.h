@@ -15,7 +15,7 @@ struct StrengthReduction
     double factor = 1.0;               ///< F
     std::vector<std::uint8_t> joints;  ///< per [joint.NAME]: is its strength divided? Empty: of all
     bool bolts = false;                ///< the strength of bolts is divided too
-    bool keeps_peak = false;           ///< nothing is lost by breaking, slip or wear: residual values are the peak ones
+    bool keeps_peak = false;           ///< no strength is lost by breaking, slip or wear: residual values are the peak ones
     double stiffness = 1.0;            ///< normal and shear stiffness are multiplied by this
 };
 
@@ -31,12 +31,12 @@ struct StrengthReduction
 /// @see verification/unit/core/rock/strength_reduction_test.cpp
 [[nodiscard]] StageLaws reduced_laws(const JointTable& table, const StrengthReduction& how);
 
-/// Divide what bolts bear, axially, across and by their bond.
+/// Divide the strength of bolts: axial, across, and of their bond.
 void weaken_bolts(Support& support, double factor);
 
 /// Has any of these joints a strength that slip or breaking takes?
 [[nodiscard]] bool loses_strength(const JointTable& table, const std::vector<std::uint8_t>& joints);
 
-/// The greatest F up to which no joint dilates by more than the reduced friction pays for; slip beyond it would make energy. Infinite where nothing dilates.
+/// Greatest F at which dilation of each joint takes no more work than its reduced friction gives; slip above it would make energy. Infinite where nothing dilates.
 [[nodiscard]] double greatest_factor_for_dilation(const JointTable& table, const std::vector<std::uint8_t>& joints);
 }  // namespace hdem

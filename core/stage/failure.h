@@ -1,5 +1,5 @@
 #pragma once
-/// Does rock fail, or does it settle? Looks at how far and how fast blocks move.
+/// Decides whether rock fails or settles, by how far and how fast blocks move.
 
 #include "core/model/model.h"
 #include "core/state/state.h"
@@ -82,7 +82,7 @@ class FailureWatch
     Farthest farthest_;
 };
 
-/// Way of the farthest point of a block since its stage began, at most [m].
+/// Upper bound on the displacement of the farthest point of a block since its stage began [m].
 [[nodiscard]] double rim_displacement(Index block, const Model& model, const Blocks& blocks);
 
 /// Blocks that move with one that has failed: a quarter of its way and of its speed at least. The user's numbers, ascending.

@@ -26,15 +26,15 @@ void set_joints_between(const StageLaws& before, Index stage, double share, Mode
 /// @param step  [s] a cycle
 [[nodiscard]] std::int64_t set_until(const StageDef& stage, double step);
 
-/// Share of the change that the stage of the state has made by now. It is looked at every ten cycles [-].
+/// Share of the change that the stage of the state has made by now. It is updated every ten cycles [-].
 [[nodiscard]] double share_set(const Model& model, const State& state);
-/// Cycle at which it is looked at next.
+/// Cycle of the next update.
 [[nodiscard]] std::int64_t next_share(const Model& model, const State& state);
 
-/// Is it still to change?
+/// Does it still change?
 [[nodiscard]] bool is_setting_joints(const Model& model, const State& state);
 
-/// After the stiffness of joints has changed: all contacts bear what they bore. Their preload takes up the difference, so that a linear spring goes on with
+/// Keep the forces of all contacts after the stiffness of joints has changed. Their preload takes up the difference, so that a linear spring goes on with
 ///
 ///   F = K l (u + p) = K' l (u + p')          u overlap less rest overlap   p preload   l length of the point
 ///

@@ -75,7 +75,7 @@ struct StageRules
 /// Of the running stage; before the first one, of the case as a whole.
 [[nodiscard]] StageRules resolve_rules(const Model& model, const State& state);
 
-/// Of the cycles that bring a static solution near: those of the stage by springs alone.
+/// Of the cycles that approach a static solution: the rules of the stage, by springs alone.
 [[nodiscard]] StageRules approach_rules(const Model& model, const State& state);
 
 /// Of each stage of a case, in their order, once its loads do not change any more.
@@ -93,16 +93,16 @@ struct StageRules
 /// Do impulses alone act between blocks? They do not determine the stress in the rock.
 [[nodiscard]] bool is_by_impulses(Method method);
 
-/// Do they in some stage of the case?
+/// Do impulses alone act in some stage of the case?
 [[nodiscard]] bool has_impulses_alone(const CaseDef& def);
 
 /// Is the step of Eq. (32) taken to the letter where a case gives none?
 [[nodiscard]] bool takes_paper_step(const CaseDef& def);
 
-/// Do blocks move in a way that forces do not change, by what they begin with?
+/// Do blocks begin with a motion that forces do not change?
 [[nodiscard]] bool have_driven_blocks(const CaseDef& def);
 
-/// Does something do so, by that or by loads?
+/// Does a block move so, from the start or by loads?
 [[nodiscard]] bool is_driven(const CaseDef& def);
 
 /// The same of the running stage, moving walls included.

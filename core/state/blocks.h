@@ -82,8 +82,8 @@ struct Blocks
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
-    std::vector<double> stable_step;       ///< as it was looked at last, see core/motion/step_control.h [s]
-    std::vector<double> margin;            ///< a block may move so far until contacts must be found anew [m]
+    std::vector<double> stable_step;       ///< last value found, see core/motion/step_control.h [s]
+    std::vector<double> margin;            ///< a block may move so far before contacts must be found anew [m]
     std::vector<std::uint8_t> rest;        ///< checks in a row that found the block quiet, see core/motion/rest.h
     std::vector<std::uint8_t> present;     ///< 0 once excavated
     std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
@@ -97,7 +97,7 @@ struct Blocks
     {
         return Vec2(motion[block].x, motion[block].y) - reference_position[block];
     }
-    /// Has it to be looked at in a cycle? Not what is left out, nor what is fixed and does not move.
+    /// Does the block take part in a cycle? Blocks that are left out do not, nor do fixed blocks that do not move.
     [[nodiscard]] bool takes_part(Index block) const
     {
         const BlockMotion& m = motion[block];
