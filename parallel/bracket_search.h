@@ -1,5 +1,5 @@
 #pragma once
-/// Search for the number between what stands and what fails, two trials at once.
+/// Search for the number at which a model begins to fail, two trials at once.
 
 #include <functional>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace hdem
 {
-/// What was found. Without `stands` all fail down to the least, without `fails` all stand up to the most.
+/// What was found. Without `stands`, all numbers down to the least fail; without `fails`, all up to the most stand.
 struct Bracket
 {
     std::optional<double> stands, fails;
@@ -15,7 +15,7 @@ struct Bracket
     [[nodiscard]] double middle() const { return 0.5 * (*stands + *fails); }
 };
 
-/// Where it is looked for.
+/// Where the search looks.
 struct BracketRule
 {
     double low = 0.0, high = 0.0;   ///< to begin with
@@ -31,8 +31,8 @@ using StandsAt = std::function<bool(double x, int threads, const std::stop_token
 /// Called after each pair with those of the two whose answers count, in ascending order.
 using AfterPair = std::function<void(const Bracket&)>;
 
-/// Each round looks at two numbers in the bracket, at once where there are two threads. That the greater one fails as well where the lower one
-/// does is taken for granted: its answer is not waited for. So the same numbers count on any number of threads.
+/// Each round tries two numbers in the bracket, at the same time where there are two threads. If the lower one fails, the greater one is taken to fail too:
+/// its answer is not waited for. So the same numbers count on any number of threads.
 ///
 /// 1. half a tolerance below and above the guess
 /// 2. beyond that: the given low, and its middle with what is known to fail; half of that, and so on; or upwards, by doubling

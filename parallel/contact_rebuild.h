@@ -29,7 +29,7 @@ class ContactRebuild
     };
 
     void begin(const Model& model);
-    /// Not those of two parts of one block.
+    /// Pairs of two parts of one block are left out.
     void find_pairs(Chunk& chunk, const Shapes& shapes) const;
     void sort_pairs(Chunk& chunk) const;
     void place(IndexRange chunks);

@@ -9,8 +9,8 @@
 namespace hdem
 {
 /// The threads that work with one calling thread. They live in one OpenMP region from the first team of the caller to its end: OpenMP makes them, counts them and
-/// puts them on processors (OMP_NUM_THREADS, OMP_THREAD_LIMIT, OMP_PLACES, OMP_PROC_BIND), but never lets them wait: its own waits spin for
-/// milliseconds, unless the user's environment says otherwise.
+/// puts them on processors (OMP_NUM_THREADS, OMP_THREAD_LIMIT, OMP_PLACES, OMP_PROC_BIND), but does not let them wait: its own waits
+/// spin for milliseconds, unless the user's environment says otherwise.
 ///
 /// The region's first thread, which opens it, only sleeps: its place is the caller's.
 class Crew

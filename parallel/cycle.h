@@ -47,7 +47,7 @@ class CycleRunner
     /// Find the contacts anew, after blocks were taken away, fixed or freed.
     void renew_contacts(const Model& model, State& state, int threads);
 
-    /// The contacts, or constant forces, were found by somebody else; they stay as they are.
+    /// Call it after contacts or constant forces were found elsewhere: the runner prepares anew for them.
     void take_contacts() { prepared_ = false; }
 
     /// Closed contact points summed over all cycles.
@@ -55,7 +55,7 @@ class CycleRunner
 
     /// One entry a thread. All of its time in cycles, shared out to the stages as in every 16th cycle; searches for contacts are all timed.
     [[nodiscard]] std::vector<StageTimes> stage_times() const;
-    /// Count times from here.
+    /// Forget the times so far.
     void forget_times() { samples_.clear(); }
     /// Was an overlap above contact.overlap_limit in the last cycle? `run` then ends with it.
     [[nodiscard]] bool found_deep_overlap() const;
@@ -70,7 +70,7 @@ class CycleRunner
         double in_run = 0.0;  ///< since the call of run
     };
 
-    /// Up to `end`, unless the last of the cycles is to be looked at.
+    /// Run up to `end`, unless the last of the cycles is to be looked at.
     /// @param way  the first member's is that of all
     /// @return  whether cycles go on
     bool run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, Way& way);

@@ -28,7 +28,7 @@ struct Reference
 {
     Moment moment;
     std::vector<Index> gave_way{};  ///< blocks that did not stand in the last stage by their own strength, the user's numbers
-    bool is_anew = false;           ///< for their sake that stage was run anew
+    bool is_anew = false;           ///< that stage was run anew because of them
 };
 
 /// The last stage of a run.
@@ -45,9 +45,9 @@ struct LastStage
 [[nodiscard]] std::vector<Index> blocks_that_gave_way(const Moment& last, bool found_rest, double least_area);
 
 /// The last state, brought to rest under a thousand times its strength. Where blocks gave way in the last stage it is run anew from its
-/// beginning under that strength: what F asks is where these blocks stood, not where they lie.
+/// beginning under that strength: F belongs to where these blocks stood, not to where they lie.
 ///
-/// Of blocks that moved by more than convergence.detached_distance or 0.02 of their size, those gave way, too, that go less than half as far under that strength. The
-/// others are soft rock that settles.
+/// Blocks that moved by more than convergence.detached_distance or 0.02 of their size, but go less than half as far under that strength, gave way, too.
+/// The others are soft rock that settles.
 [[nodiscard]] Reference find_reference(const Moment& last, const LastStage& stage, const ThreadRule& threads);
 }  // namespace hdem

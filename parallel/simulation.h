@@ -30,7 +30,7 @@ class Simulation
 
     [[nodiscard]] const Model& model() const { return model_; }
     [[nodiscard]] const State& state() const { return state_; }
-    /// At most.
+    /// Greatest number of threads.
     [[nodiscard]] int threads() const { return threads_.rule().most; }
     [[nodiscard]] const ThreadChoice& thread_choice() const { return threads_; }
 
@@ -44,21 +44,23 @@ class Simulation
     /// Take blocks out of the model, as an excavation does.
     void take_away(const std::vector<Index>& blocks);
     void find_calm(const Equilibrium& now);
-    /// Asked now and then within a static solution, from this thread: true breaks it off, and BrokenOff leaves the function that sought it.
+    /// `is_to_stop` is asked now and then within a static solution, from this thread. If it says true, the solution is broken off and the function that
+    /// seeks it throws BrokenOff.
     void ask_in_statics(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }
-    /// The static solution at the beginning of a stage, where the state comes from a run that was broken off within it.
+    /// Seek the static solution at the beginning of a stage, if the state comes from a run that was broken off within it.
     void solve_due_statics();
-    /// The same later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where a block comes away.
+    /// Seek a static solution later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where
+    /// a block comes away.
     void finish_by_statics();
-    /// What was found by the last one in the present stage, if it was tried; the cycles go on from there.
+    /// Result of the last static solution in the present stage, if one was tried; the cycles go on from there.
     [[nodiscard]] const std::optional<StaticOutcome>& statics() const { return statics_; }
-    /// The end of the present stage that is met now, of those that its case gives. Each look is remembered.
+    /// The end of the present stage, of those in its case, that is met now. Each look is remembered.
     /// @param is_settled  ends that rock comes to when it settles count
     [[nodiscard]] std::optional<EndMet> look_at_ends(bool is_settled);
     /// How the present stage ended, and the user's numbers of blocks that were not at rest, ascending; before the next one begins.
     void note_outcome(const StageOutcome& outcome, const std::vector<Index>& not_at_rest);
 
-    /// Between cycles somebody outside puts blocks elsewhere or gives them other velocities: `change` writes poses and velocities. All blocks take part again,
+    /// Change poses and velocities of blocks from outside, between cycles: `change` writes them. All blocks take part again,
     /// contacts are found anew. The energy that this brings is work of loads.
     /// @pre  what `change` writes is finite; c and s belong to the angle; what is fixed stays where it is
     void change_motion(const std::function<void(std::vector<BlockMotion>&)>& change);
@@ -75,24 +77,24 @@ class Simulation
     [[nodiscard]] double critical_step();  ///< 2 / omega_max [s]
     /// Closed contact points summed over all cycles run by this object.
     [[nodiscard]] std::int64_t contact_point_updates() const { return runner_.contact_point_updates(); }
-    /// Likewise, one entry a thread; from the first cycle on, without the contacts that were found to begin with.
+    /// Times of all cycles run by this object, one entry a thread; without the first search for contacts.
     [[nodiscard]] std::vector<StageTimes> stage_times() const { return runner_.stage_times(); }
 
   private:
     /// The step of a case that gives none: Eq. (32) of the lightest block, or less where a block has so many neighbours that this is not stable.
     void find_default_step();
-    /// What a step that is never shortened may be; infinite where it is shortened as needed [s].
+    /// Greatest stable value of a step that is never shortened; infinite where steps are shortened as needed [s].
     [[nodiscard]] double step_limit();
-    /// What the stage excavates, fixes and frees.
     /// Books as removed what the change takes from the stored energy, but for what contacts that are found anew change.
     void remove_energy(const std::function<void()>& change);
+    /// Excavate, fix and free what the stage says.
     void change_blocks(const StageDef& stage, const BoundaryChange& sides);
     void change_sides(const BoundaryChange& sides);
     /// Forces of the water of the stage that begins, where the blocks are now.
     void change_water();
-    /// What the running stage sets of joints and materials.
+    /// Set the joints and materials of the running stage.
     void change_properties();
-    /// Joints of now, where the stage changes them over some cycles.
+    /// Set the present joints, where the stage changes them over some cycles.
     void set_joints();
     void excavate(const std::string& name);
     /// Forces of excavated blocks and of sides that have ended act no more.

@@ -19,7 +19,7 @@ enum class CycleStage : std::uint8_t
     count
 };
 
-/// Of one thread.
+/// Times of one thread.
 struct StageTimes
 {
     std::array<double, static_cast<std::size_t>(CycleStage::count)> seconds{};

@@ -9,7 +9,7 @@
 
 namespace hdem
 {
-/// As C would print it.
+/// The value in a format of printf.
 [[nodiscard]] std::string with_digits(const char* format, double value);
 
 /// Greatest preload of a joint [m].

@@ -27,10 +27,10 @@ class StaticSearch
 
     /// Find contacts and features at the present places, and begin there.
     void find_contacts();
-    /// Iterate until the blocks are in balance. At least half of each step is taken first. Where that brings nothing any more the search begins once more, with
-    /// steps as short as the energy asks for.
+    /// Iterate until the blocks are in balance. At least half of each step is taken first. Where that brings no progress any more, the search begins once more,
+    /// with steps as short as the energy asks for.
     End run();
-    /// From where it began as far as the iterations of the rule go, whatever that brings.
+    /// Iterate as often as the rule allows, whether or not balance is reached.
     void advance() { iterate({}); }
     /// The places and forces found become the next start.
     void commit();
@@ -42,12 +42,12 @@ class StaticSearch
     [[nodiscard]] int solves() const { return solves_; }
     [[nodiscard]] double ratio() const { return whole_.imbalance.ratio(); }
     [[nodiscard]] double friction() const { return friction_; }
-    /// Has it had to begin again, with shorter steps? Then its answer may hang on the way to it.
+    /// Has it had to begin again, with shorter steps? Then its answer may depend on the path.
     [[nodiscard]] bool has_begun_again() const { return begun_again_; }
     /// Force and moment on each block of the model where the last search for contacts has found it, weight and given forces included.
     [[nodiscard]] std::vector<Triple> net_forces_at_start();
     [[nodiscard]] const std::vector<std::uint8_t>& is_held() const { return is_held_; }
-    /// Held blocks, and after giving up those that moved as well; ascending.
+    /// Held blocks; after a search was given up, also those that moved. Ascending.
     [[nodiscard]] std::vector<Index> loose() const;
 
   private:

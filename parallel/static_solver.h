@@ -16,7 +16,7 @@ struct StaticRule
     double nearly = 1e-3;        ///< from where cycles may go on [-]
     double acceleration = 1e-3;  ///< greatest of a block, moment over radius included [m/s2]
     double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
-    int stagnation = 50;         ///< iterations without a tenth less out of balance after which a search is given up
+    int stagnation = 50;         ///< a search is given up after so many iterations in which the unbalance has not fallen by a tenth
     int most_iterations = 350;
     std::function<bool()> is_to_stop{};  ///< asked in every iteration; true: BrokenOff is thrown
 };
@@ -29,7 +29,7 @@ struct BrokenOff
 /// Throws BrokenOff when the rule says that the solution is to end early.
 void stop_if_asked(const StaticRule& rule);
 
-/// A tenth of what the convergence criteria of the model ask for; just that is accepted.
+/// The rule of a model: it seeks a tenth of the limits of its convergence criteria, and accepts these limits.
 [[nodiscard]] StaticRule static_rule(const Model& model);
 
 struct StaticOutcome
@@ -52,7 +52,8 @@ struct StaticOutcome
 [[nodiscard]] bool can_solve_statics(const Model& model, const State& state);
 
 /// Bring the blocks to rest under their weight: small steps of Newton's iteration on the contact forces as a cycle finds them, every increment of shear from the last
-/// equilibrium on. Blocks that come away are held where that is seen; they keep what they bear there, and fall in the cycles that follow. Where the others do not stand without them
+/// equilibrium on. Blocks that come away are held where that is found. They keep the forces that they bear there, and fall in the cycles that follow.
+/// Where the others do not stand without them
 /// there is no equilibrium.
 ///
 /// 1. residual, status of each point, tangent with friction (core/statics/static_contacts.h)

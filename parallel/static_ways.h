@@ -15,21 +15,21 @@ struct SearchOutcome : StaticOutcome
 
 void add_effort(const StaticOutcome& other, StaticOutcome& outcome);
 
-/// Search after search for contacts. The trial is balanced if the outcome is. Blocks that have come away may stand again once: on
+/// Search for balance, with contacts found anew after each search. The trial is balanced if the outcome is. Blocks that have come away may stand again once: on
 /// its way from far out of balance a search throws some out of places where they can stand.
 /// @param given  force and moment on each block besides its weight, or empty
 SearchOutcome search_balance(const Model& model, State& trial, int threads, const StaticRule& rule,
                              const std::vector<Triple>& given);
 
-/// Once, with all that is out of balance.
+/// One search, with all unbalanced forces at once.
 SearchOutcome search_at_once(const Model& model, State& trial, int threads, const StaticRule& rule);
 
-/// What is out of balance where the search begins, as after a sudden excavation, is let go in parts, from balance to balance.
+/// Release the unbalanced forces at the start, as after a sudden excavation, part by part, from balance to balance.
 StaticOutcome search_in_parts(const Model& model, State& trial, int threads, const StaticRule& rule);
 
-/// The same with the forces of excavated blocks, which the stage takes off over cycles: their work is that of a load.
+/// The same with the forces of excavated blocks, which the stage removes over cycles: their work counts as that of a load.
 StaticOutcome take_off_released(const Model& model, State& trial, int threads, const StaticRule& rule);
 
-/// At once, after the rounds of an approach (parallel/static_approach.h).
+/// One search, after the rounds of an approach (parallel/static_approach.h).
 StaticOutcome approach_and_search(const Model& model, State& trial, int threads, const StaticRule& rule);
 }  // namespace hdem

@@ -52,8 +52,8 @@ struct Moment
 [[nodiscard]] Model trial_model(const Moment& start, const StrengthReduction& reduction);
 
 /// State of `start` from which a trial with this model begins. Joints whose strength grows with slip at first (Barton-Bandis) have slipped on until they bear under the
-/// reduced strength what they bear, to their peak at most. Weakened where they stand they would bear less than before at once, run through that slip, and
-/// come to their peak with a speed: rock would fail below it, the more the less it is damped.
+/// reduced strength what they bear, to their peak at most. Weakened without that slip, they would at once bear less than before, slip, and reach
+/// their peak with a speed: rock would fail below its strength, the more so the less it is damped.
 [[nodiscard]] State trial_state(const Model& trial_model, State start);
 
 /// From `start` to the verdict. When asked to stop, the trial is undecided at once.

@@ -17,7 +17,7 @@ struct Meeting
 class Team
 {
   public:
-    /// @param meeting  of all members; none where there is one
+    /// @param meeting  of all members; null for a team of one
     Team(int member, int threads, Meeting* meeting = nullptr) : member_(member), threads_(threads), meeting_(meeting) {}
 
     [[nodiscard]] bool is_first() const { return member_ == 0; }

@@ -13,7 +13,7 @@ struct ThreadRule
     enum class Kind : std::uint8_t
     {
         fixed,
-        measured,  ///< as many as are fastest now, looked for again and again
+        measured,  ///< the number that is fastest now, found again and again
         shuffled   ///< other numbers all the time: for tests
     };
     int most = 1;
@@ -25,7 +25,7 @@ struct ThreadRule
     ThreadRule(int threads) : most(threads), first(threads) {}  ///< fixed
     ThreadRule(int most_of_all, Kind which) : most(most_of_all), kind(which), first(most_of_all) {}
 
-    /// Of one of several runs at the same time that begin with `share` threads each. A fixed number stays that; others may grow into what the rest leave.
+    /// Rule of one of several runs at the same time, which begin with `share` threads each. A fixed number stays; others may grow into what the other runs leave.
     [[nodiscard]] ThreadRule for_share(int share) const
     {
         ThreadRule rule = *this;
@@ -53,7 +53,7 @@ struct ThreadUse
 /// Looks for the number of threads with the least time a cycle, by trying the next lower and the next higher one now and then.
 ///
 /// Time is looked at in windows of some milliseconds. A trial begins with one window; where that is promising it goes on until there are enough of them to
-/// compare the means. Trials that fail come at growing intervals, which follow from what the trial has cost: looking takes a hundredth of the time. Cycles
+/// compare the means. Trials that fail come at growing intervals, which follow from what the trial has cost: trials take about a hundredth of the time. Cycles
 /// that suddenly take much longer, or shorter, are a reason to look at once: other work may have begun on the machine, or ended. Then, and in the beginning,
 /// all lower numbers have their window, and the best of them is tried.
 ///

@@ -49,7 +49,7 @@ struct LedgerTerm
     const char* meaning;
 };
 
-/// The only list of them: sums, files, checks and reports follow it.
+/// The only list of the ledger's terms: sums, files, checks and reports follow it.
 inline constexpr std::array ledger_terms = {
     LedgerTerm{"initial", &EnergyLedger::initial, LedgerSide::in, true, "stored at the start, without insitu"},
     LedgerTerm{"insitu", &EnergyLedger::insitu, LedgerSide::in, true, "stored in the joints by [insitu] at the start"},
@@ -87,7 +87,7 @@ inline void EnergyLedger::add(const EnergyLedger& other)
         this->*term.value += other.*term.value;
 }
 
-/// The worst residual of the ledger that a run has had, against what it should have.
+/// The worst residual of the ledger that a run has had, compared with its limit.
 struct WorstResidual
 {
     double residual = 0.0;  ///< relative [-]

@@ -1,5 +1,5 @@
 #pragma once
-/// What is told of stages at the end of a run, also after a restart. Blocks go by the user's numbers: they may be sorted anew in between.
+/// Results of stages for the end of a run, also after a restart. Blocks have the user's numbers here, since their order in memory may change in between.
 
 #include "core/types.h"
 
@@ -25,7 +25,7 @@ struct StageOutcome
     double time = 0.0;   ///< of the run, at the end [s]
 };
 
-/// What is remembered of an end of the running stage from one look to the next.
+/// Memory of an end of the running stage, from one check to the next.
 struct EndWatch
 {
     std::int64_t since_cycle = -1;  ///< it has held since then; < 0: it does not

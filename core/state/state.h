@@ -14,7 +14,7 @@
 
 namespace hdem
 {
-/// What excavated blocks gave to a block that stays (core/motion/released_forces.h).
+/// Force of excavated blocks on a block that stays (core/motion/released_forces.h).
 struct ReleasedForce
 {
     Index block = no_index;
@@ -37,8 +37,8 @@ struct State
     Contacts contacts;
     std::vector<BlockMotion> rebuilt_at;    ///< poses at the last broad-phase rebuild
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
-    std::vector<ReleasedForce> released;    ///< still to be taken off in the running stage, ascending by block
-    std::vector<MovingBlock> moving;        ///< as last looked for, ascending by block
+    std::vector<ReleasedForce> released;    ///< still to be removed in the running stage, ascending by block
+    std::vector<MovingBlock> moving;        ///< as last found, ascending by block
     std::vector<Triple> water;     ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
     std::int64_t water_until = 0;  ///< cycle up to which they hold
     SupportState support;

@@ -45,7 +45,7 @@ void for_each_of_run(AnyState& state, const Use& use)
         use("water_until", state.water_until);
 }
 
-/// Numbers that are only told at the end.
+/// Numbers that are only reported at the end.
 template <typename AnyState, typename Use>
 void for_each_counter(AnyState& state, const Use& use)
 {
@@ -59,7 +59,7 @@ static_assert(field_count<Steps>() == 2 && field_count<WorstResidual>() == 3 && 
                   field_count<State>() == 34,
               "a new member needs its line above, or its list");
 
-/// What is remembered of the ends of the running stage.
+/// Memory of the ends of the running stage.
 template <typename AnyState, typename Use>
 void for_each_of_ends(AnyState& state, const Use& use)
 {
@@ -67,7 +67,7 @@ void for_each_of_ends(AnyState& state, const Use& use)
     use(As<double>{}, "/state/ends_values", state.ends, fields::watch_values);
 }
 
-/// What is only told of stages at the end.
+/// Results of stages, only reported at the end.
 template <typename AnyState, typename Use>
 void for_each_told(AnyState& state, const Use& use)
 {
@@ -107,14 +107,14 @@ void for_each_of_groups(AnyState& state, const Use& use)
     use(As<float>{}, "/blocks/moving_along", state.moving, fields::moving_along);
 }
 
-/// One row a block, of what each cycle finds anew before it uses it. Who looks at a state sees it, so it is saved; it decides nothing.
+/// One row a block, of values that each cycle finds anew before it uses them. They are saved because observers of a state read them; the run does not depend on them.
 template <typename AnyState, typename Use>
 void for_each_derived(AnyState& state, const Use& use)
 {
     use(As<float>{}, "/blocks/joint_use", state.blocks.force, fields::joint_use);
 }
 
-/// Blocks that excavations have touched, and what is still to be taken off them.
+/// Blocks that excavations have touched, and the forces on them that are still to be removed.
 template <typename AnyState, typename Use>
 void for_each_of_excavations(AnyState& state, const Use& use)
 {

@@ -12,7 +12,7 @@
 
 namespace hdem
 {
-/// What one contact gives one of its blocks in this cycle.
+/// Load of one contact on one of its blocks in this cycle.
 struct alignas(32) BlockLoad
 {
     double x = 0.0;  ///< [N]
@@ -30,7 +30,7 @@ struct alignas(16) JointUse
     std::uint32_t contacts = 0;  ///< ContactBits
 };
 
-/// Of contacts that follow each other.
+/// Loads of contacts that follow each other.
 struct ContactLoads
 {
     LargeVector<BlockLoad> load;  ///< two a contact: on the block of part_a, on that of part_b
@@ -44,8 +44,8 @@ struct ContactLoads
     }
 };
 
-/// Sums over ranges of contacts in one cycle. Energies lane by lane: contacts in between that give nothing do not change a bit of them, so that it does not matter which
-/// of those at rest take part.
+/// Sums over ranges of contacts in one cycle. Energies are summed lane by lane: contacts that give nothing change no bit of the sums,
+/// so it does not matter which contacts at rest take part.
 struct ContactTally
 {
     LaneSums friction;   ///< EnergyLedger::friction [J]
@@ -58,7 +58,7 @@ struct ContactTally
     LaneSums broken;     ///< EnergyLedger::bond_breaking [J]
     /// Some contact was not only pressed by springs since the last cycle: it may have a rest overlap now.
     bool unrested = false;
-    /// By how much any incident vertex may still move before features are stale, of contacts whose views were looked at [m].
+    /// By how much any incident vertex may still move before features are stale, of contacts whose views were checked [m].
     float slack = std::numeric_limits<float>::infinity();
 };
 
@@ -84,8 +84,8 @@ struct ImpulsePoint
     double coupling = 0.0;          ///< with the other point of its contact, kept by the first of the two [1/kg]
     double approach = 0.0;          ///< approach velocity before this cycle; negative: the blocks part [m/s]
     double target = 0.0;            ///< approach velocity that the impulse must leave [m/s]
-    double weight_velocity = 0.0;   ///< what weight adds to it in a cycle [m/s]
-    double load_velocity = 0.0;     ///< what this cycle's forces add to it, and no less than weight does [m/s]
+    double weight_velocity = 0.0;   ///< what weight adds to the approach velocity in a cycle [m/s]
+    double load_velocity = 0.0;     ///< what this cycle's forces add to the approach velocity, at least weight_velocity [m/s]
     double restitution = 0.0;       ///< R of Eq. (15) [-]
     double overlap = 0.0;           ///< [m]
     double pressed = 0.0;           ///< with the preload [m]
@@ -107,14 +107,14 @@ struct LoadedBlock
     double moment = 0.0;                 ///< [N m]
 };
 
-/// Force of a bolt on a block in one cycle, and the block's velocities before the step.
+/// Force of a bolt or liner on a block in one cycle, and the block's velocities before the step.
 struct BlockPush
 {
     Index block = no_index;
     Triple force;          ///< [N], moment about the centroid [N m]
     Triple velocity;       ///< [m/s], [rad/s]
     double reserve = 0.0;  ///< strength of the bolt not in use [N]
-    bool damps = false;    ///< it takes energy, and is no force of the bolt
+    bool damps = false;    ///< it is a damping force, which takes energy, and no force of the bolt
 };
 
 struct Workspace
@@ -124,7 +124,7 @@ struct Workspace
     std::vector<Triple> pseudo;    ///< pseudo velocities of the position correction, per block, zero between cycles
     std::vector<Triple> constant;  ///< forces and moments of tractions on sides in the running stage, per block; empty without
     std::vector<Index> held;       ///< blocks at pressed sides that are held together in the running stage
-    std::vector<Triple> external;  ///< the same with those of the case's loads; empty without either
+    std::vector<Triple> external;  ///< `constant` with the forces of the case's loads; empty without either
     std::vector<LoadedBlock> loaded;
     std::vector<BlockPush> bolted;  ///< forces of bolts in this cycle, with the velocities before the step
     std::vector<Triple> released;   ///< velocities of blocks on which excavated blocks still act, before the step

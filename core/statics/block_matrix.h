@@ -37,7 +37,7 @@ struct BlockGraph
 class BlockMatrix
 {
   public:
-    /// All values are zero then. Throws std::invalid_argument, naming the pair, when a number is outside of [0, blocks) and not no_index, or when
+    /// Set the pattern; all values are zero then. Throws std::invalid_argument, naming the pair, when a number is outside of [0, blocks) and not no_index, or when
     /// a block is paired with itself.
     void set_pattern(Index blocks, std::span<const CoupledPair> pairs);
 
@@ -56,7 +56,7 @@ class BlockMatrix
     [[nodiscard]] const Matrix3& diagonal(Index block) const { return diagonal_[block]; }
     /// Row block and column block of an entry of graph().neighbour.
     [[nodiscard]] const Matrix3& coupling(Index entry) const { return coupling_[half_[entry]]; }
-    /// Symmetric part of that: (K_ab + K_ba^T) / 2.
+    /// Symmetric part of the coupling: (K_ab + K_ba^T) / 2.
     [[nodiscard]] Matrix3 symmetric_coupling(Index entry) const
     {
         return 0.5 * (coupling_[half_[entry]] + coupling_[half_[entry] ^ 1].transpose());

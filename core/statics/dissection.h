@@ -56,11 +56,11 @@ class Dissection
 
     /// Sets that are still to be refined.
     [[nodiscard]] Index open() const { return static_cast<Index>(open_.size()); }
-    /// GraphCut set i, or order it if it is small.
+    /// Cut set i, or order it if it is small.
     void refine(Index i, Dissector& dissector);
-    /// After all of a level: go on to the next.
+    /// Go on to the next level, after all sets of a level are refined.
     void descend();
-    /// Once nothing is open.
+    /// The order of elimination, once no set is open.
     [[nodiscard]] EliminationOrder result() &&;
 
   private:

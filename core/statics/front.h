@@ -32,9 +32,9 @@ struct Strip
     Index first_panel = 0;   ///< of its rows
     std::size_t offset = 0;  ///< of its numbers among those of the front
 
-    /// Behind the rows of its diagonal.
+    /// Panel behind the rows of its diagonal.
     [[nodiscard]] Index end_panel() const { return first_panel + (width + lanes - 1) / lanes; }
-    /// Four rows of it.
+    /// Where a panel of it begins.
     [[nodiscard]] std::size_t panel(Index p) const { return offset + static_cast<std::size_t>(p - first_panel) * width * lanes; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks during a static solution: which are unknowns, what is out of balance on them, and which hang on nothing.
+/// Blocks during a static solution: which are unknowns, the net forces on them, and which of them nothing holds.
 
 #include "core/model/model.h"
 #include "core/state/state.h"

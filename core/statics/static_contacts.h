@@ -24,7 +24,7 @@ struct StaticPoint
     bool has_healed = false;                                                    ///< was parted in this search, and has closed again
     bool began_closed = false;
     bool is_parted = false;    ///< open: cohesion is broken
-    bool holds_shear = false;  ///< along the edge its whole elastic stiffness acts
+    bool holds_shear = false;  ///< its whole elastic stiffness acts along the edge
 };
 
 /// Tangents of a contact's two points in the axes of its reference edge.
@@ -58,7 +58,7 @@ struct PointTally
 struct PointRule
 {
     bool part_all_open = false;  ///< break the cohesion of all points that are open
-    bool is_first = false;       ///< nothing has been looked at before
+    bool is_first = false;       ///< first iteration of a search
 };
 
 /// Begin a search where the contacts stand, from their history.
@@ -71,8 +71,9 @@ void put_loads(IndexRange range, const Model& model, const State& state, const s
 /// At a new iterate: status of each point, whether it parts, how far it is trusted, and its tangent.
 ///
 /// Trust takes the place of a region around the iterate, point by point: where the law gives no stiffness, in an open point or along a slip, a share of the
-/// elastic one holds the step back. It is a quarter each time that the status stays, down to 1e-6, and 16 times as much, up to 1, when it changes. Without it
-/// Newton's iteration jumps between states for ever.
+/// elastic one holds the step back. Trust falls to a quarter each time that the status stays, down to 1e-6, and grows 16 times, up to 1, when the status
+/// changes. Without it
+/// Newton's iteration may jump between states for ever.
 PointTally renew_points(IndexRange range, const Model& model, const State& state, const PointRule& rule,
                         std::vector<StaticPoint>& points, std::vector<ContactTangent>& tangents);
 

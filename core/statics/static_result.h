@@ -1,5 +1,5 @@
 #pragma once
-/// What a static solution has found, for people.
+/// Result of a static solution, for output to users.
 
 #include <string>
 #include <vector>

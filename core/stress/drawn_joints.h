@@ -1,5 +1,5 @@
 #pragma once
-/// What a joint has from the start and a contact that is made later has not: cohesion, and the stress of the rock.
+/// Cohesion and in-situ stress: joints have them from the start, contacts that are made later do not.
 
 #include "core/detection/edge_touch.h"
 #include "core/model/model.h"
@@ -15,12 +15,12 @@ namespace hdem
     return touch.length > closed_gap * length_floor && -std::min(touch.point[0].overlap, touch.point[1].overlap) < length_floor;
 }
 
-/// By how much a point of a joint is preloaded that has cohesion or tension until it breaks: it is closed as drawn, also where numbers are rounded so that there is a
-/// gap. Without tension the least gap would break it. [m]
+/// Preload of a point of a joint that has cohesion or tension until it breaks [m]. It closes the point as drawn, even where round-off leaves a gap. Otherwise
+/// the least gap would break a joint without tension.
 [[nodiscard]] double drawn_preload(const Model& model, Index law, double overlap, double length_floor);
 
 /// Give contacts between blocks of `among` (one entry a block) the cohesion of their joints where their edges lie on each other, and the forces of [insitu].
-/// Every other contact is without both: blocks that have met since the start stick nowhere. A block that breaks off and falls back would be held again otherwise.
+/// Every other contact has neither: blocks that have met since the start stick nowhere. Otherwise a block that breaks off and falls back would be held again.
 /// Differs from the paper, whose contacts all have the joint's cohesion.
 /// @see verification/unit/core/stress/drawn_joints_test.cpp
 void join_drawn_blocks(const Model& model, const std::vector<std::uint8_t>& among, State& state);

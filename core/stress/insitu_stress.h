@@ -20,7 +20,7 @@ namespace hdem
 /// The field of a case. rho is the density of the domain's material (of the first block where there is no domain).
 [[nodiscard]] InsituField make_field(const InsituDef& def, double density, const Vec2& gravity, const Vec2& origin);
 
-/// What the field lacks of equilibrium with gravity, |d sigma_xy/dy + rho g_x, d sigma_yy/dy + rho g_y| over rho g; without gravity over the gradient itself [-].
+/// How far the field is from equilibrium with gravity: |d sigma_xy/dy + rho g_x, d sigma_yy/dy + rho g_y| over rho g; without gravity over the gradient itself [-].
 [[nodiscard]] double field_unbalance(const InsituField& field, double density, const Vec2& gravity);
 
 /// Give a contact whose edges lie on each other the forces of the field. Blocks stay where they are.
@@ -32,7 +32,7 @@ namespace hdem
 ///
 /// These two forces have the resultant and the moment of a traction that is linear along the joint, so each block is in equilibrium where the field is. Half of
 /// the length times the traction at each end would have three times the moment of the gradient.
-/// A joint takes no tension: such forces are 0, and summarise_insitu tells of them. A joint above its strength slips in the first cycle.
+/// A joint takes no tension: such forces are 0, and summarise_insitu reports them. A joint above its strength slips in the first cycle.
 /// @see verification/unit/core/stress/insitu_stress_test.cpp
 void lock_in_stress(const Model& model, State& state, Index contact);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What bolts do in a cycle: forces from where the blocks are.
+/// Forces of bolts in a cycle, from the places of the blocks.
 ///
 ///   anchored   T = K (d - d_0 - e_p),  0 <= T <= yield               d distance of its two ends, d_0 that without force [m]
 ///   local      axial likewise, |T| <= yield, across the active length; shear  Q = K_s (u_s - u_0 - u_p),  |Q| <= shear_strength,
@@ -15,24 +15,25 @@
 
 namespace hdem
 {
-/// Has any been installed?
+/// Has any bolt or liner been installed?
 [[nodiscard]] bool has_support(const SupportState& support);
 
-/// Blocks of all that have been installed, ascending: these never rest. Of those that act no more too, so that it does not depend on when a run was restarted.
+/// Blocks of all bolts and liners that have been installed, ascending: these blocks never rest. Those that act no more count too, so that the answer does not depend
+/// on when a run was restarted.
 [[nodiscard]] std::vector<Index> bolted_blocks(const Model& model, const State& state);
 
-/// Those of the stage that has begun, where the blocks are now.
+/// Install the bolts of the stage that has begun, at the present places of the blocks.
 /// @return  whether there are any
 bool install_bolts(const Model& model, State& state);
 
-/// Their forces in this cycle, in the order of the bolts, with the velocities before the step; what slips, yields and ruptures.
+/// Forces of the bolts in this cycle, in their order, with the velocities before the step. Also finds what slips, yields and ruptures.
 ///
 /// A block on a bolt that touches others by impulses has no other damping of its swinging along the bolt. There the links are damped by
 ///
 ///   c = 2 damping (K m / n)^1/2        K stiffness of the link   m collision mass of its two blocks along it   n links at the block that has most
 ///
 /// times the speed at which its ends part. Both blocks get opposite forces, so that momentum is kept: blocks that slide or fall together are not held. With the
-/// damping the bolt pulls no less than 0 and no more than its strength. What it takes is booked as local damping.
+/// damping, the bolt pulls no less than 0 and no more than its strength. The energy that damping takes is booked as local damping.
 /// @param damping  share of the critical one; 0: none
 void pull_bolts(const Model& model, State& state, double damping, std::vector<BlockPush>& pushes);
 
@@ -40,10 +41,11 @@ void pull_bolts(const Model& model, State& state, double damping, std::vector<Bl
 void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external);
 void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& external);
 
-/// For the damping of the blocks of `range`: what bolts have in reserve adds to what joints have, and a block that hangs on bolts alone, though it may touch others,
-/// counts as held by springs along the first that pulls. Else it would swing for ever. Blocks whose bolts are at their strength are not held: they fall as they would without damping.
+/// For the damping of the blocks of `range`: the reserve of bolts adds to that of joints. A block that hangs on bolts alone, though it may touch others,
+/// counts as held by springs along the first bolt that pulls; else it would swing for ever. Blocks whose bolts are at their strength are not held: they
+/// fall as they would without damping.
 void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Blocks& blocks);
 
-/// Their work over the step, once the velocities are final.
+/// Work of the bolts over the step, once the velocities are final.
 void add_bolt_work(const std::vector<BlockPush>& pushes, const Blocks& blocks, EnergyLedger& ledger);
 }  // namespace hdem

@@ -1,5 +1,6 @@
 #pragma once
-/// Bolts and liners as rows of a stiffness matrix, for the time step. All of the case count, from the start and whatever has happened to them: so the step of a case does
+/// Bolts and liners as rows of a stiffness matrix, for the time step. All bolts and liners of the case count, from the start and whatever their state. So
+/// the step of a case does
 /// not depend on when they are installed.
 
 #include "core/motion/contact_springs.h"
@@ -11,7 +12,7 @@ namespace hdem
 struct LinkSpring
 {
     double stiffness = 0.0;  ///< [N/m]
-    Vec3 first, second;      ///< how fast it stretches by a motion of the first block, of the second [-, -, m]
+    Vec3 first, second;      ///< derivative of its stretch by the motion of the first block, of the second [-, -, m]
 };
 
 /// Call `use(spring)` for the springs of a link.
@@ -57,7 +58,7 @@ void for_bolt_springs(const Model& model, const Blocks& blocks, Index block, con
     }
 }
 
-/// The same for the ties of liners: they hold it against the liner, which counts as fixed.
+/// The same for the ties of liners. They hold the block against the liner, which counts as fixed.
 template <typename Use>
 void for_tie_springs(const Model& model, const Blocks& blocks, Index block, const Use& use)
 {
@@ -76,7 +77,7 @@ void for_tie_springs(const Model& model, const Blocks& blocks, Index block, cons
     }
 }
 
-/// Add what a block feels of its links and ties, in coordinates in which its mass matrix is the unit matrix (stable_step, core/motion/time_step.h).
+/// Add the stiffness of a block's links and ties, in coordinates in which its mass matrix is the unit matrix (stable_step, core/motion/time_step.h).
 /// @param own       its inverse masses, 0 where it does not move
 /// @param of_other  the same of another block
 template <typename OfOther>

@@ -23,10 +23,10 @@ struct BoltStrength
     double least = 0.0, greatest = 0.0;                        ///< [N]
 };
 
-/// Of all bolts that act, where the blocks are now.
+/// Strengths of all bolts that act, where the blocks are now.
 /// @see verification/unit/core/limit/strength_bound_test.cpp
 [[nodiscard]] std::vector<BoltStrength> bolt_strengths(const Model& model, const State& state);
 
-/// Is there a force of it that nothing limits?
+/// Has the bolt a force that nothing limits?
 [[nodiscard]] bool bears_any_force(const Bolt& bolt);
 }  // namespace hdem

@@ -46,7 +46,7 @@ struct GroutedMemory
 
 /// Find the nodes for given places of the rock, and what slips, yields and ruptures.
 /// @param moved    D of each part [m]
-/// @param gone     per part: is the block not there? Then the bar is not either.
+/// @param gone     per part: is the block gone? Then the bar is gone there, too.
 /// @param tension  of each link, out [N]
 /// @param reserve  of each link, out: how much more tension the bar, and the bond on both sides of it, could bear [N]
 void pull_grouted(const Bolt& bolt, std::span<const double> moved, std::span<const std::uint8_t> gone, const GroutedMemory& memory,

@@ -5,7 +5,8 @@
 ///   M_1 = E I / L (4 (phi_1 - p_1) + 2 (phi_2 - p_2)),  |M| <= moment_strength                            phi rotations of its ends against the chord
 ///   M_2 = E I / L (2 (phi_1 - p_1) + 4 (phi_2 - p_2))
 ///
-/// Euler and Bernoulli's beam, small rotations. N and M yield each for itself: their limits form a rectangle. e_p and p are what has flowed before; they are found such that the
+/// Euler and Bernoulli's beam, small rotations. N and M yield independently: their limits form a rectangle. e_p and p are what has flowed before. They are
+/// found such that the
 /// energy of the step is least (elastic energy plus strength times flow), so that steps of any size end on the limits.
 
 #include "core/model/support.h"
@@ -44,7 +45,7 @@ struct BeamLaw
     double compressive_strength = 0.0, tensile_strength = 0.0, moment_strength = 0.0;
 };
 
-/// What a beam answers to a deformation.
+/// Forces and tangents of a beam at a deformation.
 struct BeamAnswer
 {
     double thrust = 0.0;              ///< N, tension positive [N]

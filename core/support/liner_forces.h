@@ -1,5 +1,5 @@
 #pragma once
-/// What liners do in a cycle: they follow the rock behind them and press on it. Laws: liner_beam.h, liner_tie.h; where the nodes are: liner_solver.h.
+/// Forces of liners in a cycle: liners follow the rock behind them and press on it. Laws: liner_beam.h, liner_tie.h; where the nodes are: liner_solver.h.
 ///
 /// A liner that is installed has no force in it, whatever the rock has done before: ties and beams count from there.
 
@@ -14,7 +14,7 @@ namespace hdem
 {
 class LinerSolver;
 
-/// Solvers of a model's liners. They hold nothing that the state does not give again.
+/// Solvers of a model's liners. All that they hold follows from the state.
 class LinerSolvers
 {
   public:
@@ -29,11 +29,11 @@ class LinerSolvers
     std::vector<std::unique_ptr<LinerSolver>> solvers_;
 };
 
-/// Those of the stage that has begun, where the blocks are now.
+/// Install the liners of the stage that has begun, at the present places of the blocks.
 /// @return  whether there are any
 bool install_liners(const Model& model, State& state);
 
-/// Their forces in this cycle, appended to `pushes` in the order of the liners; what yields, slips and parts.
+/// Append the forces of the liners in this cycle to `pushes`, in their order. Also finds what yields, slips and parts.
 void press_liners(const Model& model, State& state, LinerSolvers& solvers, std::vector<BlockPush>& pushes);
 
 /// Forces in a liner as they are now: one a segment.
@@ -43,7 +43,7 @@ struct LinerForce
     double shear = 0.0;     ///< [N]
     double moment[2] = {};  ///< at its ends; positive: its inside is stretched [N m]
 };
-/// Where its nodes are now [m].
+/// Where the nodes of a liner are now [m].
 [[nodiscard]] std::vector<Vec2> liner_nodes(const Model& model, const State& state, std::size_t liner);
 [[nodiscard]] std::vector<LinerForce> liner_forces(const Model& model, const State& state, std::size_t liner);
 }  // namespace hdem

@@ -11,7 +11,7 @@ namespace hdem
 /// @pre  there is a block behind it
 [[nodiscard]] Vec2 place_of_rock(const LinerSegment& segment, int end, const Blocks& blocks);
 
-/// In this cycle.
+/// Load of a liner in this cycle.
 [[nodiscard]] LinerLoad load_of(const Liner& liner, const LinerRecord& record, const LinerMemory& memory, const Model& model,
                                 const State& state);
 

@@ -21,7 +21,8 @@ struct LinerRest
     double unbalanced = 0.0;  ///< see LinerBalance [-]
 };
 
-/// As the last cycle has left it. One that has parted from the rock all along and bears what presses on it, as a ring does, rests; one that is at its strength moves.
+/// Motion of a liner after the last cycle. A liner that has parted from the rock all along but bears what presses on it, as a ring does, rests; a liner at
+/// its strength moves.
 [[nodiscard]] LinerRest rest_of_liner(const Model& model, const State& state, std::size_t liner);
 
 /// Linings that move, in the order of the case. Those that have come off are not among them: they fall for ever, and nothing waits for them.

@@ -36,8 +36,8 @@ struct LinerLoad
 /// How near to balance a liner is, its inertia left aside.
 struct LinerBalance
 {
-    double unbalanced = 0.0;  ///< greatest net force of a node, of the mean load of the nodes: their weight, pressure and ties [-]
-    double whole = 0.0;       ///< net force of all nodes together, of the sum of weight and pressure [-]
+    double unbalanced = 0.0;  ///< greatest net force of a node over the mean load of the nodes: their weight, pressure and ties [-]
+    double whole = 0.0;       ///< net force of all nodes together over the sum of weight and pressure [-]
     bool is_at_strength = false;  ///< in compression, tension or bending, somewhere
 };
 
@@ -49,7 +49,7 @@ class LinerSolver
     /// Move `memory.moved` and `memory.velocity` on by a cycle. What flows is not booked yet: see beam and tie.
     void solve(const LinerLoad& load, const LinerMemory& memory);
 
-    /// For the present nodes. Without gravity their weight is that on earth, as in the criteria of blocks.
+    /// Balance of the present nodes. Without gravity their weight is that on earth, as in the criteria of blocks.
     [[nodiscard]] LinerBalance balance(const LinerLoad& load, const LinerMemory& memory);
 
     /// Answers of segment s for the present nodes.

@@ -25,7 +25,7 @@ struct TieAnswer
     unsigned state = 0;                                ///< which tangents it has
 };
 
-/// @param length   that it bears for [m]
+/// @param length   of liner that the tie stands for [m]
 /// @param parted   has it come off?
 /// @param pressed  N of the last cycle [N]
 [[nodiscard]] inline TieAnswer answer_of_tie(const Liner& liner, double length, double gap, double along, bool parted,

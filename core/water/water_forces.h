@@ -3,8 +3,8 @@
 ///
 /// On a joint the pressure acts on both faces, over the whole stretch on which the edges face each other, open or closed: springs carry
 /// what remains, so that the normal force of a joint law is the effective one. On a free face it acts where water is ponded, but not
-/// on faces of drained excavations, nor where a boundary gives the stress. Those of a crack belong to
-/// the faces that lie on its line as drawn, and stay with them until their block has moved a quarter of its size.
+/// on faces of drained excavations, nor where a boundary gives the stress. Pressures of a crack act on the faces that lie on its line as drawn, and stay
+/// with these faces until their block has moved a quarter of its size.
 ///
 ///   F = -integral of p n ds,  M = integral of (x - centroid) x dF      n: out of the block
 ///
@@ -18,7 +18,7 @@
 
 namespace hdem
 {
-/// Those that hold from now until a cycle, in the state's stage (core/water/water_motion.h); one entry a block; empty without water.
+/// Forces of water that hold from now until a cycle, in the state's stage (core/water/water_motion.h); one entry a block; empty without water.
 /// @param drag  WaterRule::drag
 [[nodiscard]] std::vector<Triple> water_forces(const Model& model, const State& state, std::int64_t until, double drag);
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Blocks that move in water: how long its forces hold, for which pose they are found, and what slows what floats.
+/// Blocks that move in water: how long its forces hold, for which pose they are found, and the drag on floating blocks.
 ///
-/// A block that floats swings up and down, because its force changes with its place. Forces that are held for n cycles lag behind the motion by half
-/// of them and feed it: the swing of a raft grew from 1 m to 183 m. So they are found for the pose half way,
+/// A block that floats swings up and down, because its force changes with its place. Forces that are held for n cycles lag behind the motion by half of
+/// these cycles, and the swing would grow. So they are found for the pose half way,
 ///
 ///   x + v n dt / 2
 ///
@@ -28,14 +28,14 @@ struct WaterRule
 /// Greatest angular frequency at which water lets a block swing; 0 without water [1/s].
 [[nodiscard]] double swing_rate(Index block, const Model& model);
 
-/// Does water alone carry it: no contact point acts on it, nor on the group with which it moves?
+/// Does water alone carry the block: no contact point acts on it, nor on the group with which it moves?
 [[nodiscard]] bool floats(Index block, const State& state);
 
-/// Its drag, added to `force`.
+/// Add the drag on a block to `force`.
 /// @param share  WaterRule::drag
 void add_drag(Index block, double share, const Model& model, const State& state, Triple& force);
 
-/// The cycle up to which forces of water hold that are found now.
+/// The cycle up to which forces of water that are found now hold.
 [[nodiscard]] std::int64_t water_holds_until(const Model& model, const State& state, const WaterRule& rule);
 
 /// Where a block is after some time, if it goes on as now.
