@@ -5,6 +5,6 @@
 
 namespace hdem
 {
-/// Of the second block against the shear axis, relative to the first, in the middle of the contact, since the stage began [m].
+/// Slip of the second block against the shear axis, relative to the first, in the middle of the contact, since the stage began [m].
 [[nodiscard]] double slip_of(const Blocks& blocks, const ContactReport& contact);
 }  // namespace hdem

@@ -61,9 +61,9 @@ std::string hdf5_reason();
 [[noreturn]] void fail_hdf5(const std::filesystem::path& file, const std::string& object, const char* action,
                             const std::string& reason);
 
-/// In memory.
+/// Type in memory.
 hid_t native_type(ElementType type);
-/// In the file: little-endian on every machine.
+/// Type in the file: little-endian on every machine.
 hid_t stored_type(ElementType type);
 /// Bytes.
 std::size_t element_size(ElementType type);

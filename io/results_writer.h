@@ -38,7 +38,7 @@ class ResultsWriter
     /// Rows up to `cycle` that the file on disk has in tables of the same columns: to go on after a restart.
     void take_over_rows(std::int64_t cycle);
 
-    /// Takes a part of the run's time that stays small: at most every ten seconds, more seldom when writing is slow.
+    /// Is it time to write? At most every ten seconds, and more seldom when writing is slow, so that it takes a small part of the run's time.
     [[nodiscard]] bool is_due() const;
     /// At the end of a stage too, unless stages are so short that writing would take more than a twentieth of the time.
     [[nodiscard]] bool is_due_after_stage() const;

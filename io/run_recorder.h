@@ -27,7 +27,7 @@ class RunRecorder : public Observer
     void observe(const Model& model, const State& state) override;
     void end_stage(const Model& model, const State& state) override;
 
-    /// The case that results are of has changed: stages to come.
+    /// The case of these results has changed in stages to come.
     void take_case(const std::string& text, const std::vector<std::string>& overrides);
     /// Rows that are still in memory go to the disk: what a checkpoint needs beside it.
     void save();
@@ -35,9 +35,9 @@ class RunRecorder : public Observer
     [[nodiscard]] std::vector<Vec2> history_axes() const;
     /// A frame of this state, unless the last one shows the same cycle. Throws RunError, also of the frame before.
     void write_frame(const Model& model, const State& state);
-    /// Until the last frame is on the disk. Throws RunError where it could not be written.
+    /// Wait until the last frame is on the disk. Throws RunError where it could not be written.
     void await_frame();
-    /// Last words: a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
+    /// Write a frame and rows of this state, and everything that is still in memory. For a run that ends or fails, not for one that is
     /// to go on from a checkpoint: it would not have these rows without the break.
     void finish(const Model& model, const State& state);
     /// A frame of a run that is broken off. It goes when the run goes on.

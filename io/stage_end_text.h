@@ -11,7 +11,7 @@ namespace hdem
 struct ReadStageEnd
 {
     StageEndDef end;
-    std::string why;  ///< it is wrong; empty: it is not
+    std::string why;  ///< what is wrong; empty: nothing
     std::string remedy;
 };
 

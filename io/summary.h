@@ -55,7 +55,6 @@ struct ThreadSummary
     std::int64_t trials = 0;      ///< of other numbers
 };
 
-/// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
 /// A bolt at the end. Forces are those of one bolt, energies those of a metre of thickness.
 struct BoltSummary
 {
@@ -101,6 +100,7 @@ struct LinerSummary
 };
 [[nodiscard]] std::vector<LinerSummary> summarise_liners(const Model& model, const State& state);
 
+/// Fields are written under their own names, in this order. SI units. A number that is not finite becomes null.
 struct RunSummary
 {
     std::string case_name;  ///< key "case": name of the case file

@@ -7,7 +7,8 @@
 
 namespace hdem
 {
-/// Waits shorter than this are spun away [s]. Waking a thread takes a tenth to a half of it, a turn of somebody else on a processor a hundred times as long.
+/// Waits shorter than this are spun away [s]. Waking a thread takes a tenth to a half of this time; if another thread gets the processor, its time slice
+/// is a hundred times as long.
 inline constexpr double longest_spin = 50e-6;
 
 /// Leaves the processor's shared units to others for a moment.
@@ -22,15 +23,16 @@ inline void pause_briefly()
 
 /// A number that only grows, and threads that wait until it has grown.
 ///
-/// No call is missed: who waits first counts itself as asleep, then looks at the number; who calls first changes the number, then looks for sleepers. The four are
-/// sequentially consistent, so one of the two sees the other. And the kernel puts nobody to sleep whose number has changed. What the caller wrote before
+/// No call is missed. A waiting thread counts itself as asleep, then looks at the number. A calling thread changes the number, then looks for sleepers. These four
+/// operations are sequentially consistent, so one of the two threads sees the other. And the kernel puts no thread to sleep whose number has changed. What
+/// the caller wrote before
 /// call() is seen after wait().
 class alignas(64) Signal
 {
   public:
     [[nodiscard]] std::uint32_t number() const { return number_.load(std::memory_order_acquire); }
 
-    /// Until the number is not `seen` any more.
+    /// Wait until the number is not `seen` any more.
     void wait(std::uint32_t seen)
     {
         if (spin(seen))
