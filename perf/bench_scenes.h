@@ -8,7 +8,7 @@
 
 namespace hdem::perf
 {
-/// The first three are those that are tuned by; the others are not looked at while something is changed, and must be about as fast. `rough_wall` is the wall with
+/// The first three scenes are used for tuning. The others are not used while something is changed, and must be about as fast. `rough_wall` is the wall with
 /// joints of Barton and Bandis: at least half as fast.
 inline constexpr std::array<const char*, 3> named_scenes{"wall", "voronoi", "joints"};
 inline constexpr std::array<const char*, 4> other_scenes{"hexagons", "long_bricks", "dips", "rough_wall"};

@@ -40,10 +40,10 @@ inline constexpr double flops_each = 2.0 * 4 * flops_chains * flops_rounds;
 /// What a closed point needs in a cycle, counted from the source (perf/README.md): double operations, and bytes from memory where nothing stays in a cache.
 inline constexpr double operations_a_point = 170.0;
 inline constexpr double bytes_a_point = 310.0;
-/// Blocks from which it does not.
+/// Number of blocks from which on nothing stays in a cache.
 inline constexpr Index blocks_beyond_caches = 100'000;
 
-/// Looks at the machine again and again between pieces of a measurement: what slows the one down on a shared machine slows the other.
+/// Measures the machine again and again between pieces of a measurement, so that other work on a shared machine slows both alike.
 class Limits
 {
   public:

@@ -1,5 +1,5 @@
 #pragma once
-/// While a model is built nothing asks for the time. This does: a progress line on a terminal, and the end of the program when --max-wall is over.
+/// Watches the time while a model is built, when nothing else does: shows a progress line on a terminal, and ends the program when --max-wall is over.
 
 #include <chrono>
 #include <condition_variable>
@@ -26,7 +26,7 @@ class Patience
     explicit Patience(Settings settings);
     Patience(const Patience&) = delete;
     Patience& operator=(const Patience&) = delete;
-    /// The work is done: the line goes.
+    /// The work is done: ends the watch and removes the line.
     ~Patience();
 
   private:

@@ -19,7 +19,7 @@ class RunFiles
   public:
     using Clock = RunKeeper::Clock;
 
-    /// Says what is to run.
+    /// Prints what is to run.
     /// @param begin  of the program
     RunFiles(const RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin);
 
@@ -28,9 +28,9 @@ class RunFiles
     /// @param keeper  asked in place of keeper(), if given
     std::vector<StageResult> run(Simulation& simulation, const std::vector<Observer*>& also = {}, Keeper* keeper = nullptr,
                                  const StagePart& part = {});
-    /// Last words of a run that has come to its end. Throws RunError where its energies do not add up.
+    /// Closes a run that has come to its end: last results, and the summary. Throws RunError where its energies do not add up.
     [[nodiscard]] RunSummary finish(const RunStart& start, Simulation& simulation, const std::vector<StageResult>& stages);
-    /// The text of the case has changed: stages to come.
+    /// The text of the case has changed in stages to come.
     void take_case(const RunRecord& record);
     /// A frame of a run that is broken off.
     void show_interruption(const Simulation& simulation);

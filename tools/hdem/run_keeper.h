@@ -1,5 +1,5 @@
 #pragma once
-/// Takes checkpoints of a run, and breaks it off when a signal or the time on the wall says so.
+/// Takes checkpoints of a run, and breaks it off when a signal comes or the wall time is over.
 
 #include "io/checkpoint.h"
 #include "io/run_recorder.h"
@@ -38,7 +38,7 @@ class RunKeeper : public Keeper
     void go_on() { record_.finished = false; }
     /// A checkpoint of this moment.
     void save_now(const Simulation& simulation) { save(simulation); }
-    /// The text of the case has changed: stages to come.
+    /// The text of the case has changed in stages to come.
     void take_case(const RunRecord& record);
 
     /// Exit code of a run that was broken off; nothing for one that was not.

@@ -9,7 +9,7 @@
 
 namespace hdem
 {
-/// Since this program began, or since it went on from a checkpoint.
+/// Times since this program began, or since it went on from a checkpoint.
 struct Session
 {
     std::int64_t first_cycle = 0;

@@ -15,7 +15,7 @@
 
 namespace hdem
 {
-/// Where Python sees memory of the run: such a view must be gone before cycles go on, because blocks may then be sorted anew in other memory.
+/// Python may hold views of the run's memory. They must be gone before cycles go on, because blocks may then be sorted anew in other memory.
 class DrivenRun : public std::enable_shared_from_this<DrivenRun>
 {
   public:
@@ -33,7 +33,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     DrivenRun(const DrivenRun&) = delete;
     DrivenRun& operator=(const DrivenRun&) = delete;
 
-    /// Until the piece is done, the callback says so, or an exception of Python. The GIL is free while cycles run.
+    /// Run until the piece is done, the callback stops it, or Python throws an exception. The GIL is free while cycles run.
     const std::vector<StageResult>& run(const Piece& piece);
 
     /// Stages to come are those of another text of the same case.
@@ -49,7 +49,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     [[nodiscard]] const std::vector<StageResult>& results() const { return results_; }
     /// The present stage has come to its end.
     [[nodiscard]] bool is_over() const { return over_ || was_finished(); }
-    /// And it is the last one.
+    /// The last stage has come to its end.
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] const RunStart& start() const { return start_; }
     [[nodiscard]] const std::string& summary() const { return summary_; }
@@ -68,7 +68,7 @@ class DrivenRun : public std::enable_shared_from_this<DrivenRun>
     class Watch;
     class Guard;
 
-    /// It is of a checkpoint of a run that was done, and no cycle has run since.
+    /// The run comes from a checkpoint of a finished run, and no cycle has run since.
     [[nodiscard]] bool was_finished() const { return start_.restarted && start_.record.finished && results_.empty(); }
     void require_idle(const char* what) const;
     void require_no_view() const;

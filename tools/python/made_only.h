@@ -1,6 +1,7 @@
 #pragma once
-/// An object whose __init__ has failed is still at hand for a debugger, and for who made it by __new__: it holds nothing, and says so when it is asked.
-/// Without that pybind11 gives it memory that nobody has filled.
+/// Objects whose __init__ has failed or has not run. A debugger, or code that called __new__, can still use such an object; it holds nothing, and each use
+/// throws an error.
+/// Otherwise pybind11 would give it memory that nobody has filled.
 
 #include <pybind11/pybind11.h>
 

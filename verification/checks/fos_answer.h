@@ -33,7 +33,8 @@ struct FosRun
 /// `case_file` relative to cases/fos. Throws SearchStopped where it is asked to stop.
 [[nodiscard]] FosAnswer find_factor(const std::string& case_file, const Overrides& overrides, const FosRun& run = {});
 
-/// Adds a row: of three searches, on 2 threads, on 3 threads, and broken off after three trials and gone on with, those with the trials of `one`, bit for bit.
+/// Adds a row: how many of three searches have the trials of `one`, bit for bit. One runs on 2 threads, one on 3 threads, and one is broken off after
+/// three trials and continued.
 void require_same_trials(Report& report, const std::string& name, const FosAnswer& one, const std::string& case_file,
                          const Overrides& overrides);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A problem again on several threads, and broken off and gone on with: the state must be the same to the last bit.
+/// Repeats a problem on several threads, and with a break and a restart: the state must be the same to the last bit.
 
 #include "verification/checks/case_run.h"
 #include "verification/checks/checks.h"
@@ -20,7 +20,7 @@ struct OtherRuns
 inline constexpr std::array<int, 2> two_and_three{2, 3};
 
 /// Adds a row for each method, with the model as drawn and turned by 23 degrees: how many of some runs end otherwise than the run on one thread. They are
-/// those on 2 and on 3 threads, or on others, and one on 2 threads that goes on from a checkpoint written half way. State hash, what is told of the stages and
+/// those on 2 and on 3 threads, or on others, and one on 2 threads that goes on from a checkpoint written half way. State hash, results of the stages and
 /// all terms of the energy ledger are compared.
 ///
 /// A model with fewer than 512 contacts runs its cycles on one thread, however many are asked for, one with fewer than 768 on two.

@@ -1,5 +1,5 @@
 #pragma once
-/// What became of a scene against what certainly does.
+/// Compares the outcome of a scene with what certainly becomes of it.
 
 #include "verification/rest/run.h"
 
