@@ -13,7 +13,7 @@ namespace hdem
 namespace
 {
 constexpr Index parts_a_chunk = 512;
-/// Chunks whose contacts wait at the same time to be put into the list: a contact by itself takes more memory than in the list.
+/// Number of chunks whose contacts wait at the same time to be put into the list: a contact takes more memory by itself than in the list.
 constexpr Index chunks_a_round = 64;
 
 static_assert(contacts_a_stretch == largest_part, "packs do not reach from one part into the next");

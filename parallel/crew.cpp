@@ -16,7 +16,7 @@ thread_local bool is_in_team = false;
 #ifdef _OPENMP
 thread_local std::unique_ptr<Crew> crew;
 
-/// A process that forks leaves the crew behind: the child has its memory, but none of its threads, which nobody may wait for or join.
+/// Called in the child of a fork: the child has the crew's memory but none of its threads, so nothing may wait for them or join them.
 void abandon_crew()
 {
     static_cast<void>(crew.release());

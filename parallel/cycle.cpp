@@ -19,14 +19,15 @@ namespace hdem
 {
 namespace
 {
-/// Share of critical damping of bolts on blocks that have no local damping, where rest is looked for. Local damping alpha takes of a swing what alpha / pi of the critical
-/// one does.
+/// Damping of bolts on blocks that have no local damping, in stages that seek rest, as a share of the critical one. Local damping alpha damps a swing as
+/// alpha / pi of the
+/// critical damping does.
 double damping_of_bolts(const DampingRule& rule)
 {
     return rule.settling > 0.0 ? rule.local * std::numbers::inv_pi : 0.0;
 }
 
-/// Linings have none elsewhere.
+/// Local damping of linings, in stages that seek rest only.
 double damping_of_liners(const DampingRule& rule)
 {
     return rule.settling > 0.0 ? rule.local : 0.0;

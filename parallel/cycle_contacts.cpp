@@ -13,7 +13,7 @@ namespace hdem
 {
 namespace
 {
-/// Ask for what the contacts of a part need that comes soon: processors do not see these addresses coming. `sums`: to be added to, or none.
+/// Prefetch the data that contacts of a later part need: processors cannot predict these addresses. `sums`: those to be added to, or none.
 void fetch_ahead(const Partition& partition, Index now, Index end, const Blocks& blocks, BlockForce* sums)
 {
     constexpr Index own_ahead = 3;

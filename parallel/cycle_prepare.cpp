@@ -1,4 +1,4 @@
-/// What cycles need that stays from one to the next: contacts found anew, the work cut into parts, blocks that are left out.
+/// Data that cycles need and that stay from one cycle to the next: contacts found anew, the partition of the work, blocks that are left out.
 
 #include "core/boundary/mean_hold.h"
 #include "core/boundary/side_forces.h"

@@ -21,7 +21,8 @@ void cut(Index size, Index a_part, std::vector<Part>& parts)
     }
 }
 
-/// Least colour that no part before has on a movable block of this one. A block with 64 colours takes no more: such parts get colours of their own.
+/// Give each part the least colour that no earlier part has on one of its movable blocks. If a block has 64 colours already, its further parts get colours
+/// of their own.
 void find_colours(const State& state, Partition& partition)
 {
     const Contacts& contacts = state.contacts;

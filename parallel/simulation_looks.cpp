@@ -1,4 +1,4 @@
-/// What a simulation tells of its state: the largest step, what is wrong, whether it rests.
+/// What a simulation finds in its state: the largest step, problems, and whether it rests.
 
 #include "core/boundary/servo.h"
 #include "core/detection/contact_tracking.h"

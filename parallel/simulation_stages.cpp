@@ -31,7 +31,7 @@ void remove_block(Index block, Blocks& blocks)
     blocks.motion[block].vx = blocks.motion[block].vy = blocks.motion[block].w = 0.0;
 }
 
-/// What was found of the rock in the stage before holds no more.
+/// Forget what was found of the rock in the stage before: it is no longer valid.
 void forget_stage(const StageDef& def, double time_step, State& state)
 {
     state.quiet_since = -1.0;

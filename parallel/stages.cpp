@@ -22,7 +22,7 @@ void show(Simulation& simulation, std::span<Observer* const> observers, bool all
             observer->observe(simulation.model(), simulation.state());
 }
 
-/// How many cycles take about a fifth of a second: so long a keeper may wait.
+/// Finds how many cycles take about a fifth of a second: a keeper may wait so long.
 class Pace
 {
   public:

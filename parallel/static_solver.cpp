@@ -26,8 +26,9 @@ double weight_work(const Model& model, const State& before, const State& after)
     return work;
 }
 
-/// Do the others stand once the blocks that come away have left? Those that lose their hold then leave as well, until none does. Blocks that come away are held where they were,
-/// and bear on: what stands by that alone does not stand.
+/// Do the other blocks stand once the blocks that come away have left? Blocks that lose their hold then leave as well, until none does. (During the
+/// search, blocks that come away are held
+/// where they were, and still bear others. What stands by them alone does not stand.)
 /// @return  all that have left, and whether the others are in balance
 StaticOutcome let_leave(const Model& model, State trial, int threads, const StaticRule& rule, const StaticOutcome& held)
 {

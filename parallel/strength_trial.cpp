@@ -24,8 +24,8 @@ double creep_time(const Model& model, double way, double tolerance, double facto
     return 0.25 * std::sqrt(2.0 * way / std::max(acceleration, 1e-12));
 }
 
-/// The forces of water stay those of the start, as F is that of the rock as it stands: found anew as blocks move, they would push less on what has
-/// begun to fail.
+/// The model with the forces of water fixed at those of the start, since F is that of the rock as it stands. Found anew as blocks move, water would push less on
+/// blocks that have begun to fail.
 Model with_water_as_it_is(Model model)
 {
     model.water.given = false;

@@ -14,7 +14,7 @@ namespace
 constexpr std::int64_t check_state_every = 1000;
 constexpr std::int64_t most_cycles_of_elastic_state = 1'000'000;
 
-/// The value that it has in this state, for ever.
+/// Keep a factor at the value that it has in this state.
 void hold_factor(Factor& factor, double time_step, const State& state)
 {
     if (!factor.varies())
@@ -23,7 +23,7 @@ void hold_factor(Factor& factor, double time_step, const State& state)
     factor = {.rows = {{0.0, value}}};
 }
 
-/// A lining that is there does not change with its age any more.
+/// Keep an installed lining as it is: it does not change with its age any more.
 void hold_liner(Liner& liner, std::int64_t age)
 {
     if (age < 0)
@@ -34,8 +34,8 @@ void hold_liner(Liner& liner, std::int64_t age)
         liner.hardening = {{{0.0, hardening_at(liner, age)}}};
 }
 
-/// Loads and sides that act in this state go on as they are in it, other loads are over. Trials begin the stage anew: what is counted from its
-/// start would begin anew with it.
+/// Keep loads and sides that act in this state as they are, and end all other loads. Trials begin the stage anew: otherwise what is counted from its start
+/// would begin anew, too.
 void hold_loads(Model& model, const State& state)
 {
     std::erase_if(model.loads,

@@ -20,7 +20,7 @@ std::set<Index> held_in(const Model& model, Index stage)
     return held;
 }
 
-/// How far the present blocks of the side that reach a wall stand out of the edge as drawn, at most; 0 if there is none [m].
+/// Greatest distance by which present blocks of the side, in front of a wall, stand out of the edge as drawn; 0 if there are none [m].
 double outermost(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks)
 {
     double most = -std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@
 
 namespace hdem
 {
-/// Laws of users, the last of the list, are asked for four points.
+/// Laws of users, the last of the list, are evaluated four points at a time.
 void evaluate_joint_points(const BasicContactGroup<WidePack>& g, WideMask impulsive, const std::array<WidePack, 2>& share,
                            WidePack dt, const BasicJointPlace<WidePack>& place, BasicSums<WidePack>& sums)
 {

@@ -9,7 +9,8 @@ namespace hdem
 [[nodiscard]] bool has_wide_packs();
 
 /// The bits of four contacts at a time.
-/// @pre  has_wide_packs(), `range` has a multiple of eight contacts (with those that fill the arrays up), and each eight of them pass `suits_wide_packs`
+/// @pre  has_wide_packs(), `range` has a multiple of eight contacts (with those that fill the arrays up), and each eight of them are plain, or all of one
+/// law and curve that is not the user's (suit_wide_packs in contact_forces.cpp)
 [[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
                                              const PassNeeds& needs);

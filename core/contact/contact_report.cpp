@@ -18,7 +18,7 @@ EdgeTouch touch_of(const State& state, Index contact)
     return touch_edges(edges, ref, inc);
 }
 
-/// Take off a force on a block at `arm` from its centroid, each time with half of x f + f x in the xy place.
+/// Subtract the part of one force on a block, at `arm` from its centroid. The xy component gets half of x f_y + y f_x.
 void add(MeanStress& stress, const Vec2& arm, const Vec2& force, double area)
 {
     stress.xx -= arm.x() * force.x() / area;

@@ -15,25 +15,26 @@ namespace hdem
 {
 namespace
 {
-/// Of the velocity that a cycle's forces and impacts give, what sweeps may leave, and what a solution leaves of that.
+/// Share of the velocity by a cycle's forces and impacts that sweeps may leave unsolved, and share of that which a solution may leave [-].
 constexpr double left_by_sweeps = 1e-3;
 constexpr double solved = 1e-2;
-/// The same where rest is looked for, as a share of what a block at rest may be out of balance by: more, and the stage would wait for what nobody solves. (Where one block has most of
-/// the weight, as a share of what all together may be.)
+/// The share that sweeps may leave in a stage that seeks rest, of the unbalance that a block at rest may have. With more, the stage could wait for ever
+/// for an unbalance that is not solved. (Where one block has most
+/// of the weight, of the unbalance that all blocks together may have.)
 constexpr double left_at_rest = 0.3;
-/// The same in an impact, where it stays: no later cycle takes it back.
+/// The same in an impact, which no later cycle corrects.
 constexpr double left_in_impact = 1e-6;
-/// Of the overlap to be taken back, and of the one that is allowed.
+/// The same for the position correction, of the overlap to be removed and of the allowed one.
 constexpr double noticeable_overlap = 1e-2;
-/// Of the greatest velocity: what rounding leaves to a block of a millionth of the mass of those that press it.
+/// Share of the greatest velocity that rounding leaves, at a block of a millionth of the mass of those that press it.
 constexpr double rounding = 1e-9;
-/// Points of an island that is solved as a whole.
+/// Greatest number of points of an island that is solved as a whole.
 constexpr std::size_t small_island = 100;
-/// Points of a cluster that is solved at all: the time grows faster than their number.
+/// Greatest number of points of a cluster that is solved at all: the time grows faster than their number.
 constexpr std::size_t small_cluster = 200;
 /// A cluster is solved where sweeps have left this many times what they have left around it.
 constexpr double worth = 3.0;
-/// What a larger cluster gets, times the sweeps of a cycle.
+/// Sweeps of a larger cluster, as a multiple of those of a cycle.
 constexpr int more_sweeps = 10;
 
 double noticeable(const Model& model, ExactIslands which, bool suits_sweeps)

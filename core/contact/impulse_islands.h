@@ -16,7 +16,7 @@ namespace hdem
 enum class ExactIslands
 {
     great_mass_ratios,  ///< islands for which sweeps would need many cycles
-    hit,                ///< while blocks hit each other: islands of great mass ratios, and more sweeps for small ones that are hit; else as `small`
+    hit,  ///< while blocks hit each other: islands of great mass ratios, and more sweeps for small ones that are hit; else as `small`
     small  ///< great mass ratios, and all others of few points: after sweeps alone, a tall stack sways and never comes to rest
 };
 

@@ -22,7 +22,7 @@ ImpulseStrength strength_of(const Model& model, const Contacts& contacts, Index 
     return impulse_strength(slip, model.joints.rows[law], contacts.memory(end, contact));
 }
 
-/// By which slip has opened a dilatant joint in the last cycle; below 0 where it has closed it [m].
+/// Opening of a dilatant joint by slip in the last cycle; below 0: it has closed [m].
 double opened(const Model& model, const Contacts& contacts, Index contact, int end, double slide)
 {
     const Index law = contacts.law[contact];

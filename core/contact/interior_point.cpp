@@ -11,7 +11,7 @@ namespace
 constexpr int patience = 20;     ///< steps in which the error must fall by half
 constexpr int most_rounds = 20;  ///< of Haslinger, in which the error must fall by half
 constexpr double kept = 0.9;     ///< share of the way to the boundary that a step may go
-/// Of impulses, over what could stop the heaviest block. A wedge that jams can be held by any impulses, or by none at all.
+/// Greatest impulse, over what could stop the heaviest block. A wedge that jams can be held by arbitrarily great impulses, or by none at all.
 constexpr double most_gain = 1e4;
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace hdem
 {
 namespace
 {
-/// The greater one, and no number where one is none: impulses that are none must not pass for right.
+/// The greater one; NaN if one of them is NaN: impulses that are NaN must not count as solved.
 double greater(double a, double b)
 {
     return a > b || std::isnan(a) ? a : b;

@@ -11,7 +11,7 @@ using Step = BasicJointStep<Pack>;
 using Memory = BasicJointMemory<Pack>;
 using Stress = BasicJointStress<Pack>;
 
-/// Lanes with different laws, some of which may be plain. Each law is asked once, for all its lanes: no lane depends on the laws of the others.
+/// Lanes with different laws, some of which may be plain. Each law is evaluated once, for all its lanes: no lane depends on the laws of the others.
 struct MixedLaws
 {
     static constexpr bool has_all_lanes = false;

@@ -8,8 +8,7 @@ namespace hdem
 {
 namespace
 {
-/// Of the size of the smaller block: rock whose springs an impact would press by more does not keep them. (A block on a stone of
-/// a thousandth of its mass.)
+/// Share of the size of the smaller block: rock keeps its springs only if an impact presses them by less (not where a block hits a stone of a thousandth of its mass).
 constexpr double bearable_share = 0.05;
 }  // namespace
 

@@ -25,7 +25,8 @@ using Pair = double __attribute__((vector_size(16)));
     return words;
 }
 
-/// What acts on a block, while its loads are added. In vectors throughout: which joint of a block is in use most nobody can predict, and g++ makes branches of all else.
+/// Sum of the loads on a block, while they are added. In vectors throughout: g++ makes branches of anything else, and a processor cannot predict which joint of a
+/// block is used most.
 template <bool find_joint>
 class LoadSum
 {

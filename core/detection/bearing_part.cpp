@@ -7,11 +7,12 @@ namespace hdem
 {
 namespace
 {
-/// Parts around one: two rings of neighbours, since a part without external edges may lie between two that can bear.
+/// Rings of neighbours around a part that are searched: two, since a part without external edges may lie between two that can bear.
 constexpr int rings = 2;
 
-/// Times the depth: an external edge that lies farther behind is on the other side of the block. (A spike of 37 degrees along a seam lies three times as deep behind
-/// the face as behind the seam.)
+/// Multiple of the depth. An external edge behind which the overlap is deeper is on the other side of the block. (A spike of 37 degrees along a seam lies
+/// three times as deep
+/// behind the face as behind the seam.)
 constexpr double farthest = 3.0;
 
 Index part_of(const Shapes& shapes, Index block, Index edge)

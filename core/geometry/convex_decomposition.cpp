@@ -15,7 +15,7 @@ namespace hdem
 {
 namespace
 {
-/// From vertex to vertex, both by their coordinates.
+/// Edge from vertex to vertex, both by their coordinates.
 using Ends = std::array<double, 4>;
 
 struct HashOfEnds

@@ -23,7 +23,7 @@ using BoostBox = boost::geometry::model::box<BoostPoint>;
 using Entry = std::pair<BoostPoint, std::size_t>;  // position and number of a vertex
 using Tree = bgi::rtree<Entry, bgi::quadratic<8>>;
 
-/// Of a new edge, shortest first; of equal ones the first vertex.
+/// Order of new edges: shortest first; of equal ones the first vertex.
 struct Candidate
 {
     double length2;

@@ -32,7 +32,7 @@ struct ForcePoint
     std::array<std::array<double, 3>, 2> normal;  ///< on each block: force and moment over radius of N = 1
     std::array<std::array<double, 3>, 2> shear;
     PointStrength strength;
-    bool is_open = false;                   ///< by less than the least contact length: it bears nothing now
+    bool is_open = false;                   ///< by a gap below the length floor: it bears nothing now
     std::array<int, 3> column{-1, -1, -1};  ///< of the program that it is part of
 };
 

@@ -18,7 +18,7 @@ bool is_unbound(const BlockInertia& inertia)
     return inertia.inverse_mass_x > 0.0 && inertia.inverse_mass_y > 0.0 && inertia.inverse_inertia > 0.0;
 }
 
-/// Time in which it uses up its share of the margin, accelerated by g all the way [s].
+/// Time in which a block uses up its share of the margin, accelerated by g all the way [s].
 double flight_time(Index block, const Model& model, const Blocks& blocks)
 {
     const double speed = blocks.velocity(block).norm() + std::abs(blocks.motion[block].w) * model.radius[block];

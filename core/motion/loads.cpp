@@ -10,7 +10,7 @@ namespace hdem
 {
 namespace
 {
-/// A load at a cycle counted from where its own times begin.
+/// Does a load act at a cycle, counted from where its own times begin?
 bool acts_at(const Load& load, std::int64_t cycle)
 {
     return cycle >= load.from && cycle < load.until;
@@ -26,7 +26,7 @@ double factor_of(const Load& load, const Model& model, const State& state)
     return load.factor.varies() ? load.factor.at(cycles_since(load.factor.since, state), model.time_step) : 1.0;
 }
 
-/// Of a force about the centroid. Its arm turns with the block [N m].
+/// Moment of a force about the centroid. Its arm turns with the block [N m].
 double moment_of(const Vec2& force, const Vec2& arm, const BlockMotion& motion)
 {
     const Vec2 turned(motion.c * arm.x() - motion.s * arm.y(), motion.s * arm.x() + motion.c * arm.y());

@@ -36,7 +36,7 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
 ///   others                                         as each block by itself
 ///
-/// A block without bolts that all others meet in one point, and that tips about it away from where it stood, is not damped either (core/tried.md).
+/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md).
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups
@@ -44,7 +44,7 @@ class MovingGroups
   public:
     /// @param fast  ascending
     /// @param bolted  blocks with other forces between them than those of contacts: a group with one of them is left as it is
-    /// @param moving  members of groups of both kinds
+    /// @param moving  members of groups of the first two kinds, and blocks that tip
     void find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
               const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 

@@ -10,7 +10,7 @@ namespace hdem
 {
 namespace
 {
-/// Of one contact on its incident block, with the moment about that block's centroid, and the same on the reference block.
+/// Force of one contact on its incident block, with the moment about that block's centroid, and the same on the reference block.
 struct ContactForce
 {
     Triple on_inc, on_ref;

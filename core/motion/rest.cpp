@@ -9,7 +9,7 @@ namespace hdem
 {
 namespace
 {
-/// Slow at both ends of the checks, it was accelerated by less than this speed over half of their time, on average.
+/// Speed below which a block is quiet. A block that is slower at both ends of the checks was, on average, accelerated by less than this speed over half of their time.
 double quiet_speed(const RestRule& rule, double step)
 {
     return std::min(rule.quiet_speed, 0.5 * stopped * rest_every * step * rule.quiet_on_average);

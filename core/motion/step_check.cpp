@@ -13,7 +13,7 @@ namespace hdem
 {
 namespace
 {
-/// Upper bound on what a unit force moves a block, at its rim [1/kg].
+/// Upper bound on the acceleration of a block's rim by a unit force [1/kg].
 double mobility_bound(const Model& model, Index block, const Vec3& inverse_mass)
 {
     return inverse_mass[0] + inverse_mass[1] + model.radius[block] * model.radius[block] * inverse_mass[2];

@@ -60,8 +60,9 @@ struct StepBound
 ///
 ///   stable_share stable_step_of      found anew if `look_at_all`, else from Blocks::stable_step
 ///   1.5e-3 size / speed              of what moves and touches something; 0.02 with something near it
-///   (1e-7 size / falls_by)^1/2       by impulses alone: a stack that fell by more between two of them walked on its joints
+///   (1e-7 size / falls_by)^1/2       by impulses alone: a stack that falls by more between two of them would walk on its joints
 ///   0.1 margin / speed               of what moves with nothing near it: what it is about to hit is found in time
+///   0.03 / swing_rate                of the same in water (core/water/water_motion.h)
 [[nodiscard]] StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, const Model& model,
                                     const BlockContacts& list, const Contacts& contacts, Blocks& blocks);
 

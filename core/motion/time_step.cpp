@@ -21,7 +21,7 @@ double paper_time_step(double smallest_mass, double greatest_stiffness, double f
 
 namespace
 {
-/// Of a block's outline [m].
+/// Longest side of a block's outline [m].
 double longest_side(const Shapes& shapes, Index block)
 {
     double longest = 0.0;

@@ -31,7 +31,7 @@ double smallest_free_mass(const Model& model, const Blocks& blocks)
     return mass;
 }
 
-/// The blocks with those free that a stage frees: a time step must be good for them too.
+/// The blocks with those free that a stage frees: the time step must be stable for these, too.
 Blocks with_freed_names(const Model& model, Blocks blocks)
 {
     for (const StageDef& stage : model.stages)

@@ -23,7 +23,7 @@ bool is_on_side(const Vec2& a, const Vec2& b, const Box& box, const std::string&
            (side == "bottom" && on(a.y(), b.y(), box.low.y())) || (side == "top" && on(a.y(), b.y(), box.high.y()));
 }
 
-/// How much longer than its edge a wall is at a corner: as far as it is thick where the corner is convex, less than 0 up to the bisector where it is concave.
+/// How much longer than its edge a wall is at a corner [m]: by its thickness at a convex corner; below 0, up to the bisector, at a concave one.
 /// @param before, after  directions of the two edges that meet
 double reach(const Vec2& before, const Vec2& after, double thickness)
 {

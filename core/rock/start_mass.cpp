@@ -32,7 +32,7 @@ std::string source_key(const CaseDef& def, std::size_t source)
                                       : "region[" + std::to_string(source - def.faults.size()) + "].polygon";
 }
 
-/// What of a fault or an outline parts nothing was not cut.
+/// Warn of parts of faults and outlines that separate nothing: they were not cut.
 void warn_of_dropped(const CaseDef& def, RockMass& rock)
 {
     const std::vector<double>& dropped = def.trace_cells.dropped;

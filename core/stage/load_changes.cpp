@@ -12,7 +12,7 @@ namespace hdem
 {
 namespace
 {
-/// Cycle of the run at which those of a factor, or of its load, begin to count. @pre that stage has begun
+/// Cycle of the run from which the cycles of a factor, or of its load, are counted. @pre that stage has begun
 std::int64_t zero_of(const Factor& factor, const State& state)
 {
     return state.cycle - cycles_since(factor.since, state);

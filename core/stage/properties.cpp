@@ -27,7 +27,7 @@ CoulombSlip between(const CoulombSlip& from, const CoulombSlip& to, double share
     return law;
 }
 
-/// After its law's numbers have changed each by itself: those that follow from others, as 1 / K_S.
+/// Find the numbers of a law that follow from others, as 1 / K_S, after these have changed.
 void settle(JointRow& row)
 {
     if (row.has_memory())

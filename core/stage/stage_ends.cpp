@@ -27,7 +27,7 @@ std::uint64_t user_part(const Model& model, Index part)
            static_cast<std::uint64_t>(part - model.shapes.part_begin[block]);
 }
 
-/// Of the second block against the first along the joint, in the middle of the contact [m/s].
+/// Speed of the second block against the first along the joint, in the middle of the contact [m/s].
 double sliding_speed(const Blocks& blocks, const ContactReport& contact)
 {
     const Vec2 middle = 0.5 * (contact.point[0] + contact.point[1]);

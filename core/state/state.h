@@ -23,11 +23,11 @@ struct ReleasedForce
     double moment = 0.0;  ///< about the block's centroid [N m]
 };
 
-/// A block that falls or slides together with others, and how (core/motion/moving_groups.h).
+/// A block that falls or slides together with others, or tips, and how it is damped (core/motion/moving_groups.h).
 struct MovingBlock
 {
     Index block = no_index;
-    bool flies = false;            ///< its group touches nothing; else it slides on joints of this direction
+    bool flies = false;  ///< its group touches nothing, or it tips: not damped; else it slides on joints of this direction
     float t_x = 1.0F, t_y = 0.0F;  ///< [-]
 };
 

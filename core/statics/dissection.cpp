@@ -11,7 +11,7 @@ namespace
 /// Larger sets are cut.
 constexpr Index leaf_size = 120;
 
-// Of more lines, or of a wider band, hardly any factor gets smaller.
+// More lines, or a wider band, make hardly any factor smaller.
 constexpr std::size_t lines_tried = 3;
 constexpr int layers_tried = 1;  ///< of the band in which the lines are compared
 constexpr int layers_best = 16;  ///< of the band around the best of them

@@ -9,7 +9,7 @@ namespace
 /// Zeros that joined fronts may store, as a share of their factor.
 constexpr double most_zeros = 0.25;
 
-/// Time of a front [ns]: a start, operations, and what it hands on to be added to its parent. Measured; only the ratios matter.
+/// Time of a front [ns]: a start, operations, and what it hands on to be added to its parent. Only the ratios of these times matter.
 double front_time(double own, double border)
 {
     const double k = 3.0 * own, b = 3.0 * border;

@@ -26,7 +26,7 @@ StraightCutSearch::StraightCutSearch(const BlockGraph& graph, const std::vector<
 {
 }
 
-/// For lines between the slices from `first` to `last`.
+/// Count for lines between the slices from `first` to `last`.
 void StraightCutSearch::count_borders(std::span<const Index> blocks, const std::vector<CutSide>& side, Index first, Index last)
 {
     for (std::vector<Index>& border : border_)

@@ -12,7 +12,7 @@ constexpr Index nothing = -1;  ///< no path
 constexpr Index source = -2;
 constexpr Index sink = -3;
 
-// Of next_node().
+// Results of next_node().
 constexpr Index no_more = -1;
 constexpr Index closed = -4;
 

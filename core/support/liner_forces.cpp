@@ -14,7 +14,7 @@ namespace hdem
 {
 namespace
 {
-/// As the modulus changes all forces stay: what the beams have flowed is seen from the new one.
+/// Keep all forces as the modulus changes: plastic deformations of the beams are changed accordingly.
 void harden(const Liner& liner, double factor, const LinerMemory& memory)
 {
     if (*memory.factor == factor)
