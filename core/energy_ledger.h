@@ -21,8 +21,8 @@ struct StoredEnergy
 ///
 /// Velocities live half a step after the poses, so the energy of a spring is taken there too: 1/2 F(t) u(t + dt). With it
 /// the undamped oscillator keeps its energy to rounding; 1/2 F u at one time swings by (omega dt)^2. In the cycles in which a spring closes or opens, this
-/// differs from the energy in the spring by `pending`, which
-/// the next cycle makes up for. The ledger's sums explain total(); the energy in the system is total() - pending.
+/// differs from the energy in the spring by `pending`, which the next cycle makes up for. The ledger's sums explain total(); the energy in the
+/// system is total() - pending.
 [[nodiscard]] StoredEnergy stored_energy(const Model& model, const State& state);
 
 /// Energy in the springs of one contact at the time of its last forces, 1/2 F u + 1/2 F_S^2 / (K_S L), whatever has moved since [J].

@@ -66,7 +66,7 @@ class HistorySampler
     /// One value per column. Costs a look at the pair's contacts; the whole list is searched only after a broad phase.
     void sample(const Model& model, const State& state, std::span<double> values);
 
-    /// What it remembers from sample to sample, for a checkpoint: the normal between the two blocks, zero before their first contact.
+    /// What the sampler remembers from sample to sample, for a checkpoint: the normal between the two blocks, zero before their first contact.
     [[nodiscard]] const Vec2& axis() const { return normal_; }
     void set_axis(const Vec2& axis) { normal_ = axis; }
 

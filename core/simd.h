@@ -2,8 +2,7 @@
 /// Four doubles handled together. The laws are templates on a number type: `double` for one contact point, `Pack` for four.
 ///
 /// Compiled to one AVX or two SSE2 registers (compiler vector extensions); the width is always four, and no operation is fused or reordered, so every
-/// build gives the same bits. The compiler's own vectorisation of a loop over doubles fails at the
-/// gathers of block motions (perf/measured.md).
+/// build gives the same bits. The compiler's own vectorisation of a loop over doubles fails at the gathers of block motions (perf/measured.md).
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@ struct Version
     std::string_view build_type;  ///< "Release"
 };
 
-/// Of the library this program is linked with.
+/// Version of the library this program is linked with.
 [[nodiscard]] const Version& version();
 
 /// One line for a screen or a log, e.g. "hdem 0.2.0 (1a2b3c4d5e, changed; GNU 12.2.0, Release)".

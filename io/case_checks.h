@@ -12,21 +12,21 @@ namespace hdem
 ///
 /// What can be a name, that none is given twice, and materials and joints that others refer to:
 void check_names(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of domain, faults, regions, joint sets, excavations and stress at the start:
+/// Keys of domain, faults, regions, joint sets, excavations and stress at the start:
 void check_rock_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of boundaries:
+/// Keys of boundaries:
 void check_boundary_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of bolts:
+/// Keys of bolts:
 void check_support_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of water:
+/// Keys of water:
 void check_water_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Which numbers the law of each joint takes, and what they may be:
 void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of loads, settings and the search for a factor of safety:
+/// Keys of loads, settings and the search for a factor of safety:
 void check_run_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of stages and their ends:
+/// Keys of stages and their ends:
 void check_stage_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
-/// Of histories:
+/// Keys of histories:
 void check_history_keys(const CaseDef& def, const CaseSource& source, CaseProblems& problems);
 /// Numbers that are likely to be meant in another unit:
 void warn_of_units(const CaseDef& def, const CaseSource& source, CaseProblems& problems);

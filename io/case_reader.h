@@ -15,7 +15,7 @@ namespace hdem
 {
 /// Larger case files are refused before they are read: many blocks belong into blocks_file.
 inline constexpr std::size_t largest_case_file = 16'000'000;  // bytes
-/// Of the files that it names; a checkpoint holds them as one text.
+/// Largest size of the files that a case names; a checkpoint holds them as one text.
 inline constexpr std::size_t largest_named_file = 1'000'000'000;  // bytes
 
 /// Texts of the other files that a case names, each under the name that the case gives it.

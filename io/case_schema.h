@@ -105,6 +105,6 @@ const std::vector<std::string>& contact_quantities();
 const std::vector<std::string>& bolt_quantities();
 const std::vector<std::string>& liner_quantities();
 const std::vector<std::string>& point_quantities();
-/// Those of the kind of history that this one is.
+/// Quantities of the kind of history that this one is.
 const std::vector<std::string>& fitting_quantities(const HistoryDef& history);
 }  // namespace hdem

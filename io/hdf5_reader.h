@@ -22,7 +22,7 @@ class Hdf5Reader
     Hdf5Reader(Hdf5Reader&&) noexcept;
     Hdf5Reader& operator=(Hdf5Reader&&) = delete;
 
-    /// For what its reader finds wrong with `object`: throws RunError.
+    /// Throws RunError, for what a caller finds wrong with `object`.
     [[noreturn]] void fail(const std::string& object, const std::string& reason) const;
 
     /// A group or dataset reached by hard links.

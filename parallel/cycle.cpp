@@ -20,8 +20,7 @@ namespace hdem
 namespace
 {
 /// Damping of bolts on blocks that have no local damping, in stages that seek rest, as a share of the critical one. Local damping alpha damps a swing as
-/// alpha / pi of the
-/// critical damping does.
+/// alpha / pi of the critical damping does.
 double damping_of_bolts(const DampingRule& rule)
 {
     return rule.settling > 0.0 ? rule.local * std::numbers::inv_pi : 0.0;

@@ -33,16 +33,16 @@ struct ContactPart
     std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
     Index unstable = no_index;           ///< of these, found in this cycle
     double answer = 0.0;                 ///< greatest_answer of its springs [1/s2]
-    // What its next pass need not do, see PassNeeds.
+    // What the next pass over this part need not do, see PassNeeds.
     bool rests = true;           ///< some contact may have a rest overlap
     double farthest_view = 0.0;  ///< no vertex is farther from its edge's start [m]
     double view_way =
         0.0;  ///< how far any incident vertex moves, as seen from its edge, while no block uses up more than its margin [m]
     double seen_until = -1.0;  ///< until blocks have used up so many margins since the run began no features can be stale
 
-    /// Nothing is known of its contacts.
+    /// Forget what is known of the contacts.
     void forget();
-    /// Its contacts have been looked at. @param gone  margins that blocks have used up since the run began
+    /// The contacts have been looked at. @param gone  margins that blocks have used up since the run began
     void remember(double gone);
 };
 

@@ -73,7 +73,7 @@ class StageClock
     /// @param weight cycles that the one timed stands for; 0: none
     StageClock(StageTimes& times, double weight) : times_(times), weight_(weight) { skip(); }
 
-    /// What was done since the last lap is timed by others.
+    /// Leave out the time since the last lap: it is measured elsewhere.
     void skip()
     {
         if (weight_ > 0.0)

@@ -27,8 +27,7 @@ double weight_work(const Model& model, const State& before, const State& after)
 }
 
 /// Do the other blocks stand once the blocks that come away have left? Blocks that lose their hold then leave as well, until none does. (During the
-/// search, blocks that come away are held
-/// where they were, and still bear others. What stands by them alone does not stand.)
+/// search, blocks that come away are held where they were, and still bear others. What stands by them alone does not stand.)
 /// @return  all that have left, and whether the others are in balance
 StaticOutcome let_leave(const Model& model, State trial, int threads, const StaticRule& rule, const StaticOutcome& held)
 {

@@ -53,8 +53,7 @@ struct StaticOutcome
 
 /// Bring the blocks to rest under their weight: small steps of Newton's iteration on the contact forces as a cycle finds them, every increment of shear from the last
 /// equilibrium on. Blocks that come away are held where that is found. They keep the forces that they bear there, and fall in the cycles that follow.
-/// Where the others do not stand without them
-/// there is no equilibrium.
+/// Where the others do not stand without them there is no equilibrium.
 ///
 /// 1. residual, status of each point, tangent with friction (core/statics/static_contacts.h)
 /// 2. Cholesky factor of the tangent without the coupling of friction; GMRES on the whole tangent with it, to 1e-2

@@ -66,7 +66,7 @@ class ThreadChoice
 
     /// No more than so many in the cycles that follow: the model has work for no more.
     void limit(int useful);
-    /// For the next cycles.
+    /// Number of threads for the next cycles.
     [[nodiscard]] int threads() const { return present_; }
     /// How many cycles to run before took() is told of them.
     [[nodiscard]] std::int64_t piece(std::int64_t left) const;

@@ -25,8 +25,7 @@ inline void pause_briefly()
 ///
 /// No call is missed. A waiting thread counts itself as asleep, then looks at the number. A calling thread changes the number, then looks for sleepers. These four
 /// operations are sequentially consistent, so one of the two threads sees the other. And the kernel puts no thread to sleep whose number has changed. What
-/// the caller wrote before
-/// call() is seen after wait().
+/// the caller wrote before call() is seen after wait().
 class alignas(64) Signal
 {
   public:

@@ -30,7 +30,7 @@ class ForceLoop
     [[nodiscard]] std::int64_t closed_points() const;
     /// Vertical force of the last cycle on what is fixed, over the weight of the wall: 1 at rest.
     [[nodiscard]] double supported_share() const;
-    /// Of poses, velocities and shear forces: the same on any number of threads.
+    /// Hash of poses, velocities and shear forces: the same on any number of threads.
     [[nodiscard]] std::uint64_t hash() const;
 
   private:

@@ -18,8 +18,7 @@ void register_stage(
     const std::function<void(benchmark::State&, const std::string& scene, Index blocks, const std::string& family)>& run);
 
 /// Time `work` on scratch that `prepare` makes anew each time. ns_per_item is the fastest time over `items` (contacts, points, blocks, pairs). The
-/// benchmark is an error if `hash` of
-/// the result is not the same each time.
+/// benchmark is an error if `hash` of the result is not the same each time.
 template <typename Prepare, typename Work, typename Hash>
 void time_stage(benchmark::State& bench, const std::string& family, double items, const Prepare& prepare, const Work& work,
                 const Hash& hash)

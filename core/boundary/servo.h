@@ -18,8 +18,7 @@ struct WallForce
 [[nodiscard]] WallForce wall_force(Index wall, const Model& model, const Contacts& contacts, const BlockContacts& list);
 
 /// Length of a side on which a wall presses [m]: as drawn, without the parts in front of held blocks. Between a wall and a block that cannot move there is
-/// no force, and
-/// the rock beside it must not bear its share.
+/// no force, and the rock beside it must not bear its share.
 [[nodiscard]] double pressed_length(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks);
 
 /// Velocity of a wall along its inward normal:

@@ -126,7 +126,7 @@ template <typename P>
     return speed;
 }
 
-/// The same of the approach alone.
+/// The same for the approach velocity alone.
 template <typename P>
 [[nodiscard, gnu::always_inline]] inline P approach_squared(const BasicContactGroup<P>& g)
 {

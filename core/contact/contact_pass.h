@@ -11,7 +11,7 @@
 
 namespace hdem
 {
-/// Which law the points of a pack obey. Fills what `g` holds of the points.
+/// Choose the law that the points of a pack obey. Fills the members of `g` that belong to points.
 template <ContactLaw law, Joints joints, typename P>
 [[gnu::always_inline]] inline MaskOf<P> choose_laws(BasicContactGroup<P>& g, const Model& model, const PassRule<P>& rule,
                                                     const Contacts& contacts, Index i,
@@ -134,7 +134,7 @@ struct SlideDirection
 /// friction has precedence: a block in a row is damped along its base, not along its neighbours.
 inline constexpr double used_without_strength = 0.995;
 
-/// What the contacts of a pack put on their blocks.
+/// Store the loads of the contacts of a pack on their blocks, and the use of their joints.
 template <Joints joints, typename P>
 [[gnu::always_inline]] inline void store_results(const BasicEdgeTouch<P>& touch, const BasicSums<P>& sums, MaskOf<P> touching,
                                                  MaskOf<P> impulsive, const std::uint8_t* swapped, Index i, ContactLoads& loads)

@@ -19,8 +19,7 @@ namespace
 constexpr double left_by_sweeps = 1e-3;
 constexpr double solved = 1e-2;
 /// The share that sweeps may leave in a stage that seeks rest, of the unbalance that a block at rest may have. With more, the stage could wait for ever
-/// for an unbalance that is not solved. (Where one block has most
-/// of the weight, of the unbalance that all blocks together may have.)
+/// for an unbalance that is not solved. (Where one block has most of the weight, of the unbalance that all blocks together may have.)
 constexpr double left_at_rest = 0.3;
 /// The same in an impact, which no later cycle corrects.
 constexpr double left_in_impact = 1e-6;

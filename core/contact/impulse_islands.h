@@ -72,9 +72,8 @@ class IslandFinder
 
 /// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much.
 /// Of an island of more than 100 points only the clusters are solved, and only where the sweeps have left more in a cluster than around it: its solution
-/// is no better than what is
-/// known of its neighbours. Where masses differ much, clusters of more than 200 points get more sweeps instead, at most ten times those of a cycle; a heavy
-/// block may still sink into its support there. An island of up to 200 points that is hit gets more sweeps in the same way, since
-/// an impact must be solved within one cycle.
+/// is no better than what is known of its neighbours. Where masses differ much, clusters of more than 200 points get more sweeps instead, at most
+/// ten times those of a cycle; a heavy block may still sink into its support there. An island of up to 200 points that is hit gets more sweeps in
+/// the same way, since an impact must be solved within one cycle.
 void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island);
 }  // namespace hdem

@@ -51,7 +51,6 @@ double start_impulses(const std::vector<std::vector<ImpulsePoint>*>& lists, bool
 double sweep_impulses(std::vector<ImpulsePoint>& points, Blocks& blocks);
 
 /// Count the impulses from 0 again. Call it once all impulses of the cycle are found. A joint that bears tension allows J >= -T L dt. During the solution
-/// its impulses are counted from that pull,
-/// and its cohesion is that at the pull, so that the cone of friction has its tip at 0.
+/// its impulses are counted from that pull, and its cohesion is that at the pull, so that the cone of friction has its tip at 0.
 void count_from_zero(std::vector<ImpulsePoint>& points);
 }  // namespace hdem

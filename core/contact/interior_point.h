@@ -54,7 +54,7 @@ class InteriorPoint
     {
         return {x.normal + y.normal, x.parting + y.parting, x.shear + y.shear, x.against + y.against, x.along + y.along};
     }
-    /// Of the pairs: J s, p a, r b [J].
+    /// Products of the pairs: J s, p a, r b [J].
     struct Products
     {
         double normal = 0.0, against = 0.0, along = 0.0;
@@ -97,7 +97,6 @@ class InteriorPoint
 /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met.
 ///
 /// By InteriorPoint. The limit of friction follows the normal impulses, so the path to the solution may end on the way (rare, core/tried.md). Then the
-/// problem is solved step by step, with the limits of the step before: each of these
-/// problems is convex (Haslinger's fixed point).
+/// problem is solved step by step, with the limits of the step before: each of these problems is convex (Haslinger's fixed point).
 [[nodiscard]] IslandProblem solve_all_at_once(const IslandProblem& problem, double goal);
 }  // namespace hdem

@@ -38,7 +38,7 @@ struct IslandProblem
     /// Greatest law_error of its points [m/s].
     [[nodiscard]] double error() const;
 
-    /// Of all points, normal to them [N s].
+    /// Greatest normal impulse of all points [N s].
     [[nodiscard]] double greatest_impulse() const;
 
     /// Gives points other impulses, and their blocks the velocities that follow from them.

@@ -23,7 +23,7 @@ struct OneLaw
         memory.opening = stress.opening;
         return stress;
     }
-    /// By impulses no stress normal to the joint is known. Only dilation that follows from slip alone can be given.
+    /// Lanes that dilate under impulses. The stress normal to the joint is not known then: only dilation that follows from slip alone can be given.
     template <typename P>
     [[nodiscard]] static MaskOf<P> dilate_by_slip(const BasicRowLanes<P>&, MaskOf<P> held)
     {

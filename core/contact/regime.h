@@ -36,8 +36,8 @@ struct RegimeRule
     /// standing rock moves as by springs alone.
     bool rock_keeps_springs = false;
     /// A corner on a corner, of blocks that lie where they were (`drawn_share`), keeps its springs. Differs from the paper: such a contact has next to no
-    /// length. It stores nothing, and its threshold is 0. An impulse there would be
-    /// a rigid prop in rock that gives way elastically beside it, and rock around a hole would move too little.
+    /// length. It stores nothing, and its threshold is 0. An impulse there would be a rigid prop in rock that gives way elastically beside it, and
+    /// rock around a hole would move too little.
     bool corners_keep_springs = false;
     Closing closing = Closing::fast_points;
     double closing_speed =

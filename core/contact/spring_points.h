@@ -140,7 +140,7 @@ template <Joints joints, typename P>
         const P tilt = joints == Joints::plain ? tilt_force(sums.normal[k], g.touch.slope, inwards, p.inside, p.overlap)
                                                : preloaded_tilt_force(sums.normal[k], g.touch.slope, inwards, p.inside, p.overlap,
                                                                       max(g.preload[k], P(0.0)));
-        // It acts on the surface of inc, half of the overlap beyond the point.
+        // The tilt force acts on the surface of inc, half of the overlap beyond the point.
         const P beyond = P(0.5) * p.overlap;
         const P v_t = p.v_t - g.w * beyond;
         work += tilt * v_t;

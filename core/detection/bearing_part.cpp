@@ -11,8 +11,7 @@ namespace
 constexpr int rings = 2;
 
 /// Multiple of the depth. An external edge behind which the overlap is deeper is on the other side of the block. (A spike of 37 degrees along a seam lies
-/// three times as deep
-/// behind the face as behind the seam.)
+/// three times as deep behind the face as behind the seam.)
 constexpr double farthest = 3.0;
 
 Index part_of(const Shapes& shapes, Index block, Index edge)

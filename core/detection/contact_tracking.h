@@ -28,8 +28,7 @@ void compute_boxes(IndexRange parts, const Model& model, const Blocks& blocks, s
 
 /// New contacts from `pairs` (ascending keys): features are searched, pairs farther apart than their margins are left out. Contacts that `old` already has
 /// (same parts) keep their history; contacts between blocks at rest, which have not moved, keep their features as well. Contacts that touch and move are
-/// searched: their energy
-/// depends on it (core/tried.md). Appends to `out` in key order.
+/// searched: their energy depends on it (core/tried.md). Appends to `out` in key order.
 /// @param old_order  numbers of the contacts of `old` by ascending keys, of order_by_parts
 void track_contacts(IndexRange pairs_range, const std::vector<std::uint64_t>& pairs, const Model& model, const Blocks& blocks,
                     const Contacts& old, const std::vector<Index>& old_order, std::vector<Contact>& out, EnergyLedger& ledger);

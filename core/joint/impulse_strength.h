@@ -17,6 +17,6 @@ struct ImpulseStrength
 /// Strength of a point with this memory. A broken point has its residual strength. Laws with roughness give their basic friction.
 [[nodiscard]] ImpulseStrength impulse_strength(const CoulombSlip& slip, const JointRow& row, const JointMemory& memory);
 
-/// By how much slip has opened the joint, where that follows from the slip alone (coulomb); else 0 [m].
+/// Opening of the joint by slip, where it follows from the slip alone (coulomb); else 0 [m].
 [[nodiscard]] double dilation_by_slip(const JointRow& row, const JointMemory& memory);
 }  // namespace hdem

@@ -22,7 +22,7 @@ class LinearProgram
     };
     /// @return its number
     int add_column(double low, double high, double cost, const std::vector<Entry>& entries);
-    /// The same rows as before, in the same order.
+    /// Change the values of a column. The entries have the same rows as before, in the same order.
     void change_column(int column, const std::vector<Entry>& entries);
     void change_bounds(int column, double low, double high);
     /// Sum of the row's entries times the columns.

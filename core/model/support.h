@@ -1,6 +1,6 @@
 #pragma once
-/// Bolts with names resolved to blocks. Constant during a run: what has happened to them is in core/state/support_state.h. All forces and stiffnesses are those of one
-/// metre of thickness: divided by the bolt's spacing out of plane.
+/// Bolts and liners with names resolved to blocks. Constant during a run: what has happened to them is in core/state/support_state.h. All forces and
+/// stiffnesses are those of one metre of thickness: divided by the bolt's spacing out of plane.
 
 #include "core/model/factor_def.h"
 #include "core/model/support_def.h"
@@ -95,7 +95,7 @@ struct Liner
     Index history_size = 0;
 };
 
-/// Where a liner holds a block, for what is asked block by block.
+/// Where a liner holds a block, for lookups by block.
 struct LinerTie
 {
     Index block = no_index;
@@ -104,7 +104,7 @@ struct LinerTie
     int end = 0;  ///< of the segment
 };
 
-/// One end of a link, for what is asked block by block.
+/// One end of a link, for lookups by block.
 struct BoltEnd
 {
     Index block = no_index;

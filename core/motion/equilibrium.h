@@ -8,7 +8,7 @@ namespace hdem
 {
 inline constexpr double earth_gravity = 9.81;  ///< scale of forces where there is no gravity [m/s2]
 
-/// What acts on a block from outside as an acceleration, for scale [m/s2]: the greater of gravity and `load` over mass, of a block in space that of the earth.
+/// Scale of the forces on a block from outside, as an acceleration [m/s2]: the greater of gravity and `load` over mass; the earth's gravity if both are 0.
 [[nodiscard]] double reference_acceleration(Index block, const Model& model, const Vec2& load);
 
 /// Net force and moment on a block as an acceleration of its rim, by the components that can move [m/s2]. Impulses count as J / dt.

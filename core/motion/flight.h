@@ -19,8 +19,7 @@ void find_flying(IndexRange range, const BlockContacts& list, const Blocks& bloc
 ///
 /// the same places and velocities as after k cycles. k is the greatest whole number up to 4096 for which the block uses up at most a tenth
 /// of its margin. Nothing acts on it but its weight, so that a state of rest does not depend on when the block flies. Blocks that it comes near to are
-/// found in time, and
-/// from then on it moves step by step like all others. The times of outputs are those of the others.
+/// found in time, and from then on it moves step by step like all others. The times of outputs are those of the others.
 /// @return  greatest share of its margin that a block has used
 double fly_ahead(const std::vector<Index>& flying, double loose_distance, const Model& model, Blocks& blocks, EnergyLedger& ledger);
 }  // namespace hdem

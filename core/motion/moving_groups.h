@@ -21,16 +21,14 @@ struct GroupRule
 /// Are groups searched for among all blocks, in the cycle that follows so many cycles of the stage? If all blocks are fast, a search takes a good part of
 /// a cycle's time.
 /// So it is made in each of a stage's first cycles, in which most falling blocks come free, and later now and then. In between, only the known groups are
-/// checked, in each
-/// cycle: a group that hits something is damped from then on.
+/// checked, in each cycle: a group that hits something is damped from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
 
 /// Groups of fast blocks. Local damping stands for the energy that the surrounding rock takes up, so it holds a block back by no more than the unused
-/// friction of its joints. But
-/// joints between blocks that fall or slide together hold nothing back. So groups
+/// friction of its joints. But joints between blocks that fall or slide together hold nothing back. So groups
 ///
 ///   that touch nothing outside of the group        are not damped
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only

@@ -29,9 +29,8 @@ struct StepRule
 /// the contacts are found anew, see stable_step (time_step.h).
 ///
 /// Faces that lie over each other, closed or open, count as closed along their present length. Next to a block that has moved by more than a hundredth of
-/// its size in its
-/// stage, an open contact may be closed along a whole side in the next cycle. It counts with the longest side that both parts have and with the longest
-/// levers. So the step is short enough for an impact before it happens.
+/// its size in its stage, an open contact may be closed along a whole side in the next cycle. It counts with the longest side that both parts have
+/// and with the longest levers. So the step is short enough for an impact before it happens.
 [[nodiscard]] double stable_step_of(Index block, const Model& model, const BlockContacts& list, const Contacts& contacts,
                                     const Blocks& blocks);
 

@@ -56,6 +56,6 @@ struct StableLimit
 [[nodiscard]] StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Springs which,
                                        int iterations = 60);
 
-/// That of the closed points [s].
+/// Stable limit of the closed points [s].
 [[nodiscard]] double critical_time_step(const Model& model, const Blocks& blocks, const Contacts& contacts, int iterations = 60);
 }  // namespace hdem

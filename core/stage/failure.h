@@ -55,7 +55,7 @@ class FailureWatch
         double limit = 0.0;  ///< L [m]
     };
     [[nodiscard]] const Farthest& farthest() const { return farthest_; }
-    /// The same of blocks that count.
+    /// Is a block large enough to count? `user`: the user's number.
     [[nodiscard]] bool counts(Index user, const Model& model) const
     {
         return model.area[model.slot_of_user[user]] >= rule_.least_area;

@@ -72,13 +72,13 @@ struct StageRules
 
 [[nodiscard]] StageRules resolve_rules(const StageSetting& setting);
 
-/// Of the running stage; before the first one, of the case as a whole.
+/// Rules of the running stage; before the first one, of the case as a whole.
 [[nodiscard]] StageRules resolve_rules(const Model& model, const State& state);
 
-/// Of the cycles that approach a static solution: the rules of the stage, by springs alone.
+/// Rules of the cycles that approach a static solution: those of the stage, by springs alone.
 [[nodiscard]] StageRules approach_rules(const Model& model, const State& state);
 
-/// Of each stage of a case, in their order, once its loads do not change any more.
+/// Rules of each stage of a case, in their order, once its loads do not change any more.
 [[nodiscard]] std::vector<StageRules> resolve_rules(const CaseDef& def);
 
 /// Does a stage end when the rock is at rest?
@@ -108,6 +108,6 @@ struct StageRules
 /// The same of the running stage, moving walls included.
 [[nodiscard]] bool is_driven(const Model& model, const State& state);
 
-/// As the case file spells it.
+/// The method as the case file spells it.
 [[nodiscard]] const char* name_of(Method method);
 }  // namespace hdem

@@ -1,5 +1,5 @@
 #pragma once
-/// What has happened to the bolts; part of the state.
+/// What has happened to bolts and liners; part of the state.
 
 #include <cstdint>
 #include <vector>

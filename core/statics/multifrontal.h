@@ -25,7 +25,7 @@ struct StackPlan
 class Multifrontal
 {
   public:
-    /// For matrices with the pattern of this one. The factor's memory is kept when the next pattern needs no more.
+    /// Prepare for matrices with the pattern of this graph. The factor's memory is kept when the next pattern needs no more.
     void set_pattern(const BlockGraph& graph, FrontTree tree);
 
     [[nodiscard]] const FrontTree& tree() const { return tree_; }
@@ -36,7 +36,7 @@ class Multifrontal
     // One front, in this order; each step may be shared among threads where it names a range. Columns of the matrix:
     void clear(Index front, int share, int shares);
     void add_matrix(Index front, IndexRange own_blocks, const BlockMatrix& matrix);
-    /// What a child hands on for own unknowns; children one after another, `rows` of the child's border blocks.
+    /// Add what a child hands on for own unknowns; children one after another, `rows` of the child's border blocks.
     void add_to_factor(Index child, IndexRange rows, const double* child_contribution);
     // Elimination by the steps of front.h on factor(front), and at last what children hand on for the border.
     void add_to_contribution(Index child, IndexRange rows, const double* child_contribution, double* contribution) const;
@@ -49,7 +49,7 @@ class Multifrontal
     // Solution, with x in the order of elimination and `rows` one per row of the front, those that fill up panels counted.
     /// Own unknowns from x, 0 for the border.
     void begin_forward(Index front, const double* x, std::vector<double>& rows) const;
-    /// What a child hands on, 3 per border block, is added.
+    /// Add what a child hands on, 3 per border block.
     void add_to_rows(Index child, const double* child_border, std::vector<double>& rows) const;
     /// Own unknowns and border from x.
     void begin_backward(Index front, const double* x, std::vector<double>& rows) const;

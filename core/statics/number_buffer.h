@@ -11,7 +11,7 @@ namespace hdem
 class NumberBuffer
 {
   public:
-    /// What was in it is lost when it has to grow.
+    /// Make room for `size` numbers. The contents are lost when the buffer has to grow.
     void grow(std::size_t size)
     {
         if (size <= size_)

@@ -72,8 +72,7 @@ void put_loads(IndexRange range, const Model& model, const State& state, const s
 ///
 /// Trust takes the place of a region around the iterate, point by point: where the law gives no stiffness, in an open point or along a slip, a share of the
 /// elastic one holds the step back. Trust falls to a quarter each time that the status stays, down to 1e-6, and grows 16 times, up to 1, when the status
-/// changes. Without it
-/// Newton's iteration may jump between states for ever.
+/// changes. Without it Newton's iteration may jump between states for ever.
 PointTally renew_points(IndexRange range, const Model& model, const State& state, const PointRule& rule,
                         std::vector<StaticPoint>& points, std::vector<ContactTangent>& tangents);
 

@@ -51,7 +51,7 @@ class VertexCut
     const BlockGraph* graph_;
     std::vector<Index> local_;  ///< per block: place in the band, or no_index
 
-    // Of the band, one per block.
+    // One per block of the band.
     std::vector<Index> band_;
     std::vector<Index> arc_begin_;             ///< and one more
     std::vector<Index> arc_;                   ///< places in the band

@@ -13,7 +13,7 @@ struct AnchoredMemory
     double plastic = 0.0;  ///< [m]
 };
 
-/// Of one crossing of a local one.
+/// Memory of one crossing of a local bolt.
 struct LocalMemory
 {
     double free = 0.0;      ///< distance of its ends without force [m]

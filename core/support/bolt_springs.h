@@ -1,7 +1,6 @@
 #pragma once
 /// Bolts and liners as rows of a stiffness matrix, for the time step. All bolts and liners of the case count, from the start and whatever their state. So
-/// the step of a case does
-/// not depend on when they are installed.
+/// the step of a case does not depend on when they are installed.
 
 #include "core/motion/contact_springs.h"
 #include "core/support/bolt_link.h"

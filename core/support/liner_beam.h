@@ -6,8 +6,7 @@
 ///   M_2 = E I / L (2 (phi_1 - p_1) + 4 (phi_2 - p_2))
 ///
 /// Euler and Bernoulli's beam, small rotations. N and M yield independently: their limits form a rectangle. e_p and p are what has flowed before. They are
-/// found such that the
-/// energy of the step is least (elastic energy plus strength times flow), so that steps of any size end on the limits.
+/// found such that the energy of the step is least (elastic energy plus strength times flow), so that steps of any size end on the limits.
 
 #include "core/model/support.h"
 

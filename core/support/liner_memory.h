@@ -8,7 +8,7 @@
 
 namespace hdem
 {
-/// Of one segment. Numbers of its two ends stand next to each other.
+/// Memory of one segment. Numbers of its two ends stand next to each other.
 struct LinerSegmentMemory
 {
     double place[2][2] = {};  ///< of the rock's two points when it was installed: x, y of each [m]

@@ -25,7 +25,8 @@ struct LinerPlan
 /// and displacement and moment are too small by a quarter of (beta h)^2 at nodes h apart: 0.6 % at the default, h = 0.15 / beta, but no more than two thicknesses.
 [[nodiscard]] double longest_segment(const LinerDef& def);
 
-/// Its nodes stand where the block behind it changes, at corners, and no farther apart than `segment`. A stretch whose ends are one point is closed there.
+/// Make a liner. Its nodes stand where the block behind it changes, at corners, and no farther apart than `segment`. A stretch whose ends are one point is
+/// closed there.
 /// @return  nothing where no block lies behind any of it
 [[nodiscard]] std::optional<Liner> resolve_liner(const LinerPlan& plan, const Blocks& blocks, const Model& model);
 }  // namespace hdem

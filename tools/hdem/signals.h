@@ -11,7 +11,7 @@ void catch_checkpoint_requests();
 
 /// One of these once it has come, else 0.
 [[nodiscard]] int interrupt();
-/// Its name. @pre interrupt() != 0
+/// Name of that signal. @pre interrupt() != 0
 [[nodiscard]] const char* interrupt_name();
 /// Has SIGUSR1 come since this was asked last?
 [[nodiscard]] bool checkpoint_requested();

@@ -19,7 +19,7 @@ class TrialFile
     /// @param question  what the trials answer: trials of another one are forgotten
     TrialFile(std::filesystem::path file, const std::string& question);
 
-    /// Of a search, at a number.
+    /// A trial of a search at a number, if there is one.
     [[nodiscard]] std::optional<nlohmann::ordered_json> find(const std::string& search, double at);
     void add(const std::string& search, double at, nlohmann::ordered_json trial);
     [[nodiscard]] std::size_t size() const { return trials_.size(); }

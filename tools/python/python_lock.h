@@ -28,7 +28,7 @@ class PythonEnd
     }
     static void entered() { --asking(); }
 
-    /// By Python's atexit, with the lock: from now on no other thread asks for it, and none is asking any more.
+    /// Called by Python's atexit, with the lock held. From now on no other thread asks for the lock, and none is asking any more.
     static void begin()
     {
         ending_thread() = std::this_thread::get_id();

@@ -16,7 +16,7 @@ struct Variant
     [[nodiscard]] std::string name() const;
     /// The paper's 5e-5 s, and a fourth of it at ten times the stiffness: whole cycles in every duration [s].
     [[nodiscard]] double step() const { return factor == 1.0 ? 5e-5 : 1.25e-5; }
-    /// Of method, damping, time step and the stiffnesses 7e9 and 5e8 Pa/m times the factor.
+    /// Overrides of method, damping, time step, and the stiffnesses 7e9 and 5e8 Pa/m times the factor.
     [[nodiscard]] Overrides overrides() const;
 };
 

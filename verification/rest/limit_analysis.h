@@ -18,7 +18,7 @@ struct Strength
 
 /// Force and moment about the centroid, one per body [N, N, N m].
 using Loads = std::vector<Eigen::Vector3d>;
-/// Of the free bodies; 0 for fixed ones.
+/// Weights of the free bodies; 0 for fixed ones.
 [[nodiscard]] Loads weights(const std::vector<Body>& bodies, const Vec2& gravity);
 
 /// Static theorem: forces N, S at the points that are admissible (no tension, Coulomb's cone) and balance every free body. Where there are

@@ -20,7 +20,7 @@ struct Placement
     [[nodiscard]] Vec2 turned(const Vec2& direction) const;
     [[nodiscard]] Vec2 turned_back(const Vec2& direction) const;
     [[nodiscard]] Vec2 placed(const Vec2& point) const { return shift + turned(point); }
-    /// Of an angle, an angular velocity or a moment.
+    /// Sign of an angle, an angular velocity or a moment in this placement.
     [[nodiscard]] double sense() const { return mirrored ? -1.0 : 1.0; }
     /// "turned 213.4°, mirrored, at (1e5, 3e4) m"
     [[nodiscard]] std::string name() const;

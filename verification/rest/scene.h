@@ -112,6 +112,6 @@ void draw_placements(Scene& scene, Draw& draw);
 [[nodiscard]] Vec2 direction(double angle_deg);
 [[nodiscard]] double size_of(const Polygon& polygon);  ///< square root of the area [m]
 [[nodiscard]] double density_of(const Scene& scene, std::size_t block);
-/// Of the smallest free block [m].
+/// Size of the smallest free block [m].
 [[nodiscard]] double least_size(const Scene& scene);
 }  // namespace hdem::verification::rest

@@ -26,7 +26,7 @@ struct Move
 inline constexpr double box_width = 2.0;       ///< [m]
 inline constexpr double box_pressure = 1.0e6;  ///< [Pa]
 
-/// Of a piece of the box, counted from 0 on the left.
+/// Name of a piece of the box, counted from 0 on the left.
 [[nodiscard]] std::string top_name(int i);
 
 /// A box of 2 m under 1 MPa, `top0` and so on, on a base that is longer than it; one of them in pieces. Force-based, without gravity.
