@@ -33,7 +33,7 @@ void add_constant_forces(const Model& model, const State& state, std::vector<Tri
                              const std::vector<BlockMotion>& to);
 
 /// Book the work of given forces from one pose to another. The parts of the sides and of the water in `state` go to their own terms; the rest,
-/// which remains of excavated blocks, counts as work of loads.
+/// by forces that remain of excavated blocks, counts as work of loads.
 void book_given_work(const std::vector<Triple>& given, const Model& model, const State& state, const std::vector<BlockMotion>& from,
                      const std::vector<BlockMotion>& to, EnergyLedger& ledger);
 

@@ -18,7 +18,7 @@ struct BasicOverlapCourse
 };
 using OverlapCourse = BasicOverlapCourse<double>;
 
-/// Share of its force that a normal spring gives in this cycle: It is 1, except where the spring has closed since the last cycle or will be open by the next.
+/// Share of its force that a normal spring gives in this cycle. It is 1, except where the spring has closed since the last cycle or will be open by the next.
 ///
 ///   F = s K_N L u,  s = (u'+ - u"+) / (u' - u"),  u' = u + coast + others - s answer
 ///

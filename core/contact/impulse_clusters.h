@@ -15,8 +15,7 @@ namespace hdem
 /// Floods that overlap are one cluster, whose points are all those of its light blocks. The other blocks at these points take part, but their other
 /// points keep their impulses: sweeps go on with them in the next cycle. So the cost of a rock mass grows with
 /// the number of its clusters, not with that of its blocks to the power 1.5. Light blocks that carry nothing are left out: blocks with one neighbour that
-/// is no lighter, and blocks that carry only such blocks.
-/// Sweeps solve them well.
+/// is no lighter, and blocks that carry only such blocks. Sweeps solve them well.
 /// @return cluster of each point, numbered in the order of their first points, or no_index; empty: there is none
 [[nodiscard]] std::vector<Index> clusters_of(const Island& island, const Blocks& blocks, double ratio);
 }  // namespace hdem

@@ -93,8 +93,8 @@ inline constexpr double sliding_share = 0.6;
 /// block that slides (`sliding_from`),
 ///
 ///   0.6 alpha             damps it across the joint
-///   2 alpha / (1 - alpha) times a moment that brakes its rotation is added to it (braked_rotation): half a swing loses as much as by local damping, while
-/// moments that speed a rotation up are not damped
+///   2 alpha / (1 - alpha) times a moment that brakes its rotation is added to it (braked_rotation): half a swing loses as much as by local damping,
+///                         while moments that speed a rotation up are not damped
 ///
 /// (core/tried.md: other shares.) A block about to slide moves as on a rigid-plastic joint from the start: net force less reserve is driving force less strength, D - S, whatever
 /// its shear springs carry already (exact while reserve < alpha |F|, for S up to alpha D).

@@ -14,7 +14,7 @@ inline constexpr double earth_gravity = 9.81;  ///< scale of forces where there 
 /// Net force and moment on a block as an acceleration of its rim, by the components that can move [m/s2]. Impulses count as J / dt.
 [[nodiscard]] double unbalance(Index block, const Model& model, const Blocks& blocks);
 
-/// The same without the part that rounding of positions makes of the forces of stiff springs. As an acceleration this part is
+/// The same without the part that comes from rounding of positions, through stiff springs. As an acceleration, this part is
 ///
 ///   16 eps K_max 2 r (|x| + |y| + r) / m      r   radius of the block
 ///

@@ -15,13 +15,12 @@ namespace hdem
 /// Which blocks may form groups.
 struct GroupRule
 {
-    double speed = std::numeric_limits<double>::infinity();  ///< of a block or of its rim: faster ones [m/s]
+    double speed = std::numeric_limits<double>::infinity();  ///< blocks that are faster, or their rims [m/s]
 };
 
 /// Are groups searched for among all blocks, in the cycle that follows so many cycles of the stage? If all blocks are fast, a search takes a good part of
-/// a cycle's time.
-/// So it is made in each of a stage's first cycles, in which most falling blocks come free, and later now and then. In between, only the known groups are
-/// checked, in each cycle: a group that hits something is damped from then on.
+/// a cycle's time. So it is made in each of a stage's first cycles, in which most falling blocks come free, and later now and then. In between, only the
+/// known groups are checked, in each cycle: a group that hits something is damped from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
 
 /// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.

@@ -16,7 +16,7 @@ namespace hdem
 /// A block that is quiet at eight checks in a row is stopped: its last kinetic energy goes to local damping, its velocity is set to zero, its pose and contact forces
 /// stay frozen. Contacts between blocks that are stopped, or fixed, give the same forces in every cycle and are not evaluated again. A block is woken in the
 /// cycle in which its unbalance reaches `waking`, or an impulse reaches it.
-/// While some blocks still move, these limits are wide. When none moves, they are the limits with which a stage may end (core/stage/rules.cpp).
+/// While some blocks still move, these limits are wide. When none moves, they are below those with which a stage may end (core/stage/rules.cpp).
 struct RestRule
 {
     bool leaves_out = false;                                            ///< skip resting blocks

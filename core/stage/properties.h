@@ -31,7 +31,7 @@ void set_joints_between(const StageLaws& before, Index stage, double share, Mode
 /// Cycle of the next update.
 [[nodiscard]] std::int64_t next_share(const Model& model, const State& state);
 
-/// Does it still change?
+/// Do the strengths of joints still change in the running stage?
 [[nodiscard]] bool is_setting_joints(const Model& model, const State& state);
 
 /// Keep the forces of all contacts after the stiffness of joints has changed. Their preload takes up the difference, so that a linear spring goes on with

@@ -20,8 +20,7 @@ ContactLaw law_of(Method method)
 
 /// Limits of rest. While some blocks still move, a block rests if it is out of balance by less than a thousandth of its weight on average, and by a few
 /// thousandths in single cycles, where a corner rattles. A hundredth wakes it, which changes the closure of its joints by less than 1e-7 m. When no
-/// block moves any more, all settle together:
-/// a block rests at a hundredth of the unbalance with which the stage may end, and a half of that unbalance wakes it.
+/// block moves any more, all settle together: a block rests at a hundredth of the unbalance with which the stage may end, and a half of that unbalance wakes it.
 RestRule rest_of(const StageSetting& s, double g)
 {
     const double at_end = std::min(s.convergence.block_unbalanced_ratio, s.convergence.unbalanced_force_ratio) * g;

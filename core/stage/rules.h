@@ -102,7 +102,7 @@ struct StageRules
 /// Do blocks begin with a motion that forces do not change?
 [[nodiscard]] bool have_driven_blocks(const CaseDef& def);
 
-/// Does a block move so, from the start or by loads?
+/// Does a block have a motion that forces do not change, from the start or by loads?
 [[nodiscard]] bool is_driven(const CaseDef& def);
 
 /// The same of the running stage, moving walls included.

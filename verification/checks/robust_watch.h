@@ -9,7 +9,7 @@
 
 namespace hdem::verification
 {
-/// Depth to which two blocks penetrate each other, found from their shapes alone and not from the list of contacts: least way that takes
+/// Overlap of two blocks, found from their shapes alone and not from the list of contacts: least way that takes
 /// their parts apart, greatest over the parts [m]; 0 when apart.
 [[nodiscard]] double penetration(const Model& model, const Blocks& blocks, Index a, Index b);
 
@@ -23,7 +23,7 @@ class RobustWatch
     explicit RobustWatch(double late) : late_(late) {}
     void observe(const Model& model, const State& state);
 
-    /// Greatest penetration as a share of the least width of the thinner free block [-]. From one half on, it may come out on the wrong side.
+    /// Greatest overlap as a share of the least width of the thinner free block [-]. From one half on, it may come out on the wrong side.
     [[nodiscard]] double worst_overlap() const { return worst_overlap_; }
     /// Lowest centroid of a free block above y = 0, the surface of the rock in the scenes [m].
     [[nodiscard]] double lowest_centroid() const { return lowest_centroid_; }
