@@ -40,7 +40,8 @@ std::vector<Index> free_blocks(const Moment& last, double least_area, const Is& 
 
 std::vector<Index> blocks_that_went_far(const Moment& last, double least_area)
 {
-    const auto& [model, state] = last;
+    const Model& model = last.model;
+    const State& state = last.state;
     return free_blocks(last, least_area,
                        [&](Index block)
                        {
@@ -58,7 +59,8 @@ bool settled(Index user, const Moment& last, const Moment& strong)
 
 std::vector<Index> blocks_that_gave_way(const Moment& last, bool found_rest, double least_area)
 {
-    const auto& [model, state] = last;
+    const Model& model = last.model;
+    const State& state = last.state;
     return free_blocks(last, least_area,
                        [&](Index block)
                        {

@@ -33,6 +33,25 @@ double moment_of(const Vec2& force, const Vec2& arm, const BlockMotion& motion)
     return cross(turned, force);
 }
 
+/// Add a load's forces in this cycle to `external`, one entry a block. @param use  is told the motion of each loaded block, and the load's moment on it
+template <typename Use>
+void add_load(const Load& load, const Model& model, const State& state, std::vector<Triple>& external, const Use& use)
+{
+    const double factor = factor_of(load, model, state);
+    for (std::size_t k = 0; k < load.blocks.size(); ++k)
+    {
+        const Index i = load.blocks[k];
+        if (state.blocks.present[i] == 0)
+            continue;
+        const BlockMotion& motion = state.blocks.motion[i];
+        const double moment = factor * (load.moment + (load.arm.empty() ? 0.0 : moment_of(load.force, load.arm[k], motion)));
+        external[i].x += factor * (model.mass[i] * load.acceleration.x() + load.force.x());
+        external[i].y += factor * (model.mass[i] * load.acceleration.y() + load.force.y());
+        external[i].w += moment;
+        use(motion, moment);
+    }
+}
+
 /// Set one prescribed component, unless a stage has freed it. @return change of kinetic energy [J]
 double prescribe(double& velocity, const std::optional<double>& value, double mass, double inverse_mass)
 {
@@ -117,23 +136,18 @@ void apply_loads(const Model& model, const State& state, const std::vector<Tripl
         for (const Index i : load.blocks)
             external[i] = constant.empty() ? Triple{} : constant[i];
     for (const Load& load : model.loads)
-    {
-        if (!acts(load, state))
-            continue;
-        const double factor = factor_of(load, model, state);
-        for (std::size_t k = 0; k < load.blocks.size(); ++k)
-        {
-            const Index i = load.blocks[k];
-            if (state.blocks.present[i] == 0)
-                continue;
-            const BlockMotion& motion = state.blocks.motion[i];
-            const double moment = factor * (load.moment + (load.arm.empty() ? 0.0 : moment_of(load.force, load.arm[k], motion)));
-            external[i].x += factor * (model.mass[i] * load.acceleration.x() + load.force.x());
-            external[i].y += factor * (model.mass[i] * load.acceleration.y() + load.force.y());
-            external[i].w += moment;
-            before.push_back({motion.vx, motion.vy, motion.w, moment});
-        }
-    }
+        if (acts(load, state))
+            add_load(load, model, state, external,
+                     [&](const BlockMotion& motion, double moment) {
+                         before.push_back({motion.vx, motion.vy, motion.w, moment});
+                     });
+}
+
+void add_lasting_loads(const Model& model, const State& state, std::int64_t cycles, std::vector<Triple>& forces)
+{
+    for (const Load& load : model.loads)
+        if (acts(load, state) && acts_at(load, cycles_since(load.factor.since, state) + cycles))
+            add_load(load, model, state, forces, [](const BlockMotion&, double) {});
 }
 
 void prescribe_motions(const Model& model, State& state)

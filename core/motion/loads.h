@@ -19,6 +19,9 @@ void time_loads(Model& model);
 void apply_loads(const Model& model, const State& state, const std::vector<Triple>& constant, std::vector<Triple>& external,
                  std::vector<LoadedBlock>& before);
 
+/// Add to `forces`, one entry a block, the forces in this cycle of the loads that still act so many cycles later.
+void add_lasting_loads(const Model& model, const State& state, std::int64_t cycles, std::vector<Triple>& forces);
+
 /// Set the velocities that loads prescribe in this cycle (zero again once they end). Before the contacts are evaluated, so that a shear
 /// spring sheared at a given velocity answers to the displacement at the end of the cycle.
 void prescribe_motions(const Model& model, State& state);

@@ -256,7 +256,10 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
     look_outside(view);
     for (const Index block : bolted)
         if (place_[block] != no_index)
-            members_[place_[block]].touched = members_[place_[block]].held = true;
+        {
+            Member& member = members_[place_[block]];
+            member.bolted = member.touched = member.held = true;
+        }
     flood<&Member::held>(view, [&](Index contact) { return are_together(contact, rule, blocks, contacts); });
     for (Member& member : members_)
         member.touched = member.touched || member.held;
@@ -265,10 +268,9 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
     moving.clear();
     for (const Member& member : members_)
     {
-        const bool is_bolted = std::ranges::find(bolted, member.block) != bolted.end();
-        if (member.touched && !is_bolted && tips(member.block, model, rule, blocks, contacts, list))
+        if (member.touched && !member.bolted && tips(member.block, model, rule, blocks, contacts, list))
         {
-            moving.push_back({member.block, true, 1.0F, 0.0F});
+            moving.push_back({member.block, FreeMotion::tips, 1.0F, 0.0F});
             continue;
         }
         if (member.held || !member.touches)
@@ -278,7 +280,8 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         if (member.touched && !slides)
             continue;
         const EdgeTouch touch = slides ? touch_of(group.contact, blocks, contacts) : EdgeTouch();
-        moving.push_back({member.block, !member.touched, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
+        moving.push_back({member.block, member.touched ? FreeMotion::slides : FreeMotion::flies, static_cast<float>(touch.ex),
+                          static_cast<float>(touch.ey)});
     }
 }
 
@@ -293,7 +296,7 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;
-        force.mobilised = at->flies ? -1.0F : 1.0F;  // -1: as if no joint bore it, nothing damps it
+        force.mobilised = at->how == FreeMotion::slides ? 1.0F : -1.0F;  // -1: as if no joint bore it, nothing damps it
     }
 }
 }  // namespace hdem

@@ -49,9 +49,10 @@ class MovingGroups
     struct Member
     {
         Index block;
-        bool touched = false;    ///< it, or a member that it touches, touches what is not fast
-        bool held = false;       ///< by a joint that does not slide, or together with such a member
-        bool touches = false;    ///< anything
+        bool touched = false;  ///< it, or a member that it touches, touches what is not fast
+        bool held = false;     ///< by a joint that does not slide, or together with such a member
+        bool touches = false;  ///< anything
+        bool bolted = false;
         Index group = no_index;  ///< of those that are not held
     };
     struct Group

@@ -2,6 +2,7 @@
 
 #include "core/boundary/side_forces.h"
 #include "core/detection/edge_touch.h"
+#include "core/motion/loads.h"
 
 #include <algorithm>
 #include <map>
@@ -98,6 +99,7 @@ void hold_back_loads(const Model& model, State& state)
 {
     std::vector<Triple> loads = constant_forces(model, state);
     loads.resize(static_cast<std::size_t>(model.blocks()));
+    add_lasting_loads(model, state, model.stages[state.stage].relax_cycles, loads);
     state.released.clear();
     for (Index b = 0; b < model.blocks(); ++b)
     {

@@ -102,7 +102,7 @@ static_assert(listed<BlockInertia>(inertia) + 1 == field_count<BlockInertia>(), 
 inline constexpr auto released_block = [](auto& f) { return std::tie(f.block); };
 inline constexpr auto released_force = [](auto& f) { return std::tie(f.x, f.y, f.moment); };
 // MovingBlock:
-inline constexpr auto moving_block = [](auto& m) { return std::tie(m.block, m.flies); };
+inline constexpr auto moving_block = [](auto& m) { return std::tie(m.block, m.how); };
 inline constexpr auto moving_along = [](auto& m) { return std::tie(m.t_x, m.t_y); };
 // Triple:
 inline constexpr auto triple = [](auto& f) { return std::tie(f.x, f.y, f.w); };

@@ -23,12 +23,19 @@ struct ReleasedForce
     double moment = 0.0;  ///< about the block's centroid [N m]
 };
 
-/// A block that falls or slides together with others, or tips, and how it is damped (core/motion/moving_groups.h).
+/// How a block moves that is damped otherwise than a block by itself (core/motion/moving_groups.h).
+enum class FreeMotion : std::uint8_t
+{
+    slides,  ///< its group slides on joints of one direction: damped across them
+    flies,   ///< its group touches nothing: not damped
+    tips     ///< about the point in which others bear it: not damped
+};
+
 struct MovingBlock
 {
     Index block = no_index;
-    bool flies = false;  ///< its group touches nothing, or it tips: not damped; else it slides on joints of this direction
-    float t_x = 1.0F, t_y = 0.0F;  ///< [-]
+    FreeMotion how = FreeMotion::slides;
+    float t_x = 1.0F, t_y = 0.0F;  ///< direction of the joints on which it slides [-]
 };
 
 struct State

@@ -38,7 +38,7 @@ bool floats(Index block, const State& state)
     if (state.blocks.force[block].contacts == 0)
         return true;
     const auto found = std::ranges::lower_bound(state.moving, block, {}, &MovingBlock::block);
-    return found != state.moving.end() && found->block == block && found->flies;
+    return found != state.moving.end() && found->block == block && found->how == FreeMotion::flies;
 }
 
 void add_drag(Index block, double share, const Model& model, const State& state, Triple& force)

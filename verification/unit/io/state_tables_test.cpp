@@ -141,7 +141,7 @@ class StateTables : public testing::Test
         state_ = new State(simulation.state());
         state_->came_loose = {
             {.stage = 1, .block = 3}};  // as static solutions leave them, which there are none of with such joints
-        state_->moving = {{.block = 2}, {.block = 5, .flies = true, .t_x = 0.6F, .t_y = 0.8F}};  // nothing falls here
+        state_->moving = {{.block = 2}, {.block = 5, .how = FreeMotion::flies, .t_x = 0.6F, .t_y = 0.8F}};  // nothing falls here
         state_->statics = {{.stage = 1, .end = StaticEnd::balanced, .iterations = 7, .residual = 1e-9}};
     }
     static void TearDownTestSuite()

@@ -199,5 +199,29 @@ TEST(ReleasedForces, EndInTheirCycleHoweverARunIsCut)
     EXPECT_EQ(state_hash(whole.model(), whole.state()), state_hash(cut.model(), cut.state()));
     EXPECT_EQ(whole.state().time, cut.state().time);
 }
+/// In the first stage loads grow with the weight: a slab that is pushed and lifted while it weighs nothing would slide away.
+TEST(ReleasedForces, OfTheFirstStageHoldBackLoads)
+{
+    constexpr std::int64_t grown = 5000;
+    CaseDef scene = scenes::empty_scene();
+    scene.joints[0].friction_angle_deg = 30.0;
+    scenes::add_fixed_block(scene, "ground", rectangle({-5, -1}, {25, 0}));
+    scenes::add_block(scene, "lower", rectangle({0, 0}, {3, 1}));
+    scene.contact.method = Method::force;
+    scene.loads.push_back({.name = "quake", .blocks = {"lower"}, .acceleration = {2.0, 4.0}});
+    scene.loads.push_back({.name = "short", .blocks = {"lower"}, .force = {0.0, -1e4}});
+    scene.loads.back().interval.until_cycle = grown / 2;  // ends before: acts in full
+    scene.stages = {{.name = "rest", .cycles = 3 * grown, .relax_cycles = grown}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    const double pressed = weight(run, "lower") * (1.0 - 4.0 / 9.81);
+    run.advance(grown / 4);
+    EXPECT_NEAR(on_ground(run), 0.25 * pressed + 1e4, 0.02 * pressed);
+    run.advance(grown / 2);
+    EXPECT_NEAR(on_ground(run), 0.75 * pressed, 0.02 * pressed);
+    run.advance(2 * grown);
+    EXPECT_NEAR(on_ground(run), pressed, 1e-3 * pressed);
+    EXPECT_LT(run.displacement("lower").norm(), 1e-3);
+}
 }  // namespace
 }  // namespace hdem

@@ -4,6 +4,7 @@
 #include "verification/unit/io/broken_runs.h"
 #include "verification/unit/small_run.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace hdem
@@ -98,6 +99,32 @@ TEST(FloatingBlocks, GoOnFromACheckpoint)
     scene.contact.method = Method::hybrid;
     scene.stages = {{.name = "swing", .cycles = 700}, {.name = "settle", .until_converged = true, .max_cycles = 1000}};
     expect_to_go_on(scene, folder.path(), runs::run_unbroken(scene), {1, 77, 699, 703, 1100}, {1, 2});
+}
+
+/// A column that tips with its foot in water: it is not damped, as what floats, but the ground bears it.
+TEST(FloatingBlocks, AreNotThoseThatTip)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.joints[0].friction_angle_deg = 60.0;
+    scenes::add_fixed_block(scene, "ground", scenes::rectangle({-50.0, -2.0}, {50.0, 0.0}));
+    scenes::add_block(scene, "column", scenes::rectangle({0.0, 0.0}, {1.0, 3.0}));
+    scene = scenes::turned(scene, -25.0);
+    scene.gravity = {0.0, -9.81};
+    scene.water = {.given = true, .level = 0.5};
+    scene.stages = {{.name = "tip", .until_converged = true}};
+    CaseRun run(scene);
+    const Index column = run.model().find_block("column");
+    int tipped = 0;
+    while (run.state().time < 0.9)
+    {
+        run.advance(1);
+        const bool tips = std::ranges::any_of(run.state().moving, [&](const MovingBlock& moving)
+                                              { return moving.block == column && moving.how == FreeMotion::tips; });
+        tipped += tips ? 1 : 0;
+        ASSERT_FALSE(floats(column, run.state()));
+    }
+    EXPECT_GT(tipped, 100);
+    EXPECT_NE(run.state().water[column].y, 0.0);
 }
 
 /// Forces are found for the pose in the middle of the time for which they hold.
