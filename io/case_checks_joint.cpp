@@ -207,18 +207,22 @@ std::string key_that_breaks(const JointDef& joint)
 /// A weight that acts at once is felt up to 1 + sqrt((1 - alpha) / (1 + alpha)) times: 1.33 at alpha = 0.8. What breaks then stays broken.
 void warn_of_joints_that_break_at_once(const CaseDef& def, CaseProblems& problems)
 {
-    if (def.stages.empty() || !ends_at_rest(def.stages.front()) || def.insitu.given || def.gravity.norm() == 0.0 ||
-        !def.stages.front().set.empty() || def.stages.front().relax_cycles > 0)
+    if (def.gravity.norm() == 0.0)
         return;
-    for (const JointDef& joint : def.joints)
-        if (const std::string key = key_that_breaks(joint); !key.empty())
+    for (const StageDef* stage : stages_with_empty_springs(def))
+        for (const JointDef& joint : def.joints)
+        {
+            const std::string key = key_that_breaks(joint);
+            if (key.empty() || !ends_at_rest(*stage) || !stage->set.empty() || stage->relax_cycles > 0)
+                continue;
+            const bool is_first = stage == &def.stages.front();
             problems.warn(
                 fmt::format("joint.{}.{}", joint.name, key), fmt::format("joint \"{}\"", printable(joint.name)), key,
-                fmt::format(
-                    "breaks for good, and stage \"{}\" begins with rock without stress: the weight that acts at once is felt "
-                    "up to 1.33 times until the rock is at rest",
-                    printable(def.stages.front().name)),
-                "Let the weight grow: relax_cycles = 5000 in that stage; or give [insitu].");
+                fmt::format("breaks for good, and stage \"{}\" begins with {}: the weight that acts at once is felt up to "
+                            "1.33 times until the rock is at rest",
+                            printable(stage->name), is_first ? "rock without stress" : "springs without force, after impulses"),
+                fmt::format("Let the weight grow: relax_cycles = 5000 in that stage{}.", is_first ? "; or give [insitu]" : ""));
+        }
 }
 }  // namespace
 

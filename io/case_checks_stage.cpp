@@ -85,9 +85,9 @@ class StageCheck : public CaseCheck
         const auto refuse = [&](const std::string& why, const char* remedy)
         { problems_.add(path + ".relax_cycles", object, fmt::format("relax_cycles = {}", stage.relax_cycles), why, remedy); };
         const bool changes_water = stage.water_level || !stage.water_table.empty();
-        const bool begins_without_stress = &stage == def_.stages.data() && !def_.insitu.given;
-        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water && !begins_without_stress)
-            refuse(fmt::format("nothing is excavated, no boundary ends, and no water changes{}",
+        const bool has_empty_springs = std::ranges::count(stages_with_empty_springs(def_), &stage) > 0;
+        if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water && !has_empty_springs)
+            refuse(fmt::format("nothing is excavated, no boundary ends, no water changes, and no impulses went before{}",
                                &stage == def_.stages.data() ? "; by [insitu] the rock bears its weight from the start" : ""),
                    "Add excavate, or remove relax_cycles.");
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;

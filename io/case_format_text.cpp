@@ -99,7 +99,7 @@ In a load, `"*"` stands for all blocks that are free at that moment; it can stan
 
 **Order of stages.** Stages run in the order of the file. At its start a stage first sets numbers of joints and materials (`set`), ends and begins what acts on the sides ([[boundary]]),
 then removes what `excavate` names, then fixes, then frees.
-Contacts keep their forces from stage to stage. Cycles and seconds count on from the start of the run, also for loads.
+Contacts keep their forces from stage to stage; but springs that follow impulses begin without force (`relax_cycles`). Cycles and seconds count on from the start of the run, also for loads.
 
 **When a load acts.** With `from_cycle = 5000` a load is there from the 5001st cycle on: when 5000 cycles are done. Likewise
 `until_cycle = 6000` makes the 6000th its last. Times are compared with the time at the start of the cycle.

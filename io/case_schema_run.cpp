@@ -145,12 +145,11 @@ SectionSpec stage_section()
                   "With excavate: the forces of the removed blocks on their neighbours are taken off evenly over so many cycles. "
                   "0: at once, as in a blast. Rock next to an opening that is made at once swings, slips and opens joints that "
                   "stand when it is made slowly. A stage with until ends after that. A static solution takes them off in eight "
-                  "parts. Likewise for a [[boundary]] that ends. In the first stage of rock without [insitu] weight, loads, "
-                  "tractions and "
-                  "water "
-                  "grow from nothing over so many cycles: all at once they are felt up to 1.33 times, and joints that break or "
-                  "slip "
-                  "by that stay so.",
+                  "parts. Likewise for a [[boundary]] that ends. In the first stage of rock without [insitu], and in a stage by "
+                  "springs after one by impulses, weight, loads, "
+                  "tractions, water and pretension grow from nothing over so many cycles: all at once they are felt up to 1.33 "
+                  "times, and "
+                  "joints that break or slip by that stay so.",
               .example = "2000",
               .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::relax_to>({.name = "relax_to",

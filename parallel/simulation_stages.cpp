@@ -197,6 +197,7 @@ void Simulation::begin_stage(Index stage)
     state_.stage = stage;
     state_.stage_begun = true;
     state_.stage_begin_cycle = state_.cycle;
+    const Method last_method = state_.method;
     state_.method = def.method.value_or(state_.method);  // before all that asks for the rules of the stage
     state_.damping = def.damping.value_or(state_.damping);
     change_properties();
@@ -207,9 +208,15 @@ void Simulation::begin_stage(Index stage)
     if (state_.contacts_outdated || !def.excavate.empty() || !def.fix.empty() || !def.free.empty() || sides.any())
         remove_energy([&] { change_blocks(def, sides); });
     change_water();
-    if (stage == 0 && def.relax_cycles > 0 && !model_.insitu.given)
-        hold_back_loads(model_, state_);
     const bool bolted = install_bolts(model_, state_), lined = install_liners(model_, state_);
+    const bool springs_are_empty = begins_with_empty_springs(static_cast<std::size_t>(stage), last_method, state_.method,
+                                                             model_.insitu.given);
+    if (springs_are_empty && def.relax_cycles > 0)
+    {
+        std::vector<BlockPush> tensioned;
+        pull_bolts(model_, state_, 0.0, tensioned);
+        hold_back_loads(model_, tensioned, state_);
+    }
     if (bolted || lined)
         runner_.take_contacts();
     start_walls(model_, state_);

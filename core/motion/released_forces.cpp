@@ -95,11 +95,14 @@ void release_water(const std::vector<Triple>& before, State& state)
         state.released.push_back(force);
 }
 
-void hold_back_loads(const Model& model, State& state)
+void hold_back_loads(const Model& model, const std::vector<BlockPush>& tensioned, State& state)
 {
     std::vector<Triple> loads = constant_forces(model, state);
     loads.resize(static_cast<std::size_t>(model.blocks()));
     add_lasting_loads(model, state, model.stages[state.stage].relax_cycles, loads);
+    for (const BlockPush& push : tensioned)
+        loads[push.block] = {loads[push.block].x + push.force.x, loads[push.block].y + push.force.y,
+                             loads[push.block].w + push.force.w};
     state.released.clear();
     for (Index b = 0; b < model.blocks(); ++b)
     {

@@ -16,9 +16,11 @@ void release_forces(const std::vector<std::uint8_t>& removed, State& state);
 /// Add the water forces of the stage before, less those of the stage that begins, to the forces that the stage removes over its relax_cycles.
 void release_water(const std::vector<Triple>& before, State& state);
 
-/// Release the weight, loads, tractions on sides and water of rock that begins without stress, with opposite sign. So these loads grow from nothing over the relax_cycles of
-/// the first stage. Applied at once, they would act up to 1.33 times under the default damping, and what breaks or slips by that does not go back.
-void hold_back_loads(const Model& model, State& state);
+/// Release the weight, loads, tractions on sides, water and the forces of bolts, with opposite sign. So they grow from nothing over the relax_cycles of a stage whose
+/// springs are empty: the first one of rock without [insitu], and one that follows impulses. Applied at once, they would act up to 1.33 times under the default
+/// damping, and what breaks or slips by that does not go back.
+/// @param tensioned  forces of the bolts at the start of the stage
+void hold_back_loads(const Model& model, const std::vector<BlockPush>& tensioned, State& state);
 
 /// Cycle from which on none of the released forces is left, or only the stage's share relax_to.
 [[nodiscard]] std::int64_t released_until(const Model& model, const State& state);

@@ -203,6 +203,25 @@ bool has_impulses_alone(const CaseDef& def)
            std::ranges::any_of(def.stages, [](const StageDef& stage) { return stage.method && is_by_impulses(*stage.method); });
 }
 
+bool begins_with_empty_springs(std::size_t stage, Method last, Method now, bool has_stress)
+{
+    return !has_stress && (stage == 0 || (is_by_impulses(last) && !is_by_impulses(now)));
+}
+
+std::vector<const StageDef*> stages_with_empty_springs(const CaseDef& def)
+{
+    std::vector<const StageDef*> found;
+    Method last = def.contact.method;
+    for (std::size_t i = 0; i < def.stages.size(); ++i)
+    {
+        const Method now = def.stages[i].method.value_or(last);
+        if (begins_with_empty_springs(i, last, now, def.insitu.given))
+            found.push_back(&def.stages[i]);
+        last = now;
+    }
+    return found;
+}
+
 bool takes_paper_step(const CaseDef& def)
 {
     return def.damping.preset == DampingPreset::paper;

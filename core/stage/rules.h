@@ -96,6 +96,11 @@ struct StageRules
 /// Do impulses alone act in some stage of the case?
 [[nodiscard]] bool has_impulses_alone(const CaseDef& def);
 
+/// Do the springs of a stage begin without force? Those of the first stage of rock without stress do, and those that follow impulses.
+/// @param last  method of the stage before; that of the case in the first stage
+[[nodiscard]] bool begins_with_empty_springs(std::size_t stage, Method last, Method now, bool has_stress);
+[[nodiscard]] std::vector<const StageDef*> stages_with_empty_springs(const CaseDef& def);
+
 /// Is the step of Eq. (32) taken to the letter where a case gives none?
 [[nodiscard]] bool takes_paper_step(const CaseDef& def);
 

@@ -140,34 +140,6 @@ TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
         }
 }
 
-/// A bolt bears a block too: with a bolt so weak that it changes nothing, a column that tips is damped.
-TEST_P(MovingGroup, OfOneThatTipsOnABoltIsDamped)
-{
-    const auto way = [](bool bolted)
-    {
-        CaseDef scene = scenes::empty_scene();
-        scene.contact.method = GetParam();
-        scene.damping.preset = DampingPreset::automatic;
-        scene.joints[0].friction_angle_deg = 60.0;
-        scenes::add_fixed_block(scene, "ground", rectangle({-50.0, -2.0}, {50.0, 0.0}));
-        scenes::add_block(scene, "column", rectangle({0.0, 0.0}, {1.0, 3.0}));
-        scene.gravity = g * Vec2(std::sin(std::numbers::pi * 25.0 / 180.0), -std::cos(std::numbers::pi * 25.0 / 180.0));
-        if (bolted)
-        {
-            BoltDef& bolt = scene.bolts.emplace_back();
-            bolt.name = "bolt";
-            bolt.from = Vec2(0.5, 1.5);
-            bolt.to = Vec2(0.5, -1.0);
-            bolt.stiffness = 1.0;
-        }
-        CaseRun run(scene);
-        run_for(run, 0.9);
-        return run.displacement("column").norm();
-    };
-    EXPECT_GT(way(false), 0.1);
-    EXPECT_LT(way(true), 0.3 * way(false));
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, MovingGroup, testing::Values(Method::force, Method::hybrid),
                          [](const auto& method) { return method.param == Method::force ? "force" : "hybrid"; });
 }  // namespace

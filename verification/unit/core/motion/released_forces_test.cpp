@@ -223,5 +223,53 @@ TEST(ReleasedForces, OfTheFirstStageHoldBackLoads)
     EXPECT_NEAR(on_ground(run), pressed, 1e-3 * pressed);
     EXPECT_LT(run.displacement("lower").norm(), 1e-3);
 }
+/// A bolt that would drag a slab without weight along: 30 kN, when the slab weighs 81 kN with a friction angle of 30 degrees.
+TEST(ReleasedForces, OfTheFirstStageHoldBackPretension)
+{
+    constexpr std::int64_t grown = 5000;
+    CaseDef scene = scenes::empty_scene();
+    scene.joints[0].friction_angle_deg = 30.0;
+    scenes::add_fixed_block(scene, "ground", rectangle({-8, -2}, {25, 0}));
+    scenes::add_block(scene, "lower", rectangle({0, 0}, {3, 1}));
+    scene.contact.method = Method::force;
+    BoltDef& bolt = scene.bolts.emplace_back();
+    bolt.name = "bolt";
+    bolt.from = Vec2(0.1, 0.5);
+    bolt.to = Vec2(-6.0, -0.5);
+    bolt.stiffness = 1e4;
+    bolt.pretension = 3e4;
+    scene.stages = {{.name = "rest", .cycles = 3 * grown, .relax_cycles = grown}};
+    CaseRun run(scene);
+    run.simulation.begin_stage(0);
+    const double pull = 3e4 * 1.0 / std::hypot(6.1, 1.0), own = weight(run, "lower");
+    run.advance(grown / 2);
+    EXPECT_NEAR(on_ground(run), 0.5 * (own + pull), 0.02 * own);
+    run.advance(2 * grown);
+    EXPECT_NEAR(on_ground(run), own + pull, 1e-3 * own);
+    EXPECT_LT(run.displacement("lower").norm(), 1e-3);
+}
+/// Impulses press nothing into springs: in the stage that follows they begin empty. A joint with 1.2 times the strength that it needs breaks unless the weight
+/// grows.
+TEST(ReleasedForces, GrowAfterImpulses)
+{
+    for (const bool grows : {false, true})
+    {
+        CaseDef scene = scenes::empty_scene();
+        scene.joints[0].cohesion = 5e6;
+        scene.joints[0].tension = 1.2 * 2700.0 * 9.81 * 1.5;
+        scenes::add_fixed_block(scene, "roof", rectangle({-1, 0}, {3, 1}));
+        scenes::add_block(scene, "lower", rectangle({0, -1.5}, {2, 0}));
+        scene.contact.method = Method::impulse;
+        scene.stages = {{.name = "hang", .cycles = 2000},
+                        {.name = "springs", .cycles = 20'000, .relax_cycles = grows ? 5000 : 0, .method = Method::force}};
+        CaseRun run(scene);
+        run.simulation.begin_stage(0);
+        run.advance(2000);
+        EXPECT_LT(run.displacement("lower").norm(), 1e-6);
+        run.simulation.begin_stage(1);
+        run.advance(20'000);
+        EXPECT_EQ(run.displacement("lower").norm() < 1e-3, grows);
+    }
+}
 }  // namespace
 }  // namespace hdem

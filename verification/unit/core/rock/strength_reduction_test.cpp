@@ -105,7 +105,7 @@ TEST(StrengthReduction, OnlyOfJointsThatAreNamed)
 
 TEST(StrengthReduction, PeakStrengthThroughout)
 {
-    const std::string loses[] = {joints[0], joints[3], joints[4], joints[5] + "residual_share = 0.5\n"};
+    const std::string loses[] = {joints[0], joints[3], joints[4], joints[5], joints[6] + "residual_share = 0.5\n"};
     for (const std::string& joint : loses)
     {
         const JointTable table = table_of(springs + joint);
