@@ -58,7 +58,7 @@ const std::string_view introduction = R"md(# The case file
 <!-- Written by `hdem schema --markdown` from the table in io/case_schema*.cpp. Change the table, not this page. -->
 
 A case file says everything a run needs: the rock, its joints, the loads, the stages, the output. It is [TOML](https://toml.io):
-`key = value` lines below headers in brackets, comments behind `#`.
+`key = value` lines below headers in brackets, comments after `#`.
 
 - **SI units** without exception, so values carry no unit. Angles are in degrees where the key ends in `_deg`. All forces, masses and
   stiffnesses are per metre out of plane. No length and no coordinate is above 1e8 m.
@@ -68,8 +68,8 @@ A case file says everything a run needs: the rock, its joints, the loads, the st
   where a whole number is expected, `1e6` is as good as `1000000`.
 - Unknown keys, wrong types and values out of range are refused, all at once, each with file, line and column.
   `hdem check CASE.toml` does only this.
-- `hdem run CASE.toml --set joint.default.friction_angle_deg=20` replaces or adds one value. Entries of lists count from 0,
-  `--set stage[1].max_cycles=1000`, or go by name, `--set joint_set.bedding.dip_deg=15`. A bare word is taken as text: `--set contact.method=force`. One number for a force, an acceleration or a velocity, as in `--set load.push.force=2e5`, is its length along the direction that the case gives.
+- `hdem run CASE.toml --set joint.default.friction_angle_deg=20` replaces or adds one value. An entry of a list is given by its number,
+  counted from 0 (`--set stage[1].max_cycles=1000`), or by its name (`--set joint_set.bedding.dip_deg=15`). A bare word is taken as text: `--set contact.method=force`. One number for a force, an acceleration or a velocity, as in `--set load.push.force=2e5`, sets its magnitude; the direction stays that of the case.
 - `hdem schema` prints the JSON Schema for editors.
 
 ## A complete example

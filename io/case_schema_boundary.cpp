@@ -10,23 +10,16 @@ namespace
 {
 constexpr const char* about =
     "What holds or presses a side of the domain, in all stages or in some. `fixed`: the blocks with an edge on the side do not "
-    "move, "
-    "as with domain.fixed. `roller`: a wall behind the side that holds it across and lets it slide along. `stress`: a constant "
-    "traction "
-    "on the side as drawn, on the blocks that have an edge there; it does not turn with them. `velocity`: a wall that moves as "
-    "given. "
-    "`servo`: a wall that moves along its normal until it presses with `target`, by a twentieth of what is missing in a cycle; it "
-    "needs "
-    "the stiffness of springs, so that stages with the impulse method are refused. "
-    "A wall is a rigid block without mass outside of the domain. It has the boundary's name (NAME.1, NAME.2, ... where there are "
-    "several edges), so that a [[history]] can read its force. Its joint is that of [joint.default] without friction and cohesion, "
-    "with a linear spring as stiff as that is at its normal_stress, and carries the stress of [insitu] from the start. A wall that "
-    "begins in a later stage is put where it touches the rock, "
-    "without force. Forces of kind stress keep their direction: a model under compression on all sides that one block holds is "
-    "soon "
-    "turned over by them, once something moves; let rollers hold two of the sides. Where a boundary ends, its wall is taken away, "
-    "its traction ends, or its blocks are freed, at once or over the "
-    "stage's relax_cycles.";
+    "move, as with domain.fixed. `roller`: a wall behind the side; rock cannot move across it and slides along it freely. "
+    "`stress`: a traction on the blocks with an edge on the side as drawn; it does not turn with them. `velocity`: a wall that "
+    "moves as given. `servo`: a wall that moves along its normal until it presses with `target`; each cycle adds a twentieth of "
+    "the missing force. This needs the stiffness of springs, so stages with the impulse method are refused. A wall is a rigid "
+    "block without mass outside the domain. It has the boundary's name (NAME.1, NAME.2, ... where there are several edges), so "
+    "that a [[history]] can read its force. Its joint is [joint.default] without friction and cohesion; its linear spring has the "
+    "stiffness at normal_stress. It carries the stress of [insitu] from the start. A wall that begins in a later stage is placed "
+    "where it touches the rock, without force. Tractions of kind stress keep their direction: a model that is compressed on all "
+    "sides and held by one block soon turns over once something moves. Let rollers hold two of its sides. Where a boundary ends, "
+    "its wall is taken away, its traction ends, or its blocks are freed, at once or over the stage's relax_cycles.";
 
 void assign_stress(void* object, const TomlNode& value, const KeySpec&)
 {
@@ -72,13 +65,12 @@ SectionSpec boundary_section()
                                     .choices = {"fixed", "roller", "stress", "velocity", "servo"},
                                     .required = true}),
          with_assign(std::move(stress), assign_stress),
-         field<&BoundaryDef::stress_gradient>(
-             {.name = "stress_gradient",
-              .unit = "Pa/m",
-              .effect = "Change of both numbers of `stress` a metre upwards: below 0 where the pressure grows with depth. With it "
-                        "`stress` holds at y = stress_height.",
-              .example = "[-2.65e4, 0.0]",
-              .range = any_size}),
+         field<&BoundaryDef::stress_gradient>({.name = "stress_gradient",
+                                               .unit = "Pa/m",
+                                               .effect = "Change of both numbers of `stress` per metre upwards: negative where the "
+                                                         "pressure grows with depth. With it `stress` holds at y = stress_height.",
+                                               .example = "[-2.65e4, 0.0]",
+                                               .range = any_size}),
          field<&BoundaryDef::stress_height>({.name = "stress_height",
                                              .unit = "m",
                                              .effect = "Height y at which `stress` holds, where it has a gradient.",
@@ -91,14 +83,14 @@ SectionSpec boundary_section()
                                         .default_note = "must be given with kind velocity"}),
          field<&BoundaryDef::target>({.name = "target",
                                       .unit = "Pa",
-                                      .effect = "Compression that the wall is to press with: its force over the length of the side "
-                                                "as drawn, without what lies before blocks that are held. Belongs to kind servo.",
+                                      .effect = "Compression to reach: force of the wall divided by the length of the side as "
+                                                "drawn, without the parts in front of fixed blocks. Belongs to kind servo.",
                                       .example = "2e6",
                                       .range = positive,
                                       .default_note = "must be given with kind servo"}),
          field<&BoundaryDef::max_velocity>({.name = "max_velocity",
                                             .unit = "m/s",
-                                            .effect = "The wall is not faster. Belongs to kind servo.",
+                                            .effect = "Greatest speed of the wall. Belongs to kind servo.",
                                             .example = "1e-3",
                                             .range = {.low = 0, .high = 1e6, .low_included = false},
                                             .default_note = "convergence.mean_speed"}),

@@ -19,46 +19,47 @@ void assign_law(void* object, const TomlNode& value, const KeySpec& key)
 
 std::vector<KeySpec> spring_keys()
 {
-    return {
-        field<&JointDef::normal_stiffness>({.name = "normal_stiffness",
-                                            .unit = "Pa/m",
-                                            .effect = "K_N: normal stress per overlap. Stiffer joints need a smaller time step. "
-                                                      "With `greatest_closure` it is the stiffness "
-                                                      "at no stress, with `normal_exponent` the factor a of K_N = a σ^e.",
-                                            .example = "7e9",
-                                            .range = positive,
-                                            .default_note = "must be given, but where rock_strength is"}),
-        field<&JointDef::shear_stiffness>(
-            {.name = "shear_stiffness",
-             .unit = "Pa/m",
-             .effect = "K_S: shear stress per shear displacement before slip. With `shear_exponent` the factor of K_S = a σ^e.",
-             .example = "5e8",
-             .range = positive,
-             .required = true}),
-        field<&JointDef::greatest_closure>({.name = "greatest_closure",
-                                            .unit = "m",
-                                            .effect = "V_m of a hyperbolic normal spring, σ = K_N V / (1 - V/V_m). It goes on as a "
-                                                      "straight line from 0.95 V_m on. Any law.",
-                                            .range = length,
-                                            .default_note = "a linear spring"}),
-        field<&JointDef::normal_exponent>(
-            {.name = "normal_exponent",
-             .effect = "e of K_N = a σ^e, from no closure on. Any law without `tension` but saeb_amadei.",
-             .range = exponent,
-             .default_note = "a linear spring"}),
-        field<&JointDef::shear_exponent>({.name = "shear_exponent",
-                                          .effect = "e of K_S = a σ^e. continuously_yielding.",
-                                          .range = exponent,
-                                          .default_note = "0"}),
-        field<&JointDef::greatest_stiffness>(
-            {.name = "greatest_stiffness", .unit = "Pa/m", .effect = "Bound of stiffnesses with an exponent.", .range = positive}),
-        field<&JointDef::normal_stress>(
-            {.name = "normal_stress",
-             .unit = "Pa",
-             .effect = "Greatest normal stress that the joint is to be ready for: time step and K_S "
-                       "follow from the stiffness there, and curves go on as straight lines beyond it.",
-             .range = positive,
-             .default_note = "twice the greatest of [insitu] or of the rock's weight, four times that of loads or sides"})};
+    return {field<&JointDef::normal_stiffness>(
+                {.name = "normal_stiffness",
+                 .unit = "Pa/m",
+                 .effect = "K_N: normal stress per overlap. Stiffer joints need a smaller time step. With `greatest_closure` it is "
+                           "the stiffness at zero stress, with `normal_exponent` the factor a of K_N = a σ^e.",
+                 .example = "7e9",
+                 .range = positive,
+                 .default_note = "must be given, unless rock_strength is"}),
+            field<&JointDef::shear_stiffness>(
+                {.name = "shear_stiffness",
+                 .unit = "Pa/m",
+                 .effect = "K_S: shear stress per shear displacement before slip. With `shear_exponent` the factor of K_S = a σ^e.",
+                 .example = "5e8",
+                 .range = positive,
+                 .required = true}),
+            field<&JointDef::greatest_closure>({.name = "greatest_closure",
+                                                .unit = "m",
+                                                .effect = "V_m of a hyperbolic normal spring, σ = K_N V / (1 - V/V_m). Beyond 0.95 "
+                                                          "V_m it is a straight line. Any law.",
+                                                .range = length,
+                                                .default_note = "a linear spring"}),
+            field<&JointDef::normal_exponent>(
+                {.name = "normal_exponent",
+                 .effect = "e of K_N = a σ^e, from zero closure on. Any law except saeb_amadei; not with `tension`.",
+                 .range = exponent,
+                 .default_note = "a linear spring"}),
+            field<&JointDef::shear_exponent>({.name = "shear_exponent",
+                                              .effect = "e of K_S = a σ^e. continuously_yielding.",
+                                              .range = exponent,
+                                              .default_note = "0"}),
+            field<&JointDef::greatest_stiffness>({.name = "greatest_stiffness",
+                                                  .unit = "Pa/m",
+                                                  .effect = "Upper bound of stiffnesses with an exponent.",
+                                                  .range = positive}),
+            field<&JointDef::normal_stress>(
+                {.name = "normal_stress",
+                 .unit = "Pa",
+                 .effect = "Greatest normal stress that is expected. The time step and K_S follow from the stiffness at this "
+                           "stress. Beyond it curves are straight lines.",
+                 .range = positive,
+                 .default_note = "twice the greatest of [insitu] or of the rock's weight, four times that of loads or sides"})};
 }
 
 std::vector<KeySpec> coulomb_keys()
@@ -70,13 +71,13 @@ std::vector<KeySpec> coulomb_keys()
                                                         "the other laws (φ_u of saeb_amadei).",
                                               .example = "30.0",
                                               .range = acute,
-                                              .default_note = "must be given, but for barton_bandis"}),
-        field<&JointDef::cohesion>({.name = "cohesion",
-                                    .unit = "Pa",
-                                    .effect = "c of the same limit; L is the contact length. Only joints that are closed where the "
-                                              "blocks are drawn have it; blocks "
-                                              "that meet later do not. patton: c_x, strength of sheared asperities at no stress.",
-                                    .range = non_negative}),
+                                              .default_note = "must be given, except for barton_bandis"}),
+        field<&JointDef::cohesion>(
+            {.name = "cohesion",
+             .unit = "Pa",
+             .effect = "c of the shear limit F_n tan φ + c L; L is the contact length. Only joints that are closed as drawn have "
+                       "it; contacts that form later do not. patton: c_x, strength of sheared asperities at zero stress.",
+             .range = non_negative}),
         field<&JointDef::tension>({.name = "tension",
                                    .unit = "Pa",
                                    .effect = "T: greatest tension of an intact joint, at most c / tan φ. coulomb.",
@@ -97,13 +98,13 @@ std::vector<KeySpec> coulomb_keys()
         field<&JointDef::residual_tension>(
             {.name = "residual_tension",
              .unit = "Pa",
-             .effect = "T_r: at which a broken joint is held while it opens, up to half of the skin of [contact]. coulomb.",
+             .effect = "T_r: tension of a broken joint while it opens, up to an opening of half the skin of [contact]. coulomb.",
              .range = non_negative,
              .default_note = "0"}),
         field<&JointDef::dilation_angle_deg>(
             {.name = "dilation_angle_deg",
              .unit = "deg",
-             .effect = "ψ: slip opens the joint by tan ψ of its way, and closes it on the way back. At most φ_r. coulomb.",
+             .effect = "ψ: slip opens the joint by tan ψ times the slip, and closes it on the way back. At most φ_r. coulomb.",
              .range = acute,
              .default_note = "0"}),
         field<&JointDef::dilation_limit>({.name = "dilation_limit",
@@ -143,7 +144,7 @@ std::vector<KeySpec> barton_keys()
                                              .range = positive,
                                              .default_note = "normal_stiffness"}),
             field<&JointDef::closure_cycle>({.name = "closure_cycle",
-                                             .effect = "Cycle of loading of that closure, 1 to 3. barton_bandis.",
+                                             .effect = "Loading cycle for the closure by `rock_strength`. barton_bandis.",
                                              .range = {.low = 1, .high = 3}})};
 }
 
@@ -193,7 +194,7 @@ std::vector<KeySpec> other_law_keys()
              .effect = "u_r: slip at which dilation stops and the residual strength is reached. saeb_amadei.",
              .range = length}),
         field<&JointDef::residual_share>(
-            {.name = "residual_share", .effect = "B_0: residual over peak strength at no stress. saeb_amadei.", .range = share})};
+            {.name = "residual_share", .effect = "B_0: residual over peak strength at zero stress. saeb_amadei.", .range = share})};
 }
 }  // namespace
 
@@ -204,20 +205,17 @@ SectionSpec joint_section()
         SectionKind::named,
         "joint",
         "What acts where two blocks touch. [joint.default] must exist; the others replace it for a joint set (its key `joint`) or "
-        "for a pair of materials (`materials`). Equations, memory and sources of each `law`: core/joint. Blocks that meet after "
-        "the start "
-        "have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint bears at "
-        "least what it does by springs (a bracket that is glued to a wall up to a third more: the point that is not pulled takes "
-        "all of the shear), and breaks when an impulse "
-        "reaches its strength; other laws have their basic friction alone. Impulses "
-        "know no stiffness, so curved normal springs are refused. Under the hybrid method a joint with cohesion or tension keeps "
-        "its springs until it breaks.",
+        "for a pair of materials (`materials`). Equations, memory and sources of each `law`: core/joint. Contacts that form after "
+        "the start have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint "
+        "breaks when an impulse reaches its strength. It bears at least as much as with springs (a bracket glued to a wall up to a "
+        "third more: the point that is not pulled takes all of the shear). Other laws have only their basic friction there. "
+        "Impulses have no stiffness, so curved normal springs are refused. With the hybrid method a joint with cohesion or tension "
+        "keeps its springs until it breaks.",
         {with_assign(field<&JointDef::law>(
                          {.name = "law",
                           .effect = "Strength and dilation. Keys of other laws are refused. A file: a shared library with a law of "
-                                    "your own, from "
-                                    "the folder of the case file on; core/joint/hdem_joint_law.h says what it must have. It is "
-                                    "run as part of hdem: name only what you trust.",
+                                    "your own; a relative path starts at the folder of the case file. core/joint/hdem_joint_law.h "
+                                    "says what it must contain. Its code runs inside hdem: use only files that you trust.",
                           .choices = {"coulomb", "barton_bandis", "patton", "continuously_yielding", "plesha", "saeb_amadei",
                                       "slip_weakening"},
                           .ending = ".so"}),
@@ -231,7 +229,7 @@ SectionSpec joint_section()
                                                           .default_note = "contact.restitution"}));
     section.keys.push_back(
         field<&JointDef::materials>({.name = "materials",
-                                     .effect = "The two materials (may be the same twice) whose contacts have this joint.",
+                                     .effect = "Contacts between these two materials have this joint. Both may be the same.",
                                      .example = "[\"rock\", \"concrete\"]",
                                      .default_note = "only used by name"}));
     return section;

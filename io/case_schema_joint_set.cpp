@@ -49,16 +49,15 @@ SectionSpec joint_set_section()
         {field<&JointSetDef::name>({.name = "name",
                                     .effect = "For messages, pictures and `--set`.",
                                     .default_note = "\"set1\", \"set2\", ... in the order of the file"}),
-         with_assign(
-             distribution({.name = "dip_deg",
-                           .unit = "deg",
-                           .effect = "Inclination of the trace to the x axis, positive anticlockwise. Of through-going joints it "
-                                     "deviates by less than 45° from the mean.",
-                           .example = "-30.0",
-                           .range = {.low = -180, .high = 180},
-                           .choices = {"uniform", "normal", "von_mises"},
-                           .default_note = "must be given, or orientation"}),
-             assign_law<&JointSetDef::dip_deg, &JointSetDef::dip_law>),
+         with_assign(distribution({.name = "dip_deg",
+                                   .unit = "deg",
+                                   .effect = "Inclination of the trace to the x axis, positive anticlockwise. For through-going "
+                                             "joints it deviates by less than 45° from the mean.",
+                                   .example = "-30.0",
+                                   .range = {.low = -180, .high = 180},
+                                   .choices = {"uniform", "normal", "von_mises"},
+                                   .default_note = "must be given, or orientation"}),
+                     assign_law<&JointSetDef::dip_deg, &JointSetDef::dip_law>),
          with_assign(spec({.name = "orientation",
                            .unit = "deg",
                            .effect = "Instead of dip_deg: dip below the horizontal, dip_direction and section as azimuths from "
@@ -71,23 +70,22 @@ SectionSpec joint_set_section()
          with_assign(
              distribution({.name = "spacing",
                            .unit = "m",
-                           .effect = "Distance between neighbouring joints, measured across them. Where it is drawn, `least` is "
-                                     "a fifth of the mean unless given: needles decide the time step.",
+                           .effect = "Distance between neighbouring joints, measured across them. For a distribution, `least` is a "
+                                     "fifth of the mean unless given, because thin slivers reduce the time step.",
                            .example = "2.0",
                            .range = length,
                            .choices = length_laws,
                            .default_note = "must be given, or p21"}),
              assign_law<&JointSetDef::spacing, &JointSetDef::spacing_law>),
-         with_assign(
-             distribution({.name = "trace",
-                           .unit = "m",
-                           .effect = "Length of each joint, which then ends in the rock. Needs `gap` or `p21`. Each joint turns "
-                                     "about its own middle, so that the dip may deviate as much as it likes.",
-                           .example = "6.0",
-                           .range = length,
-                           .choices = length_laws,
-                           .default_note = "joints are through-going"}),
-             assign_distribution<&JointSetDef::trace>),
+         with_assign(distribution({.name = "trace",
+                                   .unit = "m",
+                                   .effect = "Length of each joint, which then ends in the rock. Needs `gap` or `p21`. Each joint "
+                                             "turns about its own middle, so its dip may deviate by any angle.",
+                                   .example = "6.0",
+                                   .range = length,
+                                   .choices = length_laws,
+                                   .default_note = "joints are through-going"}),
+                     assign_distribution<&JointSetDef::trace>),
          with_assign(distribution({.name = "gap",
                                    .unit = "m",
                                    .effect = "Rock bridge between joints that follow each other on a line.",
@@ -96,14 +94,13 @@ SectionSpec joint_set_section()
                                    .choices = length_laws,
                                    .default_note = "must be given with trace, or p21"}),
                      assign_distribution<&JointSetDef::gap>),
-         field<&JointSetDef::p21>(
-             {.name = "p21",
-              .unit = "m/m2",
-              .effect = "Length of traces an area, instead of spacing and gap: middles of traces then lie anywhere, "
-                        "independent of each other.",
-              .example = "1.2",
-              .range = positive,
-              .default_note = "by spacing and gap"}),
+         field<&JointSetDef::p21>({.name = "p21",
+                                   .unit = "m/m2",
+                                   .effect = "Length of traces per area, instead of spacing and gap. The middles of traces then "
+                                             "lie anywhere, independent of each other.",
+                                   .example = "1.2",
+                                   .range = positive,
+                                   .default_note = "by spacing and gap"}),
          field<&JointSetDef::deviation_deg>({.name = "deviation_deg",
                                              .unit = "deg",
                                              .effect = "The dip of each joint is drawn uniformly from dip_deg ± this.",
@@ -125,20 +122,20 @@ SectionSpec joint_set_section()
                                      .effect = "Name of the [joint.NAME] for contacts on faces that this set cut.",
                                      .default_note = "by the materials of the two blocks"}),
          field<&JointSetDef::region>({.name = "region",
-                                      .effect = "Name of the [[region]] whose blocks this set cuts. Its joints are the same "
-                                                "lines with and without it.",
+                                      .effect = "Name of the [[region]] whose blocks this set cuts. The lines of the set are the "
+                                                "same with and without this key.",
                                       .example = "\"hanging_wall\"",
                                       .default_note = "the whole domain"}),
          field<&JointSetDef::outside>({.name = "outside",
                                        .effect = "Name of a [[region]] whose blocks this set does not cut.",
                                        .example = "\"weak\"",
                                        .default_note = "the whole domain"}),
-         field<&JointSetDef::stops_at>(
-             {.name = "stops_at",
-              .effect = "Names of [[fault]] at which joints of this set end, seen from their middles: with `trace` the middle of "
-                        "each, else the point at which it crosses the line through `origin` at right angles to the set.",
-              .example = "[\"fault1\"]",
-              .default_note = "joints go on beyond faults"})},
+         field<&JointSetDef::stops_at>({.name = "stops_at",
+                                        .effect = "Names of the [[fault]]s at which joints of this set end. The part that contains "
+                                                  "the middle of the joint stays. Without `trace` the middle is the point where "
+                                                  "the joint crosses the line through `origin` at right angles to the set.",
+                                        .example = "[\"fault1\"]",
+                                        .default_note = "joints go on beyond faults"})},
         append<&CaseDef::joint_sets>};
 }
 

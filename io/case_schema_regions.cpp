@@ -14,19 +14,19 @@ SectionSpec fault_section()
                            .range = coordinate,
                            .required = true},
                           ValueType::line);
-    return {
-        "fault",
-        SectionKind::array,
-        "fault",
-        "One long joint, straight or with bends, that is cut before all joint sets. Let it begin and end a little outside the "
-        "domain, or beyond another fault: what ends inside a block parts nothing and is dropped, with a warning.",
-        {field<&FaultDef::name>(
-             {.name = "name", .effect = "What regions and messages call it.", .example = "\"fault1\"", .required = true}),
-         with_assign(std::move(points), assign_line<&FaultDef::points>),
-         field<&FaultDef::joint>({.name = "joint",
-                                  .effect = "Name of the [joint.NAME] for contacts along it; it goes before that of a joint set.",
-                                  .default_note = "by the materials of the two blocks"})},
-        append<&CaseDef::faults>};
+    return {"fault",
+            SectionKind::array,
+            "fault",
+            "One long joint, straight or with bends, that is cut before all joint sets. Let it begin and end a little outside the "
+            "domain, or beyond another fault: an end inside a block separates nothing and is dropped, with a warning.",
+            {field<&FaultDef::name>(
+                 {.name = "name", .effect = "What regions and messages call it.", .example = "\"fault1\"", .required = true}),
+             with_assign(std::move(points), assign_line<&FaultDef::points>),
+             field<&FaultDef::joint>(
+                 {.name = "joint",
+                  .effect = "Name of the [joint.NAME] for contacts along it; it has priority over that of a joint set.",
+                  .default_note = "by the materials of the two blocks"})},
+            append<&CaseDef::faults>};
 }
 
 SectionSpec region_section()
@@ -36,7 +36,7 @@ SectionSpec region_section()
         SectionKind::array,
         "region",
         "A part of the domain that has joint sets or a material of its own: inside a `polygon`, on one side of a fault, or between "
-        "faults. It is what lies in all that is given.",
+        "faults. Where several of these are given, the region is the area that lies in all of them.",
         {field<&RegionDef::name>(
              {.name = "name", .effect = "What joint sets call it.", .example = "\"hanging_wall\"", .required = true}),
          field<&RegionDef::polygon>({.name = "polygon",
@@ -47,8 +47,8 @@ SectionSpec region_section()
                                      .range = coordinate,
                                      .default_note = "no outline"}),
          field<&RegionDef::above>({.name = "above",
-                                   .effect = "Name of the fault it lies above. The ends of a fault go on straight; it must part "
-                                             "the rock of the region from the rest.",
+                                   .effect = "Name of the fault it lies above. The fault is extended straight at its ends. It must "
+                                             "separate the region from the rest.",
                                    .example = "\"fault1\"",
                                    .default_note = "not limited so"}),
          field<&RegionDef::below>({.name = "below",
@@ -56,8 +56,8 @@ SectionSpec region_section()
                                    .example = "\"fault1\"",
                                    .default_note = "not limited so"}),
          field<&RegionDef::material>({.name = "material",
-                                      .effect = "Name of the [material.NAME] of its blocks. Where regions lie in each other, the "
-                                                "first one in the file with a material counts.",
+                                      .effect = "Name of the [material.NAME] of its blocks. Where regions overlap, the first one "
+                                                "in the file with a material counts.",
                                       .default_note = "domain.material"}),
          field<&RegionDef::joint>({.name = "joint",
                                    .effect = "Name of the [joint.NAME] for contacts along the outline of the polygon.",

@@ -20,26 +20,26 @@ void assign_fixed(void* object, const TomlNode& value, const KeySpec&)
 
 SectionSpec top_section()
 {
-    return {"",
-            SectionKind::top,
-            "case",
-            "Keys before the first header.",
-            {with_assign(
-                 spec({.name = "schema",
-                       .effect = "Version of this format. A file that says another version is refused.",
-                       .example = "1",
-                       .range = {case_schema_version, case_schema_version}},
-                      ValueType::integer),
-                 [](void*, const TomlNode&, const KeySpec&) {}, "1"),
-             field<&CaseDef::title>(
-                 {.name = "title", .effect = "Shown on the screen, in pictures and in the report.", .default_note = "empty"}),
-             field<&CaseDef::blocks_file>(
-                 {.name = "blocks_file",
-                  .effect = "File with one WKT polygon a line, or CSV (below); its blocks come after those of [[block]]. "
-                            "A relative path starts at the folder of the case file.",
-                  .example = "\"blocks.wkt\"",
-                  .default_note = "no file"})},
-            whole_case};
+    return {
+        "",
+        SectionKind::top,
+        "case",
+        "Keys before the first header.",
+        {with_assign(
+             spec({.name = "schema",
+                   .effect = "Version of this format. A file that says another version is refused.",
+                   .example = "1",
+                   .range = {case_schema_version, case_schema_version}},
+                  ValueType::integer),
+             [](void*, const TomlNode&, const KeySpec&) {}, "1"),
+         field<&CaseDef::title>(
+             {.name = "title", .effect = "Shown on the screen, in pictures and in the report.", .default_note = "empty"}),
+         field<&CaseDef::blocks_file>({.name = "blocks_file",
+                                       .effect = "File with one WKT polygon per line, CSV or GeoJSON (below); its blocks come "
+                                                 "after those of [[block]]. A relative path starts at the folder of the case file.",
+                                       .example = "\"blocks.wkt\"",
+                                       .default_note = "no file"})},
+        whole_case};
 }
 
 SectionSpec domain_section()
@@ -81,13 +81,12 @@ SectionSpec domain_section()
                                     .example = "-20.0",
                                     .range = coordinate,
                                     .default_note = "must be given with profile"}),
-         field<&DomainDef::fixed>(
-             {.name = "fixed",
-              .effect = "Sides of the rectangle: a block with an edge on one of them never moves, nor does one inside of an "
-                        "excavation until it is removed.",
-              .example = "[\"left\", \"right\", \"bottom\"]",
-              .choices = {"left", "right", "bottom", "top"},
-              .default_note = "none"}),
+         field<&DomainDef::fixed>({.name = "fixed",
+                                   .effect = "Sides of the rectangle. A block with an edge on one of them is fixed. A block inside "
+                                             "an excavation is too, until it is removed.",
+                                   .example = "[\"left\", \"right\", \"bottom\"]",
+                                   .choices = {"left", "right", "bottom", "top"},
+                                   .default_note = "none"}),
          field<&DomainDef::fixed_edges>(
              {.name = "fixed_edges",
               .effect = "The same for edges of the polygon: edge 0 runs from the first vertex to the second.",
@@ -96,11 +95,11 @@ SectionSpec domain_section()
               .default_note = "none"}),
          field<&DomainDef::hold>(
              {.name = "hold",
-              .effect = "For rock that a [[boundary]] of kind stress presses in every stage, while nothing is fixed. `mean`: the "
-                        "blocks at the pressed sides together neither move nor turn, as if each of them were held by a force in "
-                        "proportion to its mass; against each other they move freely. What tractions and weight leave over, as "
-                        "where rock is excavated, is carried so. Tractions and weight as drawn must be in equilibrium. Without "
-                        "it something must be fixed, or stand on a side of another kind.",
+              .effect = "For a model in which nothing is fixed and a [[boundary]] of kind stress acts in every stage. `mean`: the "
+                        "blocks at these sides do not move or turn on average, but move freely relative to each other. Forces in "
+                        "proportion to their masses hold them. These forces carry what is out of equilibrium, e.g. after an "
+                        "excavation. As drawn, tractions and weight must be in equilibrium. With `none`, something must be fixed, "
+                        "or stand on a side of another kind.",
               .example = "\"mean\"",
               .choices = {"none", "mean"}}),
          field<&DomainDef::material>(
@@ -205,7 +204,7 @@ SectionSpec block_section()
 {
     KeySpec fixed = spec({.name = "fixed",
                           .effect = "`true`: never moved by forces. A list fixes only these components, e.g. `[\"rotation\"]`. A "
-                                    "fixed component keeps the block's `velocity` of the start.",
+                                    "fixed component keeps its velocity of the start.",
                           .example = "true",
                           .choices = {"x", "y", "rotation"}},
                          ValueType::boolean_or_texts);

@@ -12,11 +12,10 @@ SectionSpec insitu_section()
         SectionKind::table,
         "insitu",
         "Stress that the rock carries before the first cycle. It is locked into the joints: no block is moved. Give `stress` (and "
-        "its "
-        "`gradient`), or the `surface` of the ground and the `ratio` of horizontal to vertical stress. The numbers of `stress` and "
-        "`gradient` are tension positive. Each block is then in equilibrium where the field is, at sides that are fixed and at a "
-        "ground without load. `hdem check` prints how far it is, and which joints bear more than their strength: they slip in the "
-        "first cycle.",
+        "its `gradient`), or the `surface` of the ground and the `ratio` of horizontal to vertical stress. The numbers of `stress` "
+        "and `gradient` are tension positive. If the stress field is in equilibrium, so is each block, also at fixed sides and at "
+        "a ground without load. `hdem check` prints how far blocks are out of equilibrium, and which joints bear more than their "
+        "strength: these slip in the first cycle.",
         {field<&InsituDef::stress>({.name = "stress",
                                     .unit = "Pa",
                                     .effect = "[σ_xx, σ_yy, σ_xy] at y = `reference`; compression is negative.",
@@ -25,14 +24,14 @@ SectionSpec insitu_section()
                                     .default_note = "given by surface"}),
          field<&InsituDef::gradient>({.name = "gradient",
                                       .unit = "Pa/m",
-                                      .effect = "Change of the three upwards. With gravity, σ_yy grows by ρ g a metre.",
+                                      .effect = "Change of the three per metre upwards. With gravity, that of σ_yy is ρ g.",
                                       .range = any_size}),
          field<&InsituDef::reference>(
              {.name = "reference", .unit = "m", .effect = "Height y at which `stress` holds.", .range = coordinate}),
          field<&InsituDef::surface>({.name = "surface",
                                      .unit = "m",
                                      .effect = "Height y of the ground: σ_yy = ρ g (y - surface), with the density of the domain's "
-                                               "material, or of the first block where there is no domain; none above it.",
+                                               "material, or of the first block where there is no domain; no stress above it.",
                                      .example = "120.0",
                                      .range = coordinate,
                                      .default_note = "given by stress"}),
@@ -43,7 +42,7 @@ SectionSpec insitu_section()
                                    .default_note = "must be given with surface"}),
          field<&InsituDef::ratio_offset>({.name = "ratio_offset",
                                           .unit = "Pa",
-                                          .effect = "Horizontal compression besides. Belongs to `surface`.",
+                                          .effect = "Added to the horizontal compression. Belongs to `surface`.",
                                           .range = any_size})},
         [](CaseDef& def, const std::string&) -> void*
         {

@@ -11,20 +11,18 @@ SectionSpec water_section()
         "water",
         SectionKind::table,
         "water",
-        "Water in the joints and around the rock, which stands or seeps slowly: p = ρ_w g (h - y) below its level. It presses on "
-        "both "
-        "faces of a joint over the whole stretch on which they face each other, open or closed, so that joint laws see the "
-        "effective normal stress. Time step and method do not matter to it. [insitu] stays the total stress. Its forces are found "
-        "anew with each stage, every 500 cycles, and more often where blocks move or float. Excavations are drained: where a block "
-        "was taken out there is no pressure. On "
-        "a "
-        "side with a [[boundary]] of kind stress that stress is all that acts.",
-        {field<&WaterDef::level>({.name = "level",
-                                  .unit = "m",
-                                  .effect = "Height of the water everywhere, against gravity: y where gravity points down.",
-                                  .example = "12.0",
-                                  .range = coordinate,
-                                  .default_note = "no water but that of the other keys"}),
+        "Water that stands or seeps slowly in the joints and around the rock: p = ρ_w g (h - y) below its level h. It presses on "
+        "both faces of a joint over the whole length on which they face each other, open or closed, so that joint laws see the "
+        "effective normal stress. It does not depend on time step and method. [insitu] stays the total stress. Water forces are "
+        "computed anew in each stage, every 500 cycles, and more often where blocks move or float. Excavations are drained: there "
+        "is no pressure where a block was removed. On a side with a [[boundary]] of kind stress only that stress acts.",
+        {field<&WaterDef::level>(
+             {.name = "level",
+              .unit = "m",
+              .effect = "Height of the water level everywhere, measured against gravity: y if gravity points down.",
+              .example = "12.0",
+              .range = coordinate,
+              .default_note = "no water, except by the other keys"}),
          with_assign(spec({.name = "table",
                            .unit = "m",
                            .effect = "Points of the water table from left to right, seen with gravity downwards. It is straight "
@@ -34,17 +32,16 @@ SectionSpec water_section()
                            .default_note = "none"},
                           ValueType::line),
                      assign_line<&WaterDef::table>),
-         field<&WaterDef::pressure>({.name = "pressure",
-                                     .effect = "CSV file with rows of x,y,pressure in m and Pa and, if you like, this heading, "
-                                               "from a seepage calculation, for "
-                                               "example. Between its points it is linear in triangles. Instead of `level` and "
-                                               "`table`.",
-                                     .example = "\"p.csv\"",
-                                     .default_note = "none"}),
+         field<&WaterDef::pressure>(
+             {.name = "pressure",
+              .effect = "CSV file with rows x,y,pressure in m and Pa, e.g. from a seepage calculation. This heading may be left "
+                        "out. The pressure is linear in triangles between the points. Instead of `level` and `table`.",
+              .example = "\"p.csv\"",
+              .default_note = "none"}),
          field<&WaterDef::density>({.name = "density", .unit = "kg/m3", .effect = "ρ_w.", .range = positive}),
          field<&WaterDef::ponded>({.name = "ponded",
-                                   .effect = "Water stands before free faces that lie below its level, and presses on them: a "
-                                             "block in it loses ρ_w g A of its weight. false: on joints only."}),
+                                   .effect = "true: water also presses on free faces below its level, so that a submerged block "
+                                             "loses ρ_w g A of its weight. false: on joints only."}),
          field<&WaterDef::joints>(
              {.name = "joints",
               .effect = "Names of the [joint.NAME] that water gets into. A [[water_crack]] presses on its line in any joint.",
@@ -68,13 +65,13 @@ SectionSpec water_crack_section()
         "water_crack",
         SectionKind::array,
         "water crack",
-        "A crack in which water stands, and the joints through which it seeps to the outside. On its line, where the blocks are "
-        "drawn, this pressure counts, whatever [water] says elsewhere; it stays with these faces until their block has moved a "
-        "quarter of its size. Needs [water].",
+        "A crack in which water stands, and the joints through which it seeps to the outside. On its line, as drawn, its pressure "
+        "replaces that of [water]. The pressure stays with the faces there until their block has moved a quarter of its size. "
+        "Needs [water].",
         {with_assign(spec({.name = "crack",
                            .unit = "m",
-                           .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y). Lines beside the "
-                                     "faces of blocks press on nothing: `hdem check` warns of them.",
+                           .effect = "Points of the crack; the last one is its foot. In it p = ρ_w g (level - y). A line that lies "
+                                     "on no face of a block has no effect: `hdem check` warns of it.",
                            .example = "[[18, 30], [18, 16]]",
                            .range = coordinate,
                            .required = true},
