@@ -42,13 +42,13 @@ SectionSpec gravity_section()
                                        .unit = "m/s2",
                                        .effect = "Acceleration [x, y]; y points up. Tilt it to tilt the model.",
                                        .range = {.low = -1e6, .high = 1e6}}),
-             field<&CaseDef::gravity_tilt_deg>({.name = "tilt_deg",
-                                                .unit = "deg",
-                                                .effect = "The model is tilted by this angle, anticlockwise: `vector` is turned "
-                                                          "clockwise by it. So one number tilts a model (`hdem critical`). "
-                                                          "A water.level lies level all the same; the points of a water.table "
-                                                          "stay at their places in the drawing.",
-                                                .range = {.low = -180, .high = 180}})},
+             field<&CaseDef::gravity_tilt_deg>(
+                 {.name = "tilt_deg",
+                  .unit = "deg",
+                  .effect = "The model is tilted by this angle, anticlockwise: `vector` is turned clockwise by it. `hdem critical` "
+                            "can vary this one number. A water.level stays at right angles to gravity; the points of a water.table "
+                            "stay where they are drawn.",
+                  .range = {.low = -180, .high = 180}})},
             whole_case};
 }
 
@@ -60,8 +60,8 @@ SectionSpec load_section()
         "load",
         SectionKind::array,
         "load",
-        "Acts on named blocks, from one moment until another. Several loads on a block add up; of several prescribed "
-        "velocities of one component the last in the file holds.",
+        "Acts on named blocks, from one moment until another. Several loads on a block add up. If several prescribe the same "
+        "velocity component, the last in the file counts.",
         {field<&LoadDef::name>(
              {.name = "name",
               .effect = "For messages, and for `--set load.NAME.force` or `hdem critical --vary load.NAME.force`.",
@@ -154,13 +154,13 @@ SectionSpec contact_section()
                                                           "its own mass, not with infinite mass."}),
          field<&ContactDef::impulse_sweeps>(
              {.name = "impulse_sweeps",
-              .effect = "Passes over the impulse contacts in a cycle. More share impacts better "
-                        "among many contacts of one block, and cost more. Where blocks hit each other, groups of up to "
-                        "200 points get up to ten times as many, but not under preset = \"paper\".",
+              .effect = "Passes over the impulse contacts in a cycle. More passes distribute impacts better among many contacts of "
+                        "one block, and cost more. Where blocks hit each other, groups of up to 200 points get up to ten times as "
+                        "many, but not under preset = \"paper\".",
               .range = {.low = 1, .high = 10000}}),
          field<&ContactDef::correction_fraction>(
              {.name = "correction_fraction",
-              .effect = "Share of the overlap that impulse contacts take back in each cycle, Eq. (19).",
+              .effect = "Share of the overlap that impulse contacts remove in each cycle, Eq. (19).",
               .range = share}),
          field<&ContactDef::allowed_overlap>(
              {.name = "allowed_overlap",
@@ -170,13 +170,12 @@ SectionSpec contact_section()
          field<&ContactDef::correction_rate>(
              {.name = "correction_rate",
               .unit = "1/s",
-              .effect = "What this correction takes back at most in a second beyond the approach of each cycle, as a share of the "
-                        "smaller block's "
-                        "size. More presses blocks into springs on their other side, which adds energy.",
+              .effect = "The most that this correction removes per second, beyond the approach of each cycle, as a share of the "
+                        "smaller block's size. A higher rate presses blocks into springs on their other side, which adds energy.",
               .range = {.low = 0, .high = 1e12}}),
          field<&ContactDef::length_floor>({.name = "length_floor",
                                            .effect = "Least contact length as a share of the smaller block's size (the square root "
-                                                     "of its area); carries corner-on-corner contacts.",
+                                                     "of its area); it lets corner-on-corner contacts bear.",
                                            .range = {.low = 0, .high = 1, .low_included = false}}),
          field<&ContactDef::overlap_limit>(
              {.name = "overlap_limit",
@@ -184,8 +183,9 @@ SectionSpec contact_section()
               .range = {.low = 0, .high = 1, .low_included = false}}),
          field<&ContactDef::recycling_distance>(
              {.name = "recycling_distance",
-              .effect = "Touching edges and corners are searched anew once a pair has moved this share of the smaller block's size "
-                        "against each other; until then overlaps come from the stored ones. 0: in every cycle.",
+              .effect = "Touching edges and corners are searched anew once two blocks have moved by this share of the smaller "
+                        "block's size relative to each other. Until then overlaps follow from the stored edges and corners. 0: in "
+                        "every cycle.",
               .range = share}),
          field<&ContactDef::skin>({.name = "skin",
                                    .effect = "Pairs closer than this share of the mean block size are tracked. Larger: fewer "
@@ -201,12 +201,12 @@ SectionSpec damping_section()
         SectionKind::table,
         "damping",
         "",
-        {field<&DampingDef::preset>({.name = "preset",
-                                     .effect = "`default`: local damping while force contacts hold a block, none once it slides or "
-                                               "flies, so that it slides at the right acceleration; `paper`: the published scheme "
-                                               "(sect. 3.3) to the letter, springs that close and open late included; `dynamic`: "
-                                               "no local damping, exact motion.",
-                                     .choices = {"default", "paper", "dynamic"}}),
+        {field<&DampingDef::preset>(
+             {.name = "preset",
+              .effect = "`default`: local damping while force contacts hold a block, none once it slides, tips or flies, so that "
+                        "it moves at the right acceleration; `paper`: exactly the published scheme (sect. 3.3), including springs "
+                        "that close and open late; `dynamic`: no local damping, exact motion.",
+              .choices = {"default", "paper", "dynamic"}}),
          field<&DampingDef::local>(
              {.name = "local",
               .effect = "α of Eqs. (13), (14): share of a block's unbalanced force that opposes its motion. Not used by `dynamic`.",
@@ -222,35 +222,30 @@ SectionSpec damping_section()
 
 SectionSpec time_section()
 {
-    return {
-        "time",
-        SectionKind::table,
-        "time",
-        "",
-        {field<&TimeDef::step>(
-             {.name = "step",
-              .unit = "s",
-              .effect = "Time step Δt. Above the stable limit 2/ω_max of the springs a run is refused, or stops once they act. "
-                        "Where it "
-                        "is not given, stages with `until = \"converged\"` under the default damping take the largest step that is "
-                        "stable "
-                        "with the present contacts (stable_fraction of it), up to 64 of these in a cycle, unless loads still "
-                        "change or there are "
-                        "prescribed motions.",
-              .example = "5e-5",
-              .range = {.low = 0, .high = 1e6, .low_included = false},
-              .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness)); a block with a side L above 4 m "
-                              "counts with 4 m / L of its mass (not under `preset = \"paper\"`). Half the stable limit of the "
-                              "first contacts where that "
-                              "is above it"}),
-         field<&TimeDef::fraction>({.name = "fraction",
-                                    .effect = "FRAC of Eq. (32), when step is not given.",
-                                    .range = {.low = 0, .high = 1, .low_included = false}}),
-         field<&TimeDef::stable_fraction>(
-             {.name = "stable_fraction",
-              .effect = "Share of the largest stable step, 2/ω_max of the present contacts, that stages with `until = "
-                        "\"converged\"` take where step is not given. Smaller: more cycles, more room for contacts that grow.",
-              .range = {.low = 0, .high = 1, .low_included = false}})},
-        part<&CaseDef::time>};
+    return {"time",
+            SectionKind::table,
+            "time",
+            "",
+            {field<&TimeDef::step>(
+                 {.name = "step",
+                  .unit = "s",
+                  .effect = "Time step Δt. If it exceeds the stable limit 2/ω_max of the springs, the run is refused, or stops "
+                            "once these springs act. If it is not given, stages with `until = \"converged\"` under the default "
+                            "damping use longer steps: stable_fraction of the largest stable step of the present contacts, at most "
+                            "4096 times the default, unless loads still change or motions are prescribed.",
+                  .example = "5e-5",
+                  .range = {.low = 0, .high = 1e6, .low_included = false},
+                  .default_note = "Eq. (32): fraction × 2 √(smallest mass / (2 × largest stiffness)); a block with a side L above "
+                                  "4 m counts with 4 m / L of its mass (not under `preset = \"paper\"`). If this is above the "
+                                  "stable limit of the first contacts: half that limit"}),
+             field<&TimeDef::fraction>({.name = "fraction",
+                                        .effect = "FRAC of Eq. (32), when step is not given.",
+                                        .range = {.low = 0, .high = 1, .low_included = false}}),
+             field<&TimeDef::stable_fraction>(
+                 {.name = "stable_fraction",
+                  .effect = "Share of the largest stable step, 2/ω_max of the present contacts, that stages with `until = "
+                            "\"converged\"` take where step is not given. Smaller: more cycles, more room for contacts that grow.",
+                  .range = {.low = 0, .high = 1, .low_included = false}})},
+            part<&CaseDef::time>};
 }
 }  // namespace hdem

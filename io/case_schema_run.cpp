@@ -15,64 +15,62 @@ SectionSpec convergence_section()
         "When a stage with `until = \"converged\"` ends.",
         {field<&ConvergenceDef::criteria>(
              {.name = "criteria",
-              .effect = "All that are listed must hold. `every_block`: each block by itself is slower than mean_speed and its "
-                        "unbalanced force is below block_unbalanced_ratio, at all checks of a span of hold_time. Without it blocks "
-                        "that slide or fly may be called at rest, if they are few among many.",
+              .effect = "All that are listed must hold. `every_block`: each block is slower than mean_speed and its unbalanced "
+                        "force is below block_unbalanced_ratio, at all checks for hold_time. Without it, a few blocks that slide "
+                        "or fly among many at rest are overlooked.",
               .choices = {"kinetic_energy", "unbalanced_force_ratio", "every_block"}}),
-         field<&ConvergenceDef::blocks>({.name = "blocks",
-                                         .effect = "What is to be at rest. `standing`: only blocks that have not moved farther "
-                                                   "than loose_distance in their stage; a run then ends "
-                                                   "while others may still be falling, and what these would do to standing rock is "
-                                                   "not waited for. Where nothing stands, all count. Energy, limit and unbalanced "
-                                                   "force on the screen and in summary.json are of the same blocks.",
-                                         .choices = {"all", "standing"}}),
-         field<&ConvergenceDef::mean_speed>(
-             {.name = "mean_speed",
-              .unit = "m/s",
-              .effect = "`kinetic_energy` holds when all these blocks together have less than they would have at this speed.",
-              .range = {.low = 0, .high = 1e6, .low_included = false}}),
+         field<&ConvergenceDef::blocks>(
+             {.name = "blocks",
+              .effect = "Which blocks must be at rest. `standing`: only blocks that have not moved farther than loose_distance in "
+                        "their stage. The run may then end while loose blocks still fall, before they hit standing rock. If all "
+                        "are loose, all count. Energy, limit and unbalanced force on the screen and in summary.json are those of "
+                        "the same blocks.",
+              .choices = {"all", "standing"}}),
+         field<&ConvergenceDef::mean_speed>({.name = "mean_speed",
+                                             .unit = "m/s",
+                                             .effect = "`kinetic_energy` holds when the blocks that count have less kinetic energy "
+                                                       "together than if all moved at this speed.",
+                                             .range = {.low = 0, .high = 1e6, .low_included = false}}),
          field<&ConvergenceDef::unbalanced_force_ratio>({.name = "unbalanced_force_ratio",
                                                          .effect = "`unbalanced_force_ratio` holds below this.",
                                                          .range = {.low = 0, .high = 1, .low_included = false}}),
          field<&ConvergenceDef::block_unbalanced_ratio>(
              {.name = "block_unbalanced_ratio",
               .effect = "`every_block` holds when the net force on each block, with the net moment over its radius, is below this "
-                        "share of its weight and loads. Blocks with less than half of it "
-                        "are left out until what they carry changes.",
+                        "share of its weight and loads. Blocks that are far below it are skipped until the forces on them change.",
               .range = {.low = 0, .high = 1, .low_included = false}}),
-         field<&ConvergenceDef::hold_time>(
-             {.name = "hold_time",
-              .unit = "s",
-              .effect = "`every_block` must have held at all checks for so long. A block whose driving force is 1 % above its "
-                        "strength has become faster than mean_speed by then.",
-              .range = {.low = 0, .high = 1e6}}),
+         field<&ConvergenceDef::hold_time>({.name = "hold_time",
+                                            .unit = "s",
+                                            .effect = "With `every_block`, all criteria must hold at every check for this long (10 "
+                                                      "000 cycles are enough if no block moves). A block whose driving force is 1 "
+                                                      "% above its strength becomes faster than mean_speed in this time.",
+                                            .range = {.low = 0, .high = 1e6}}),
          field<&ConvergenceDef::least_cycles>(
-             {.name = "least_cycles", .effect = "Not tested earlier in a stage.", .range = count_or_none}),
+             {.name = "least_cycles", .effect = "Cycles of a stage before the first test.", .range = count_or_none}),
          field<&ConvergenceDef::check_every>(
              {.name = "check_every", .effect = "Tested at multiples of this many cycles.", .range = count}),
-         field<&ConvergenceDef::loose_distance>({.name = "loose_distance",
-                                                 .unit = "m",
-                                                 .effect = "In a stage with `until = \"converged\"` under the default damping, "
-                                                           "blocks that moved farther in it are loose. While other rock "
-                                                           "is slower than ten times mean_speed, the step may be longer than a "
-                                                           "time.step that is given. A loose block in flight takes longer steps "
-                                                           "than rock that moves. Loose blocks take impulses, other rock keeps "
-                                                           "its springs.",
-                                                 .range = length}),
+         field<&ConvergenceDef::loose_distance>(
+             {.name = "loose_distance",
+              .unit = "m",
+              .effect = "A block that moved farther than this in its stage is loose; other blocks are standing rock. In a stage "
+                        "with `until = \"converged\"` under the default damping, standing rock keeps its springs, and loose blocks "
+                        "may meet by impulses. A loose block in flight takes longer steps than rock that moves. While standing "
+                        "rock is slower than ten times mean_speed, steps may be longer than a given time.step.",
+              .range = length}),
          field<&ConvergenceDef::detached_distance>(
              {.name = "detached_distance",
               .unit = "m",
-              .effect = "A block that moved farther in the last stage counts as detached (`detached_blocks` in summary.json). One "
-                        "that lies farther than "
-                        "this from where the run began, for what it did in earlier stages, is in `detached_before`.",
+              .effect = "A block that moved farther in the last stage counts as detached (`detached_blocks` in summary.json). A "
+                        "block that lies farther than this from its place at the start of the run, because of earlier stages, is "
+                        "in `detached_before`.",
               .range = length}),
-         field<&ConvergenceDef::lost_distance>({.name = "lost_distance",
-                                                .unit = "m",
-                                                .effect = "In a stage with `until = \"converged\"` a block that is this far "
-                                                          "outside the model as it was at the start has left it: "
-                                                          "it is held where it is, and named in the warnings of summary.json.",
-                                                .range = length,
-                                                .default_note = "ten times the model's width or height"})},
+         field<&ConvergenceDef::lost_distance>(
+             {.name = "lost_distance",
+              .unit = "m",
+              .effect = "In a stage with `until = \"converged\"` a block that is this far outside the initial model has left it. "
+                        "It is fixed where it is, and named in the warnings of summary.json.",
+              .range = length,
+              .default_note = "ten times the greater of the model's width and height"})},
         part<&CaseDef::convergence>};
 }
 
@@ -81,11 +79,9 @@ SectionSpec stage_section()
     KeySpec until = spec(
         {.name = "until",
          .effect = "One end or a list of ends; the first that is met ends the stage, after max_cycles at the latest. "
-                   "`\"converged\"`: [convergence] holds. Under the default damping "
-                   "the step is then as long as what moves, or is "
-                   "about to touch, can bear (where time.step is given: only while standing rock is slow), and "
-                   "blocks at rest are left "
-                   "out until what they carry changes. Others: [ends of a stage](#ends-of-a-stage).",
+                   "`\"converged\"`: the criteria of [convergence] hold. Under the default damping the step is then as long as "
+                   "blocks that move or are about to touch allow (if time.step is given: only while standing rock is slow). Blocks "
+                   "at rest are skipped until the forces on them change. Others: [ends of a stage](#ends-of-a-stage).",
          .example = "[\"converged\", \"displacement:block1 > 0.1\"]",
          .default_note = "cycles or duration is given instead"},
         ValueType::text_or_texts);
@@ -129,11 +125,11 @@ SectionSpec stage_section()
                                        .range = count}),
          field<&StageDef::solver>(
              {.name = "solver",
-              .effect = "With until: `\"static\"` first tries to find the state of rest by Newton's iteration, "
-                        "without cycles. That takes 200 free blocks, no loads, springs at all contacts and the "
-                        "default damping. Blocks that come away fall in the cycles that follow; where there is no "
-                        "equilibrium all is left to cycles. A block on the verge of falling may stand in its answer. "
-                        "`\"dynamic\"`: cycles alone.",
+              .effect = "With until: `\"static\"` first looks for equilibrium by Newton's iteration, without cycles. It needs at "
+                        "least 200 free blocks, gravity and the default damping, and no loads, prescribed motions, bolts, liners, "
+                        "domain.hold or impulse method. Blocks that cannot stand fall in the cycles that follow. If there is no "
+                        "equilibrium, only cycles are used. A block on the verge of falling may count as stable. `\"dynamic\"`: "
+                        "cycles only.",
               .choices = {"static", "dynamic"}}),
          field<&StageDef::excavate>({.name = "excavate",
                                      .effect = "Names of excavations or blocks that are removed.",
@@ -141,47 +137,42 @@ SectionSpec stage_section()
                                      .default_note = "none"}),
          field<&StageDef::relax_cycles>(
              {.name = "relax_cycles",
-              .effect =
-                  "With excavate: the forces of the removed blocks on their neighbours are taken off evenly over so many cycles. "
-                  "0: at once, as in a blast. Rock next to an opening that is made at once swings, slips and opens joints that "
-                  "stand when it is made slowly. A stage with until ends after that. A static solution takes them off in eight "
-                  "parts. Likewise for a [[boundary]] that ends. In the first stage of rock without [insitu], and in a stage by "
-                  "springs after one by impulses, weight, loads, "
-                  "tractions, water and pretension grow from nothing over so many cycles: all at once they are felt up to 1.33 "
-                  "times, and "
-                  "joints that break or slip by that stay so.",
+              .effect = "With excavate: the forces of the removed blocks on their neighbours decrease evenly to 0 over this many "
+                        "cycles. 0: at once, as in a blast. Rock next to a sudden opening swings, and joints may slip or open that "
+                        "stand in a slow excavation. A stage with until does not end before the forces are gone. A static solution "
+                        "removes them in eight parts. The same holds for a [[boundary]] that ends. In the first stage of rock "
+                        "without [insitu], and in a stage by springs after one by impulses, weight, loads, tractions, water and "
+                        "pretension grow from 0 over this many cycles. Applied at once, "
+                        "they act up to 1.33 times, and joints that break or slip by this do not recover.",
               .example = "2000",
               .range = {.low = 0, .high = 1e9}}),
-         field<&StageDef::relax_to>({.name = "relax_to",
-                                     .effect = "Share of these forces that is left after relax_cycles, and acts until the stage "
-                                               "ends: rock that has come forward before "
-                                               "a support is set. The next stage takes off the rest, over its own relax_cycles. "
-                                               "The state of rest is then sought by "
-                                               "cycles alone.",
-                                     .example = "0.4",
-                                     .range = {.low = 0, .high = 1, .high_included = false}}),
+         field<&StageDef::relax_to>(
+             {.name = "relax_to",
+              .effect = "Share of these forces that is left after relax_cycles and acts until the stage ends, as for rock that has "
+                        "deformed before a support is installed. The next stage removes the rest over its own relax_cycles. No "
+                        "static solution is tried with this key.",
+              .example = "0.4",
+              .range = {.low = 0, .high = 1, .high_included = false}}),
          field<&StageDef::fix>({.name = "fix",
                                 .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
                                 .default_note = "none"}),
          field<&StageDef::free>(
              {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
-         field<&StageDef::set>({.name = "set",
-                                .effect = "Numbers from here on, each as \"joint.NAME.KEY = VALUE\" or \"material.NAME.density = "
-                                          "VALUE\". Where a stiffness "
-                                          "changes, contacts go on with the forces they have; where a density changes, blocks with "
-                                          "their velocities. Law and kind "
-                                          "of normal spring stay. Broken points stay broken.",
-                                .example = "[\"joint.default.friction_angle_deg = 25\"]",
-                                .default_note = "nothing changes"}),
+         field<&StageDef::set>(
+             {.name = "set",
+              .effect = "New values from this stage on, each as \"joint.NAME.KEY = VALUE\" or \"material.NAME.density = VALUE\". "
+                        "Where a stiffness changes, contacts keep their forces; where a density changes, blocks keep their "
+                        "velocities. The law and the kind of normal spring do not change. Broken points stay broken.",
+              .example = "[\"joint.default.friction_angle_deg = 25\"]",
+              .default_note = "nothing changes"}),
          field<&StageDef::set_cycles>(
              {.name = "set_cycles",
-              .effect = "With set: friction, cohesion and tension come to their new values evenly over so many cycles, in steps of "
-                        "ten. Angles go by their tangents, those of barton_bandis and continuously_yielding by themselves. 0: at "
-                        "once. A stage with until ends after that. Other numbers change at once: set them in a stage of their own. "
-                        "Contacts keep their forces where a stiffness changes, so that a slow change would end in the same forces. "
-                        "Weight grows slowly by a [[load]] with an acceleration. Roughness and dilation open a joint by the slip "
-                        "that "
-                        "it has had already.",
+              .effect = "With set: friction, cohesion and tension change evenly to their new values over this many cycles, in "
+                        "steps of ten cycles. Tangents of friction angles change evenly; for barton_bandis and "
+                        "continuously_yielding the angles do. 0: at once. A stage with until does not end before that. Other "
+                        "numbers change at once: set them in a stage of their own. A slow change of stiffness would give the same "
+                        "forces, because contacts keep theirs. For weight that grows slowly, use a [[load]] with an acceleration. "
+                        "New roughness and dilation count for earlier slip too, and so open the joint.",
               .example = "5000",
               .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::set_table>({.name = "set_table",
@@ -191,18 +182,18 @@ SectionSpec stage_section()
                                       .example = "[[0, 0.0], [1000, 0.6], [5000, 1.0]]",
                                       .range = {.low = 0, .high = 1e15},
                                       .default_note = "set_cycles"}),
-         field<&StageDef::set_table_file>({.name = "set_table_file",
-                                           .effect = "A text file with such rows, headed as those of loads: cycle,factor or "
-                                                     "time,factor.",
-                                           .example = "\"weakening.csv\"",
-                                           .default_note = "set_cycles"}),
+         field<&StageDef::set_table_file>(
+             {.name = "set_table_file",
+              .effect = "A text file with such rows and the heading of files of loads: cycle,factor or time,factor.",
+              .example = "\"weakening.csv\"",
+              .default_note = "set_cycles"}),
          field<&StageDef::set_table_by>({.name = "set_table_by",
-                                         .effect = "What the first column of `set_table` is. A file says so itself.",
+                                         .effect = "What the first column of `set_table` is. A file says it in its heading.",
                                          .choices = {"cycle", "time"}}),
          field<&StageDef::water_level>({.name = "water_level",
                                         .unit = "m",
-                                        .effect = "water.level from here on. The change is a step; with relax_cycles what is less "
-                                                  "or more than before comes evenly over so many cycles.",
+                                        .effect = "water.level from here on. The change comes at once; with relax_cycles the water "
+                                                  "forces change evenly over that many cycles.",
                                         .example = "4.0",
                                         .range = coordinate,
                                         .default_note = "unchanged"}),
@@ -232,52 +223,51 @@ SectionSpec history_section()
     quantities.insert(quantities.end(), point_quantities().begin(), point_quantities().end());
     quantities.insert(quantities.end(), bolt_quantities().begin(), bolt_quantities().end());
     quantities.insert(quantities.end(), liner_quantities().begin(), liner_quantities().end());
-    return {"history",
-            SectionKind::array,
-            "history",
-            "Quantities of one block (`block`), of the contacts between two (`between`), of a bolt (`bolt`), of a liner "
-            "(`liner`) or at a place (`point`), sampled into "
-            "results.h5.",
-            {field<&HistoryDef::name>(
-                 {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
-             field<&HistoryDef::block>({.name = "block",
-                                        .effect = "Name of the block.",
-                                        .example = "\"block1\"",
-                                        .default_note = "between or point is given instead"}),
-             field<&HistoryDef::between>({.name = "between",
-                                          .effect = "Names of the two blocks; forces act on the second.",
-                                          .example = "[\"ground\", \"block1\"]",
-                                          .default_note = "block is given instead"}),
-             field<&HistoryDef::bolt>({.name = "bolt",
-                                       .effect = "Name of the bolt; those of a pattern are called NAME.1, NAME.2, ...",
-                                       .example = "\"roof.3\"",
-                                       .default_note = "block or between is given instead"}),
-             field<&HistoryDef::liner>({.name = "liner",
-                                        .effect = "Name of the liner.",
-                                        .example = "\"shotcrete\"",
-                                        .default_note = "block, between or bolt is given instead"}),
-             field<&HistoryDef::point>({.name = "point",
-                                        .unit = "m",
-                                        .effect = "A place that does not move with the rock.",
-                                        .example = "[10.0, 4.0]",
-                                        .range = coordinate,
-                                        .default_note = "block or between is given instead"}),
-             field<&HistoryDef::quantities>(
-                 {.name = "quantities",
-                  .effect = "What is sampled; up to `kinetic_energy` they belong to `block`, from `normal_force` on to `between`, "
-                            "from `axial_force` on to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, "
-                            "4 ruptured, 5 lost). From `thrust` on they belong to `liner`: the greatest anywhere in it; nodes with "
-                            "a hinge; "
-                            "length that has come off the rock. `pore_pressure` (of the water in joints, from table, field or "
-                            "cracks) belongs to `point`. "
-                            "A vector such as `velocity` becomes two columns. What joints remember is the mean by their length, "
-                            "of open joints too; 0 where a joint has no memory. Blocks that have met since the start count as "
-                            "broken while they touch.",
-                  .example = "[\"velocity\"]",
-                  .choices = std::move(quantities),
-                  .required = true}),
-             field<&HistoryDef::every>({.name = "every", .effect = "Cycles between samples.", .range = count})},
-            append<&CaseDef::histories>};
+    return {
+        "history",
+        SectionKind::array,
+        "history",
+        "Quantities of one block (`block`), of the contacts between two (`between`), of a bolt (`bolt`), of a liner "
+        "(`liner`) or at a place (`point`), sampled into "
+        "results.h5.",
+        {field<&HistoryDef::name>(
+             {.name = "name", .effect = "Of the group in results.h5.", .default_note = "\"history1\", \"history2\", ..."}),
+         field<&HistoryDef::block>({.name = "block",
+                                    .effect = "Name of the block.",
+                                    .example = "\"block1\"",
+                                    .default_note = "between or point is given instead"}),
+         field<&HistoryDef::between>({.name = "between",
+                                      .effect = "Names of the two blocks; forces act on the second.",
+                                      .example = "[\"ground\", \"block1\"]",
+                                      .default_note = "block is given instead"}),
+         field<&HistoryDef::bolt>({.name = "bolt",
+                                   .effect = "Name of the bolt; those of a pattern are called NAME.1, NAME.2, ...",
+                                   .example = "\"roof.3\"",
+                                   .default_note = "block or between is given instead"}),
+         field<&HistoryDef::liner>({.name = "liner",
+                                    .effect = "Name of the liner.",
+                                    .example = "\"shotcrete\"",
+                                    .default_note = "block, between or bolt is given instead"}),
+         field<&HistoryDef::point>({.name = "point",
+                                    .unit = "m",
+                                    .effect = "A place that does not move with the rock.",
+                                    .example = "[10.0, 4.0]",
+                                    .range = coordinate,
+                                    .default_note = "block or between is given instead"}),
+         field<&HistoryDef::quantities>(
+             {.name = "quantities",
+              .effect = "Quantities to sample. Those up to `kinetic_energy` belong to `block`, those from `normal_force` on to "
+                        "`between`, `pore_pressure` (of the water in joints, from table, field or cracks) to `point`. Those from "
+                        "`axial_force` on belong to `bolt`: forces of one bolt, and its status (1 elastic, 2 slips, 3 yielded, 4 "
+                        "ruptured, 5 lost). Those from `thrust` on belong to `liner`: greatest values in it; number of nodes with "
+                        "a hinge; length that has come off the rock. A vector such as `velocity` becomes two columns. "
+                        "`plastic_slip`, `opening`, `damage` and `broken` are means by length over closed and open contacts; 0 for "
+                        "joints without memory. Contacts that formed after the start count as broken while they are closed.",
+              .example = "[\"velocity\"]",
+              .choices = std::move(quantities),
+              .required = true}),
+         field<&HistoryDef::every>({.name = "every", .effect = "Cycles between samples.", .range = count})},
+        append<&CaseDef::histories>};
 }
 
 SectionSpec output_section()
@@ -293,7 +283,7 @@ SectionSpec output_section()
               .range = count}),
          field<&OutputDef::frame_every>({.name = "frame_every",
                                          .effect = "Cycles between frames for ParaView; 0: one at the end of each stage. With more "
-                                                   "than 1000 stages only where 100 cycles have passed since the last frame.",
+                                                   "than 1000 stages, only if 100 cycles have passed since the last frame.",
                                          .range = count_or_none}),
          field<&OutputDef::contacts>({.name = "contacts", .effect = "Write contact frames as well."}),
          field<&OutputDef::checkpoint_every>(
@@ -303,8 +293,8 @@ SectionSpec output_section()
          field<&OutputDef::checkpoint_wall_minutes>(
              {.name = "checkpoint_wall_minutes",
               .unit = "min",
-              .effect = "Time on the wall between checkpoints; 0: by cycles only. There is one at the end and when the run is "
-                        "interrupted in any case.",
+              .effect = "Wall-clock time between checkpoints; 0: by cycles only. A checkpoint is always written at the end and "
+                        "when the run is interrupted.",
               .range = {.low = 0, .high = 1e6}})},
         part<&CaseDef::output>};
 }

@@ -27,7 +27,7 @@ std::vector<KeySpec> place_keys()
                              .range = coordinate,
                              .default_note = "around is given instead"}),
         field<&BoltDef::around>({.name = "around",
-                                 .effect = "Name of an excavation: bolts with their heads on its outline, square to it.",
+                                 .effect = "Name of an excavation: bolts with their heads on its outline, at right angles to it.",
                                  .example = "\"tunnel\"",
                                  .default_note = "from and to are given instead"}),
         field<&BoltDef::length>({.name = "length",
@@ -38,24 +38,23 @@ std::vector<KeySpec> place_keys()
                                  .default_note = "must be given with around"}),
         field<&BoltDef::along>({.name = "along",
                                 .unit = "m",
-                                .effect = "Distance of the heads of a pattern along the outline. They stand in the middle of equal "
-                                          "stretches, no longer than this.",
+                                .effect = "Greatest distance of the heads of a pattern along the outline. The outline is cut into "
+                                          "equal pieces no longer than this, with a head in the middle of each.",
                                 .example = "1.2",
                                 .range = length,
                                 .default_note = "must be given with around"}),
         field<&BoltDef::arc>({.name = "arc",
                               .unit = "deg",
                               .effect = "Only heads in the directions from the first to the second, anticlockwise from the x axis, "
-                                        "as seen from the middle of the outline's box: [30, 150] is the roof.",
+                                        "as seen from the centre of the outline's bounding box: [30, 150] is the roof.",
                               .example = "[30, 150]",
                               .range = {.low = -360, .high = 720},
                               .default_note = "all around"}),
-        field<&BoltDef::stage>(
-            {.name = "stage",
-             .effect = "Name of the stage at whose start it is installed, after excavation: without force but for "
-                       "its pretension.",
-             .example = "\"supported\"",
-             .default_note = "the first"}),
+        field<&BoltDef::stage>({.name = "stage",
+                                .effect = "Name of the stage at whose start it is installed, after excavation and without force "
+                                          "except its pretension.",
+                                .example = "\"supported\"",
+                                .default_note = "the first"}),
         field<&BoltDef::spacing>(
             {.name = "spacing",
              .unit = "m",
@@ -69,22 +68,22 @@ std::vector<KeySpec> bar_keys()
     return {
         field<&BoltDef::area>({.name = "area",
                                .unit = "m2",
-                               .effect = "Of the bar, A. Belongs to anchored and grouted.",
+                               .effect = "Cross-section of the bar, A. Belongs to anchored and grouted.",
                                .example = "4.9e-4",
                                .range = positive,
-                               .default_note = "must be given, anchored: unless stiffness is"}),
-        field<&BoltDef::modulus>({.name = "modulus", .unit = "Pa", .effect = "Of the bar, E.", .range = positive}),
+                               .default_note = "must be given; anchored: unless stiffness is given"}),
+        field<&BoltDef::modulus>({.name = "modulus", .unit = "Pa", .effect = "Young's modulus of the bar, E.", .range = positive}),
         field<&BoltDef::stiffness>({.name = "stiffness",
                                     .unit = "N/m",
-                                    .effect = "Anchored: of the bolt, instead of E A / free_length. Local: axial, of one crossing.",
+                                    .effect = "Anchored: axial stiffness of the bolt, instead of E A / free_length. Local: axial "
+                                              "stiffness of one crossing.",
                                     .example = "3e7",
                                     .range = non_negative,
                                     .default_note = "E A / free_length; local: must be given"}),
         field<&BoltDef::free_length>(
             {.name = "free_length",
              .unit = "m",
-             .effect = "Anchored: the length that stretches. Grouted: the length from the head on that has "
-                       "no bond.",
+             .effect = "Anchored: the length that stretches. Grouted: the length without bond, from the head on.",
              .example = "3.5",
              .range = {.low = 0, .high = 1e8},
              .default_note = "anchored: the distance of its ends; grouted: 0"}),
@@ -94,18 +93,17 @@ std::vector<KeySpec> bar_keys()
                                      .range = non_negative}),
         field<&BoltDef::yield>({.name = "yield",
                                 .unit = "N",
-                                .effect = "Axial force at which it yields: it bears no more and stays longer.",
+                                .effect = "Axial force at which it yields: it bears no more and keeps its elongation.",
                                 .example = "2.5e5",
                                 .range = positive,
                                 .default_note = "never"}),
-        field<&BoltDef::rupture_strain>(
-            {.name = "rupture_strain",
-             .effect = "Strain at which it ruptures, that of the pretension and of yielding included: of "
-                       "free_length; of a piece between two nodes, or of twice the diameter where that is longer; of "
-                       "active_length.",
-             .example = "0.1",
-             .range = positive,
-             .default_note = "never"}),
+        field<&BoltDef::rupture_strain>({.name = "rupture_strain",
+                                         .effect = "Strain at which it ruptures, including that of pretension and yielding. It "
+                                                   "refers to free_length (anchored), to a piece between two nodes but at least "
+                                                   "twice the diameter (grouted), or to active_length (local).",
+                                         .example = "0.1",
+                                         .range = positive,
+                                         .default_note = "never"}),
         field<&BoltDef::bond_stiffness>({.name = "bond_stiffness",
                                          .unit = "N/m/m",
                                          .effect = "Of the grout, per metre of bolt. Belongs to grouted.",
@@ -120,13 +118,13 @@ std::vector<KeySpec> bar_keys()
                                         .default_note = "must be given with grouted"}),
         field<&BoltDef::segment>({.name = "segment",
                                   .unit = "m",
-                                  .effect = "Greatest distance of its nodes. Belongs to grouted.",
+                                  .effect = "Greatest distance between its nodes. Belongs to grouted.",
                                   .example = "0.05",
                                   .range = length,
                                   .default_note = "0.1 (E A / bond_stiffness)^1/2"}),
-        field<&BoltDef::plate>({.name = "plate",
-                                .effect = "A plate holds the head against the rock: the bar cannot be drawn in there. Belongs to "
-                                          "grouted."}),
+        field<&BoltDef::plate>(
+            {.name = "plate",
+             .effect = "A plate holds the head against the rock: the bar cannot slip into the rock there. Belongs to grouted."}),
         field<&BoltDef::shear_stiffness>({.name = "shear_stiffness",
                                           .unit = "N/m",
                                           .effect = "Across the bolt, of one crossing. Belongs to local.",
@@ -142,8 +140,8 @@ std::vector<KeySpec> bar_keys()
         field<&BoltDef::active_length>(
             {.name = "active_length",
              .unit = "m",
-             .effect = "Length of bar that works at a crossing, half on each side; twice its diameter, as a "
-                       "rule. The axial force acts along the line between its two ends. Belongs to local.",
+             .effect = "Length of bar that deforms at a crossing, half on each side; usually twice its diameter. The axial force "
+                       "acts along the line between the two ends of this length. Belongs to local.",
              .example = "0.05",
              .range = length,
              .default_note = "must be given with local"})};
@@ -154,18 +152,16 @@ SectionSpec bolt_section()
 {
     std::vector<KeySpec> keys = place_keys();
     std::ranges::move(bar_keys(), std::back_inserter(keys));
-    return {"bolt",
-            SectionKind::array,
-            "bolt",
-            "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears "
-            "tension only. "
-            "grouted: a bar bonded to the rock along its length (cable, dowel); the bond slips, the bar yields; at a joint it is "
-            "free over "
-            "twice its diameter. local: an axial and a shear "
-            "spring at each joint that the line from -> to crosses. Their points belong to the blocks; a block that is excavated "
-            "takes its "
-            "part of a bolt with it. They act as forces with all methods; while there are bolts static solutions are not tried.",
-            std::move(keys),
-            append<&CaseDef::bolts>};
+    return {
+        "bolt",
+        SectionKind::array,
+        "bolt",
+        "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears tension "
+        "only. grouted: a bar bonded to the rock along its length (cable, dowel); the bond may slip, the bar may yield; at a joint "
+        "it is free over twice its diameter. local: an axial and a shear spring at each joint that the line from -> to crosses. "
+        "Points of a bolt are fastened to the blocks there; a block that is excavated takes its part of the bolt with it. Bolts "
+        "act as forces with all methods. While there are bolts, solver = \"static\" of a stage has no effect.",
+        std::move(keys),
+        append<&CaseDef::bolts>};
 }
 }  // namespace hdem
