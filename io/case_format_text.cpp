@@ -84,9 +84,9 @@ const std::string_view semantics = R"md(## What the words mean
 **Dip.** `dip_deg` is the angle from the x axis to the joint's trace, positive anticlockwise: 30 rises to the right, -30 falls to the
 right, 90 is vertical. 30 and -150 are the same joint.
 
-**Which joint acts at a contact.** When the touching face was cut by a fault, an outline of a region, a joint set or a trace that names
-a `joint`, that one (in this order, where the two faces differ); else the [joint.NAME] whose `materials` are the two blocks' materials,
-in either order; else [joint.default].
+**Which joint acts at a contact.** If a touching face was cut by a fault, an outline of a region, a joint set or a trace that names
+a `joint`: that one (in this order, if the two faces differ). Else the [joint.NAME] whose `materials` are those of the two blocks,
+in either order. Else [joint.default].
 
 **Fixed.** A fixed component (x, y or rotation) of a block is never changed by forces: it keeps the velocity it starts with, 0 unless `velocity`
 or a load prescribes another. A block with all three fixed and no velocity is a support. `domain.fixed` fixes all three of each block
@@ -101,11 +101,11 @@ In a load, `"*"` stands for all blocks that are free at that moment; it can stan
 then removes what `excavate` names, then fixes, then frees.
 Contacts keep their forces from stage to stage; but springs that follow impulses begin without force (`relax_cycles`). Cycles and seconds count on from the start of the run, also for loads.
 
-**When a load acts.** With `from_cycle = 5000` a load is there from the 5001st cycle on: when 5000 cycles are done. Likewise
+**When a load acts.** With `from_cycle = 5000` a load acts from the 5001st cycle on, after 5000 cycles. Likewise
 `until_cycle = 6000` makes the 6000th its last. Times are compared with the time at the start of the cycle.
 
-**Loads that grow and fall.** What a [[load]] or a [[boundary]] of kind `stress`, `velocity` or `servo` gives is multiplied with a factor, if one is
-given: by `ramp_cycles = [from, until]` it grows from 0 to 1; by `table = [[cycle, factor], ...]`, or by the same in a file, it follows straight lines
+**Loads that grow and fall.** What a [[load]] or a [[boundary]] of kind `stress`, `velocity` or `servo` gives is multiplied by a factor, if one is
+given. With `ramp_cycles = [from, until]` it grows from 0 to 1. With `table = [[cycle, factor], ...]`, or the same in a file, it is linear
 between the rows. With `since = "NAME"` cycles and times are counted from the start of that stage, and a load does not act before it.
 
 ```toml
@@ -132,8 +132,8 @@ time,factor
 0.04,-0.10
 ```
 
-A stage with `until` does not end while a factor changes in it. Until then no block is left out, and all steps are the same. From then on the stage
-goes on as if the load had always been there. While times in seconds are still to come, steps stay the same in earlier stages too.
+A stage with `until` does not end while a factor changes. Until then no block is skipped, and all steps are equal. Afterwards the stage
+goes on as if the load had always been there. While a time in seconds is still to come, steps are equal in earlier stages too.
 
 **Random numbers.** Dips, spacings, traces, gaps, persistence and Voronoi points are the only random things, and follow from `generator.seed` alone
 (or from the `seed` of their section). Each use of each set has a stream of its own: what one set draws changes nothing in another one.
@@ -166,26 +166,26 @@ stops_at = ["main"]                     # a [[fault]]
 | `"lognormal"` | `mean`, `sd`: of the number itself, not of its logarithm | lengths |
 
 `least` and `most` cut any of them. `mean`, `sd` and `kappa` are those before the cut: an exponential with mean 1 cut to 0.2 and 3 has the mean 1.018707. `hdem check`
-prints, for each set, the mean that came out and behind it, in brackets, the mean of the distribution as it was cut. `summary.json` has both under `joint_sets`.
+prints, for each set, the mean of its joints and, in brackets, the mean of the cut distribution. `summary.json` has both under `joint_sets`.
 
 **Through-going joints** lie at their spacings from `origin` outwards, and turn about the points at which they cross the line through `origin` at right angles to the set.
-So their dips deviate by less than 45°: what is drawn is cut there. For greater deviations take joints of finite length.
+Their dips deviate by less than 45°: the distribution is cut there. For greater deviations use joints of finite length.
 
 **Joints of finite length** have a `trace`. With `spacing` and `gap` they follow each other on parallel lines, and each turns about its own middle. With `p21` [m/m2] instead of these
-their middles lie anywhere, independent of each other, and their length an area is `p21` on average. The length an area on lines is trace / (trace + gap) / spacing.
+their middles lie anywhere, independent of each other, and their length per area is `p21` on average. With lines, the length per area is trace / (trace + gap) / spacing.
 
-They are cut together with the through-going sets that have no `persistence`, with faults and with outlines of regions: where these close around an area it becomes a block.
-Sets with a `persistence` cut these blocks afterwards, by chance. What of a joint ends inside a block is dropped, and cells smaller than `generator.smallest_block_area`, or narrower than
-2e-6 of the domain, are joined to the neighbour with the longest common edge, but never across a fault or an outline. `hdem check`, `run.log` and `summary.json` say how much of each set's length that was.
-Cells with an edge below `generator.smallest_edge` are joined to a neighbour whose edge goes straight on from it; what is left is said in a warning.
+They are cut together with the through-going sets that have no `persistence`, with faults and with outlines of regions. An area that these lines enclose becomes a block.
+Sets with a `persistence` cut these blocks afterwards, by chance. The part of a joint that ends inside a block is dropped. Cells smaller than `generator.smallest_block_area`, or narrower than
+2e-6 of the domain, are joined to the neighbour with the longest common edge, but never across a fault or an outline. `hdem check`, `run.log` and `summary.json` say how much length each set loses by this.
+Cells with an edge below `generator.smallest_edge` are joined to a neighbour whose edge goes straight on from it; a warning names shorter edges that remain.
 
-A rock bridge is solid rock: it does not break. Where it should, draw the joint through, and give it a [joint.NAME] with the cohesion and the tension of the bridge.
+A rock bridge is solid rock: it does not break. If it should break, draw the joint through it, with a [joint.NAME] with the cohesion and the tension of the bridge.
 
 **Orientations in space.** `orientation = {dip = 60, dip_direction = 130, section = 90}` and the true `spacing` of the planes: with tan α = tan δ cos(α_d − ζ) the trace falls
 to the side to which the planes dip, and its spacing is s / sqrt(sin² δ cos²(α_d − ζ) + cos² δ). Here `dip_deg` is -52.9955°, and 1.5 m become 1.805633 m. All distributions
-are then those of the section; a deviation is one in the section.
+and deviations are then those in the section.
 
-**Voronoi cells** ([voronoi]) stand for rock without sets. Their edges are cut as joints of finite length are. Edges below `generator.smallest_edge` shrink to a point; at the
+**Voronoi cells** ([voronoi]) stand for rock without sets. Their edges are cut like joints of finite length. Edges below `generator.smallest_edge` shrink to a point; at the
 boundary of the domain or of the region they may still be shorter. Through-going sets cut the cells too: keep them out by `outside`.
 
 ## The profile
@@ -199,8 +199,8 @@ x,y
 80,121.4
 ```
 
-Lines that begin with `#` are skipped, and the heading may be left out. x grows from row to row; a wall that stands upright or overhangs needs a polygon. Edges of the domain have the numbers of a polygon that begins
-with the lower side: 0 is the lower side, 1 the right one, and the last one is on the left; `fixed` and [[boundary]] know them by their names too.
+Lines that begin with `#` are skipped, and the heading may be left out. x grows from row to row; for a vertical or overhanging wall use a polygon. Edges of the domain are numbered as in a polygon that begins
+with the lower side: 0 is the lower side, 1 the right one, the last one the left one. `fixed` and [[boundary]] accept names of sides too.
 
 ## Faults and regions
 
@@ -243,20 +243,20 @@ materials = ["shale", "shale"]
 A set that names a `joint` takes it everywhere. To give one set two joints, write it twice, once with `region = "weak"` and once with
 `outside = "weak"`, each with its own `joint`. Give both the same `origin` and `seed`: then they are the same lines.
 
-**Above and below.** Above is the left side of a fault that is walked from its lower x to its higher x. The fault goes on straight at its ends. A fault
-that ends at another one parts the rock only up to there: give such a region both faults, or a polygon. A fault that ends straight above
-its beginning has no upper side: a polygon along it cuts no second joint there.
+**Above and below.** Above is the left side of a fault, seen from its end with lower x to the other end. The fault is extended straight at its ends. A fault
+that ends at another one separates the rock only up to there: give such a region both faults, or a polygon. A fault that ends straight above
+its beginning has no upper side: use a polygon. Its outline cuts no second joint along the fault.
 
-**Dead ends.** A fault that ends inside the domain, and not at another line, parts nothing beyond the last line it meets: that piece is left out, with a
-warning that gives its length. Joint sets come later, and do not hold it.
+**Dead ends.** A fault that ends inside the domain, and not at another line, separates nothing beyond the last line it meets. That piece is not cut; a
+warning gives its length. Joint sets are cut later, so no fault ends at them.
 
 **In-situ stress** of [insitu] by `surface` takes the density of domain.material; `hdem check` tells how far a region of another density is out of
 equilibrium.
 
 ## The blocks file
 
-`blocks_file` names a text file with one polygon a line in WKT. Empty lines and lines that start with `#` are skipped. Behind the polygon may stand
-its name, its material, and what is fixed, each behind a semicolon and each possibly empty:
+`blocks_file` names a text file with one polygon per line in WKT. Empty lines and lines that start with `#` are skipped. After the polygon may stand
+its name, its material and its fixed components, each after a semicolon and possibly empty:
 
 ```
 # ground and two blocks
@@ -268,7 +268,7 @@ POLYGON((2 1, 3 1, 3 2, 2 2, 2 1)); upper; ; rotation
 The first vertex is repeated at the end. Blocks without a name are called `block1`, `block2`, ... counted on from those of [[block]].
 Holes, MULTIPOLYGON, Z and M are refused.
 
-A file whose name ends in `.csv` has a row a vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
+A file whose name ends in `.csv` has one row per vertex instead: `name,x,y` and, in a block's first row, `material,fixed`. Rows of one block follow each
 other; a heading with these names may stand above them. `tools/import_dxf.py` makes such files from drawings.
 
 A file whose name ends in `.geojson` or `.json` is GeoJSON: Polygon and MultiPolygon without holes, with the properties `name`, `material` and `fixed`,
@@ -278,12 +278,12 @@ in capitals or not; a name may be a whole number. Coordinates are taken as they 
 ogr2ogr -f GeoJSON blocks.geojson blocks.shp
 ```
 
-The other way round, `hdem check CASE.toml --write-blocks blocks.geojson` (or `.wkt`) writes all blocks with name, material, what is fixed and, for each edge from the first vertex to
-the second on, the set, fault, outline or excavation that cut it (`hole_edges` for the edges of holes; "domain" and "block" for given edges). Both can be given as `blocks_file` again, but not what the edges were cut by: then contacts take their joints by materials. Blocks around other blocks have holes, and are refused there: draw a joint through them.
+`hdem check CASE.toml --write-blocks blocks.geojson` (or `.wkt`) writes all blocks with name, material and fixed components. For each edge, beginning with that from the first vertex
+to the second, it gives the set, fault, outline or excavation that cut it (`hole_edges` for edges of holes; "domain" and "block" for given edges). Both files can be a `blocks_file` again, but what cut the edges is not read: contacts then take their joints by materials. Blocks around other blocks have holes, and are refused as input: draw a joint through them.
 
 ## The traces file
 
-`domain.traces_file` names a text file of joint traces that need not run through: one WKT line a row, or a `.csv` with rows of `name,x,y`.
+`domain.traces_file` names a text file of joint traces that need not run through: one WKT line per row, or a `.csv` with rows of `name,x,y`.
 
 ```
 # a joint, and one that bends
@@ -293,8 +293,8 @@ LINESTRING(3 0, 4 3, 6 9)
 
 A file whose name ends in `.geojson` or `.json` is GeoJSON with LineString and MultiLineString: `ogr2ogr -f GeoJSON traces.geojson traces.shp`.
 
-The traces cut the domain into blocks where they close around an area together, or with the domain's boundary. What parts nothing, because it ends
-inside a block or only joins two rings of traces, is dropped, and counted in `hdem check` and in run.log. Excavations and joint sets cut further. Traces are cut whatever `smallest_block_area`
+The traces cut the domain into blocks where they enclose an area, together or with the domain's boundary. A part that separates nothing, because it ends
+inside a block or only joins two rings of traces, is dropped and counted in `hdem check` and in run.log. Excavations and joint sets cut further. Traces are cut whatever `smallest_block_area`
 says: a cell smaller than it stays, with a warning.
 )md";
 }  // namespace hdem::format_text

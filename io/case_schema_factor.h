@@ -14,7 +14,7 @@ void add_factor_keys(std::vector<KeySpec>& keys)
     keys.push_back(inner_field<Factor, &FactorDef::ramp_cycles>(
         {.name = "ramp_cycles",
          .effect = "[from, until] in cycles: all that is given grows linearly from 0 to its full value in between. It is 0 before. "
-                   "A stage with the key until does not end before its full value is reached.",
+                   "A stage with until ends only after that.",
          .example = "[0, 5000]",
          .range = cycles,
          .default_note = none}));

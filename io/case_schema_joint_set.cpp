@@ -130,12 +130,12 @@ SectionSpec joint_set_section()
                                        .effect = "Name of a [[region]] whose blocks this set does not cut.",
                                        .example = "\"weak\"",
                                        .default_note = "the whole domain"}),
-         field<&JointSetDef::stops_at>({.name = "stops_at",
-                                        .effect = "Names of the [[fault]]s at which joints of this set end. The part that contains "
-                                                  "the middle of the joint stays. Without `trace` the middle is the point where "
-                                                  "the joint crosses the line through `origin` at right angles to the set.",
-                                        .example = "[\"fault1\"]",
-                                        .default_note = "joints go on beyond faults"})},
+         field<&JointSetDef::stops_at>(
+             {.name = "stops_at",
+              .effect = "Names of the [[fault]]s at which joints of this set end. The part with the joint's middle stays. Without "
+                        "`trace` the middle is where the joint crosses the line through `origin` at right angles to the set.",
+              .example = "[\"fault1\"]",
+              .default_note = "joints go on beyond faults"})},
         append<&CaseDef::joint_sets>};
 }
 

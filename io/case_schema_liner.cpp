@@ -143,14 +143,13 @@ SectionSpec liner_section()
     std::vector<KeySpec> keys = place_keys();
     std::ranges::move(beam_keys(), std::back_inserter(keys));
     std::ranges::move(tie_keys(), std::back_inserter(keys));
-    return {
-        "liner",
-        SectionKind::array,
-        "liner",
-        "Liners: beams (Euler and Bernoulli) along the outline of an excavation, or along points, tied to the rock by springs with "
-        "friction, cohesion and a bond that breaks. All numbers are per metre out of plane. Displacements of the liner are assumed "
-        "small. Liners act as forces with all methods. While there are liners, solver = \"static\" of a stage has no effect.",
-        std::move(keys),
-        append<&CaseDef::liners>};
+    return {"liner",
+            SectionKind::array,
+            "liner",
+            "Liners: beams (Euler and Bernoulli) along the outline of an excavation, or along points, tied to the rock by springs "
+            "with friction, cohesion and a bond that breaks. All numbers are per metre out of plane. Displacements of the liner "
+            "are assumed small. They act as forces with all methods. With liners no static solution is tried.",
+            std::move(keys),
+            append<&CaseDef::liners>};
 }
 }  // namespace hdem

@@ -96,10 +96,9 @@ SectionSpec domain_section()
          field<&DomainDef::hold>(
              {.name = "hold",
               .effect = "For a model in which nothing is fixed and a [[boundary]] of kind stress acts in every stage. `mean`: the "
-                        "blocks at these sides do not move or turn on average, but move freely relative to each other. Forces in "
-                        "proportion to their masses hold them. These forces carry what is out of equilibrium, e.g. after an "
-                        "excavation. As drawn, tractions and weight must be in equilibrium. With `none`, something must be fixed, "
-                        "or stand on a side of another kind.",
+                        "blocks at these sides do not move or turn on average. Forces in proportion to their masses hold them, and "
+                        "carry what is out of equilibrium, e.g. after an excavation. As drawn, tractions and weight must be in "
+                        "equilibrium. With `none`, something must be fixed, or stand on a side of another kind.",
               .example = "\"mean\"",
               .choices = {"none", "mean"}}),
          field<&DomainDef::material>(

@@ -53,16 +53,16 @@ SectionSpec convergence_section()
              {.name = "loose_distance",
               .unit = "m",
               .effect = "A block that moved farther than this in its stage is loose; other blocks are standing rock. In a stage "
-                        "with `until = \"converged\"` under the default damping, standing rock keeps its springs, and loose blocks "
-                        "may meet by impulses. A loose block in flight takes longer steps than rock that moves. While standing "
-                        "rock is slower than ten times mean_speed, steps may be longer than a given time.step.",
+                        "with `until = \"converged\"` under the default damping, standing rock keeps its springs, loose blocks may "
+                        "meet by impulses, and a loose block in flight takes longer steps. While standing rock is slower than ten "
+                        "times mean_speed, steps may be longer than a given time.step.",
               .range = length}),
          field<&ConvergenceDef::detached_distance>(
              {.name = "detached_distance",
               .unit = "m",
               .effect = "A block that moved farther in the last stage counts as detached (`detached_blocks` in summary.json). A "
-                        "block that lies farther than this from its place at the start of the run, because of earlier stages, is "
-                        "in `detached_before`.",
+                        "block that lies farther than this from its place at the start of the run, moved by earlier stages, is in "
+                        "`detached_before`.",
               .range = length}),
          field<&ConvergenceDef::lost_distance>(
              {.name = "lost_distance",
@@ -139,11 +139,11 @@ SectionSpec stage_section()
              {.name = "relax_cycles",
               .effect = "With excavate: the forces of the removed blocks on their neighbours decrease evenly to 0 over this many "
                         "cycles. 0: at once, as in a blast. Rock next to a sudden opening swings, and joints may slip or open that "
-                        "stand in a slow excavation. A stage with until does not end before the forces are gone. A static solution "
-                        "removes them in eight parts. The same holds for a [[boundary]] that ends. In the first stage of rock "
-                        "without [insitu], and in a stage by springs after one by impulses, weight, loads, tractions, water and "
-                        "pretension grow from 0 over this many cycles. Applied at once, "
-                        "they act up to 1.33 times, and joints that break or slip by this do not recover.",
+                        "stand in a slow excavation. A stage with until ends only after that. A static solution removes them in "
+                        "eight parts. Likewise for a [[boundary]] that ends. In the first stage of rock without [insitu], and in a "
+                        "stage by springs after one by impulses, weight, loads, tractions, water and pretension grow from 0 over "
+                        "this many cycles. Applied at once, they act up to 1.33 times, "
+                        "and joints that break or slip by this do not recover.",
               .example = "2000",
               .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::relax_to>(
@@ -169,10 +169,10 @@ SectionSpec stage_section()
              {.name = "set_cycles",
               .effect = "With set: friction, cohesion and tension change evenly to their new values over this many cycles, in "
                         "steps of ten cycles. Tangents of friction angles change evenly; for barton_bandis and "
-                        "continuously_yielding the angles do. 0: at once. A stage with until does not end before that. Other "
-                        "numbers change at once: set them in a stage of their own. A slow change of stiffness would give the same "
-                        "forces, because contacts keep theirs. For weight that grows slowly, use a [[load]] with an acceleration. "
-                        "New roughness and dilation count for earlier slip too, and so open the joint.",
+                        "continuously_yielding the angles do. 0: at once. A stage with until ends only after that. Other numbers "
+                        "change at once: set them in a stage of their own. A slow change of stiffness would give the same forces, "
+                        "because contacts keep theirs. For weight that grows slowly, use a [[load]] with an acceleration. New "
+                        "roughness and dilation count for earlier slip too.",
               .example = "5000",
               .range = {.low = 0, .high = 1e9}}),
          field<&StageDef::set_table>({.name = "set_table",

@@ -62,7 +62,7 @@ SectionSpec factor_of_safety_section()
              {.name = "begin",
               .effect = "If blocks failed in the last stage with the strength of the case: `\"last_stage\"` runs the stage anew "
                         "under great strength, so that F is that of the rock before they moved. A block that falls even then fails "
-                        "at any strength. `\"last_state\"` takes the rock as it lies, so that F is that of what still stands.",
+                        "at any strength. `\"last_state\"` takes the rock as it lies; F is that of what still stands.",
               .choices = {"last_stage", "last_state"}}),
          field<&FactorOfSafetyDef::peak>(
              {.name = "peak",

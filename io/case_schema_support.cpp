@@ -38,8 +38,8 @@ std::vector<KeySpec> place_keys()
                                  .default_note = "must be given with around"}),
         field<&BoltDef::along>({.name = "along",
                                 .unit = "m",
-                                .effect = "Greatest distance of the heads of a pattern along the outline. The outline is cut into "
-                                          "equal pieces no longer than this, with a head in the middle of each.",
+                                .effect = "Greatest distance of the heads along the outline. Heads stand in the middle of equal "
+                                          "pieces no longer than this.",
                                 .example = "1.2",
                                 .range = length,
                                 .default_note = "must be given with around"}),
@@ -152,16 +152,15 @@ SectionSpec bolt_section()
 {
     std::vector<KeySpec> keys = place_keys();
     std::ranges::move(bar_keys(), std::back_inserter(keys));
-    return {
-        "bolt",
-        SectionKind::array,
-        "bolt",
-        "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears tension "
-        "only. grouted: a bar bonded to the rock along its length (cable, dowel); the bond may slip, the bar may yield; at a joint "
-        "it is free over twice its diameter. local: an axial and a shear spring at each joint that the line from -> to crosses. "
-        "Points of a bolt are fastened to the blocks there; a block that is excavated takes its part of the bolt with it. Bolts "
-        "act as forces with all methods. While there are bolts, solver = \"static\" of a stage has no effect.",
-        std::move(keys),
-        append<&CaseDef::bolts>};
+    return {"bolt",
+            SectionKind::array,
+            "bolt",
+            "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears "
+            "tension only. grouted: a bar bonded to the rock along its length (cable, dowel); the bond may slip, the bar may "
+            "yield; at a joint it is free over twice its diameter. local: an axial and a shear spring at each joint that the line "
+            "from -> to crosses. A bolt is fastened to the blocks at its points; a block that is excavated takes its part with it. "
+            "Bolts act as forces with all methods. With bolts no static solution is tried.",
+            std::move(keys),
+            append<&CaseDef::bolts>};
 }
 }  // namespace hdem

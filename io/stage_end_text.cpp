@@ -205,16 +205,16 @@ max_cycles = 200000
 | `unbalanced_force_ratio < R` | the ratio of all free blocks, as on the screen, is no more than R |
 | `history:NAME.COLUMN > X`, `< X` | this column of the [[history]] NAME has reached X, from below or from above. Any quantity that fits the history may be named; of a vector one component (`displacement_x`) |
 | `quiet for T s` | no joint has opened, closed or broken for so long, and none slides faster than convergence.mean_speed |
-| `... within W for T s` | all values of displacement, speed or a history in this time lie within a band of width W; after a value outside a new band begins with it |
+| `... within W for T s` | all values of displacement, speed or a history in this time lie within a band of width W; a value outside begins a new band |
 | `time > T`, `cycles > N` | the stage has lasted so long |
 
-- `for T s` or `for N cycles` may stand behind each of them but the last: it must have held so long at every look. Looks are at cycles that are multiples of convergence.check_every.
-- Rock comes to some of these ends by settling: `speed <`, `unbalanced_force_ratio <`, `within` and `quiet`. They wait, as `converged` does, until loads, sides, `set_cycles` and pressures behind linings
-  do not change any more, forces are taken off, and convergence.least_cycles have passed. The others are met at once; what was still changing is named at the end.
+- `for T s` or `for N cycles` may follow each of them but the last: it must then hold for so long at every check. Checks are at multiples of convergence.check_every cycles.
+- Rock that settles meets `speed <`, `unbalanced_force_ratio <`, `within` and `quiet`. These wait, as `converged` does, until loads, sides, `set_cycles` and pressures behind liners
+  no longer change, the forces of `relax_cycles` are gone, and convergence.least_cycles have passed. The others do not wait; what still changes is named at the end.
 - A stage that waits for motion only (`displacement >`, `speed >`, `history`) also ends when [convergence] holds, no load changes and no motion is prescribed: nothing can happen any more.
   That counts as an end.
 - Where max_cycles is reached first, the program ends with exit code 4. `cycles > N` in the list makes it a regular end.
-- Only `converged` changes how the rock is damped and stepped. Use the others alone, and damping.preset = "dynamic", where times matter.
+- Only `converged` changes damping and time steps. Where times matter, use the others alone, and damping.preset = "dynamic".
 
 )";
 }
