@@ -50,11 +50,9 @@ SectionSpec region_section()
                                    .effect = "Name of the fault it lies above. The fault is extended straight at its ends. It must "
                                              "separate the region from the rest.",
                                    .example = "\"fault1\"",
-                                   .default_note = "not limited so"}),
-         field<&RegionDef::below>({.name = "below",
-                                   .effect = "Name of the fault it lies below.",
-                                   .example = "\"fault1\"",
-                                   .default_note = "not limited so"}),
+                                   .default_note = "no limit"}),
+         field<&RegionDef::below>(
+             {.name = "below", .effect = "Name of the fault it lies below.", .example = "\"fault1\"", .default_note = "no limit"}),
          field<&RegionDef::material>({.name = "material",
                                       .effect = "Name of the [material.NAME] of its blocks. Where regions overlap, the first one "
                                                 "in the file with a material counts.",

@@ -82,8 +82,8 @@ SectionSpec domain_section()
                                     .range = coordinate,
                                     .default_note = "must be given with profile"}),
          field<&DomainDef::fixed>({.name = "fixed",
-                                   .effect = "Sides of the rectangle. A block with an edge on one of them is fixed. A block inside "
-                                             "an excavation is too, until it is removed.",
+                                   .effect = "Sides of the rectangle. A block with an edge on one of them is fixed; one that lies "
+                                             "inside an excavation, until it is removed.",
                                    .example = "[\"left\", \"right\", \"bottom\"]",
                                    .choices = {"left", "right", "bottom", "top"},
                                    .default_note = "none"}),
