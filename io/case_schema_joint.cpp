@@ -65,19 +65,21 @@ std::vector<KeySpec> spring_keys()
 std::vector<KeySpec> coulomb_keys()
 {
     return {
-        field<&JointDef::friction_angle_deg>({.name = "friction_angle_deg",
-                                              .unit = "deg",
-                                              .effect = "φ: slip begins at the shear force F_n tan φ + c L. The basic friction of "
-                                                        "the other laws (φ_u of saeb_amadei).",
-                                              .example = "30.0",
-                                              .range = acute,
-                                              .default_note = "must be given, except for barton_bandis"}),
+        field<&JointDef::friction_angle_deg>(
+            {.name = "friction_angle_deg",
+             .unit = "deg",
+             .effect = "φ: slip begins at the shear force F_n tan φ + c L. The basic friction of "
+                       "the other laws (φ_u of saeb_amadei), that before any slip of slip_weakening.",
+             .example = "30.0",
+             .range = acute,
+             .default_note = "must be given, except for barton_bandis"}),
         field<&JointDef::cohesion>(
             {.name = "cohesion",
              .unit = "Pa",
              .effect = "c of the shear limit F_n tan φ + c L; L is the contact length. Only joints that are closed as drawn have "
                        "it; contacts that form later do not. patton: c_x, strength of sheared asperities at zero stress.",
-             .range = non_negative}),
+             .range = non_negative,
+             .default_note = "0; must be given for patton"}),
         field<&JointDef::tension>({.name = "tension",
                                    .unit = "Pa",
                                    .effect = "T: greatest tension of an intact joint, at most c / tan φ. coulomb.",
@@ -88,7 +90,7 @@ std::vector<KeySpec> coulomb_keys()
              .unit = "deg",
              .effect = "φ_r: of a broken joint (coulomb), of a worn one (barton_bandis, patton, slip_weakening).",
              .range = acute,
-             .default_note = "friction_angle_deg"}),
+             .default_note = "friction_angle_deg; must be given for barton_bandis, patton and slip_weakening"}),
         field<&JointDef::residual_cohesion>(
             {.name = "residual_cohesion",
              .unit = "Pa",

@@ -168,8 +168,9 @@ SectionSpec stage_section()
          field<&StageDef::set_cycles>(
              {.name = "set_cycles",
               .effect = "With set: friction, cohesion and tension change evenly to their new values over this many cycles, in "
-                        "steps of ten cycles. Tangents of friction angles change evenly; for barton_bandis and "
-                        "continuously_yielding the angles do. 0: at once. A stage with until ends only after that. Other numbers "
+                        "steps of ten cycles. Tangents of friction angles change evenly (of patton those of φ + i "
+                        "and φ_r); for barton_bandis and continuously_yielding the angles do. 0: at once. A stage with until ends "
+                        "only after that. Other numbers "
                         "change at once: set them in a stage of their own. A slow change of stiffness would give the same forces, "
                         "because contacts keep theirs. For weight that grows slowly, use a [[load]] with an acceleration. New "
                         "roughness and dilation count for earlier slip too.",

@@ -28,7 +28,7 @@ struct ConvergenceDef
 {
     ConvergenceBlocks blocks = ConvergenceBlocks::all;
     std::vector<std::string> criteria = {"kinetic_energy", "unbalanced_force_ratio", "every_block"};  ///< all listed must hold
-    double mean_speed = 5.0e-4;              ///< kinetic energy of all free blocks at this speed is the limit [m/s]
+    double mean_speed = 5.0e-4;              ///< kinetic energy of the free blocks in question at this speed is the limit [m/s]
     double unbalanced_force_ratio = 1.0e-5;  ///< [-]
     double block_unbalanced_ratio = 1.0e-4;  ///< [-]
     double hold_time = 0.025;                ///< all criteria must have held at all checks for so long [s]
@@ -36,7 +36,8 @@ struct ConvergenceDef
     std::int64_t check_every = 10;           ///< tested at multiples of this many cycles
     double loose_distance = 0.05;            ///< a block that moved farther in its stage is loose [m]
     double detached_distance = 0.1;          ///< a block that moved farther counts as detached [m]
-    std::optional<double> lost_distance;     ///< one farther outside the model has left it; not given: ten times its size [m]
+    std::optional<double>
+        lost_distance;  ///< one farther outside the model has left it; not given: ten times the greater of its width and height [m]
 };
 
 /// How a stage that ends at rest looks for it.

@@ -128,10 +128,10 @@ def work(options, folder, first, shared):
     warnings.simplefilter("ignore")
     reader = Reader(folder, options.draw_every)
     for number in range(first, options.results + options.frames):
-        shared[:16] = struct.pack("<qd", number, time.process_time())
+        shared[:16] = struct.pack("<qd", number, 0.0)    # to damage a file may take longer than to read it: a text of zeros 18 s
         chance, kind = random.Random(f"{options.seed} {number}"), kind_of(number, options.results)
         done = reader.damage(chance, kind)
-        shared[:16] = struct.pack("<qd", number, time.process_time())    # to damage a file may take long: 18 s for a text of zeros
+        shared[:16] = struct.pack("<qd", number, time.process_time())
         was_read, found = reader.try_one(kind, chance)
         at = 16 + 8 * (2 * KINDS.index(kind) + was_read)
         shared[at:at + 8] = struct.pack("<q", struct.unpack("<q", shared[at:at + 8])[0] + 1)
