@@ -156,8 +156,9 @@ SectionSpec stage_section()
          field<&StageDef::fix>({.name = "fix",
                                 .effect = "Names of blocks that are fixed where they are: all components, velocity 0.",
                                 .default_note = "none"}),
-         field<&StageDef::free>(
-             {.name = "free", .effect = "Names of blocks that are freed: all components.", .default_note = "none"}),
+         field<&StageDef::free>({.name = "free",
+                                 .effect = "Names of blocks that are freed: all components. Their weight acts at once.",
+                                 .default_note = "none"}),
          field<&StageDef::set>(
              {.name = "set",
               .effect = "New values from this stage on, each as \"joint.NAME.KEY = VALUE\" or \"material.NAME.density = VALUE\". "
