@@ -337,7 +337,8 @@ class Killed(Scratch):
         end = subprocess.run(self.words("whole"), cwd=self.folder, check=False, capture_output=True).returncode
         self.assertIn(end, (0, 4), "4: one of these tunnels is not at rest in time")
         for share, how in ((0.1, signal.SIGTERM), (0.25, signal.SIGKILL), (0.4, signal.SIGINT), (0.55, signal.SIGKILL)):
-            worker = subprocess.Popen(self.words("broken"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+            worker = subprocess.Popen(self.words("broken"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                      preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))    # a shell ignores it for what runs beside it
             wait_until(lambda: self.done() >= share * RUNS)
             worker.send_signal(how)
             worker.communicate()
