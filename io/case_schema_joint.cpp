@@ -210,7 +210,9 @@ SectionSpec joint_section()
         "for a pair of materials (`materials`). Equations, memory and sources of each `law`: core/joint. Contacts that form after "
         "the start have residual friction and neither cohesion, tension nor roughness. With the impulse method a `coulomb` joint "
         "breaks when an impulse reaches its strength. It bears at least as much as with springs (a bracket glued to a wall up to a "
-        "third more: the point that is not pulled takes all of the shear). Other laws have only their basic friction there. "
+        "third more: the point that is not pulled takes all of the shear). Other laws have only their basic friction there, "
+        "barton_bandis and "
+        "slip_weakening their residual one: a slab that its peak strength holds slides. "
         "Impulses have no stiffness, so curved normal springs are refused. With the hybrid method a joint with cohesion or tension "
         "keeps its springs until it breaks.",
         {with_assign(field<&JointDef::law>(
