@@ -3,7 +3,7 @@
 #include "core/contact/impulse_clusters.h"
 #include "core/contact/impulse_kick.h"
 #include "core/contact/impulse_law.h"
-#include "core/contact/interior_point.h"
+#include "core/contact/island_solution.h"
 #include "core/contact/position_correction.h"
 
 #include <algorithm>

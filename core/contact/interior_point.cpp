@@ -8,11 +8,8 @@ namespace hdem
 {
 namespace
 {
-constexpr int patience = 20;     ///< steps in which the error must fall by half
-constexpr int most_rounds = 20;  ///< of Haslinger, in which the error must fall by half
-constexpr double kept = 0.9;     ///< share of the way to the boundary that a step may go
-/// Greatest impulse, over what could stop the heaviest block. A wedge that jams can be held by arbitrarily great impulses, or by none at all.
-constexpr double most_gain = 1e4;
+constexpr int patience = 20;  ///< steps in which the error must fall by half
+constexpr double kept = 0.9;  ///< share of the way to the boundary that a step may go
 }  // namespace
 
 InteriorPoint::InteriorPoint(const IslandProblem& problem) : problem_(problem), points_(problem.points.size())
@@ -27,8 +24,6 @@ InteriorPoint::InteriorPoint(const IslandProblem& problem) : problem_(problem), 
         {
             component[i][k] = inverse[k] > 0.0 ? components_++ : no_index;
             scale[i][k] = std::sqrt(inverse[k]);
-            if (k < 2 && inverse[k] > 0.0)
-                heaviest_ = std::max(heaviest_, 1.0 / inverse[k]);
         }
     }
     unknowns_ = components_;
@@ -52,25 +47,20 @@ InteriorPoint::InteriorPoint(const IslandProblem& problem) : problem_(problem), 
 
 void InteriorPoint::start()
 {
-    double speed = 0.0;
+    // All products alike, and impulses that could stop the heaviest block, and carry it. (From less steps are short.)
+    const double impulse = problem_.stopping_impulse();
+    const double speed = impulse / problem_.heaviest();
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
         const ImpulsePoint& p = problem_.points[i];
         points_[i].velocity = problem_.velocity_at(p);
-        speed = std::max({speed, law_error(p, points_[i].velocity), p.impulse_normal / heaviest_});
-    }
-    // All products alike, and impulses that could stop the heaviest block, and carry it. (From less steps are short.)
-    const double impulse = heaviest_ * speed;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-    {
-        const ImpulsePoint& p = problem_.points[i];
         Pairs& now = points_[i].now;
         now.normal = p.mass_normal > 0.0 ? impulse : p.impulse_normal;
         now.parting = speed;
         now.shear = points_[i].shear_at == no_index ? p.impulse_shear : 0.0;
         now.against = now.along = impulse * speed / std::max(shear_limit(p, now.normal), 1e-300);
     }
-    greatest_ = most_gain * impulse;
+    greatest_ = problem_.impulse_bound();
     change_ = Vector::Zero(components_);
 }
 
@@ -289,48 +279,6 @@ IslandProblem InteriorPoint::solve(double goal)
             continue;
         milestone = least;
         left = patience;
-    }
-    return best;
-}
-
-IslandProblem solve_all_at_once(const IslandProblem& problem, double goal)
-{
-    // A joint that bears more tension than its cohesion allows for has no whole cone of friction.
-    const bool has_cones = std::ranges::none_of(problem.points, [](const ImpulsePoint& p) { return p.cohesive_impulse < 0.0; });
-    IslandProblem best = has_cones ? InteriorPoint(problem).solve(goal) : problem;
-    double least = best.error();
-    double milestone = least;
-    IslandProblem next = problem;
-    const auto has_shear = [](const ImpulsePoint& p) { return p.friction > 0.0; };
-    if (std::none_of(problem.points.begin(), problem.points.end(), has_shear))
-        return best;
-    for (int left = most_rounds; left > 0 && least > goal; --left)
-    {
-        IslandProblem frozen = next;
-        for (ImpulsePoint& p : frozen.points)
-        {
-            p.cohesive_impulse = shear_limit(p, p.impulse_normal);
-            p.friction = 0.0;
-        }
-        frozen = InteriorPoint(frozen).solve(0.1 * goal);
-        std::vector<double> normal, shear;
-        for (std::size_t i = 0; i < next.points.size(); ++i)
-        {
-            normal.push_back(frozen.points[i].impulse_normal);
-            const double most = shear_limit(next.points[i], normal[i]);
-            shear.push_back(std::clamp(frozen.points[i].impulse_shear, -most, most));
-        }
-        next.set_impulses(normal, shear);
-        const double error = next.error();
-        if (!(error < least))
-            continue;
-        if (error < 0.5 * milestone)
-        {
-            milestone = error;
-            left = most_rounds;
-        }
-        least = error;
-        best = next;
     }
     return best;
 }

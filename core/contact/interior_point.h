@@ -31,8 +31,8 @@ class InteriorPoint
   public:
     explicit InteriorPoint(const IslandProblem& problem);
 
-    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met. (Impulses are bounded: those
-    /// of blocks that jam in each other would grow to 1e18, and the energy would lose all digits.)
+    /// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met. Impulses stay
+    /// below IslandProblem::impulse_bound().
     [[nodiscard]] IslandProblem solve(double goal);
 
   private:
@@ -87,16 +87,9 @@ class InteriorPoint
     Vector change_;  ///< of the velocities, scaled
     Matrix matrix_;
     Eigen::SparseLU<Matrix> factor_;
-    double heaviest_ = 0.0;  ///< [kg]
     double greatest_ = 0.0;  ///< impulse that a solution may have [N s]
     Index components_ = 0;   ///< of the blocks' velocities
     Index unknowns_ = 0;
     bool is_analysed_ = false;
 };
-
-/// The problem with impulses that bring its error() to `goal` [m/s] or below; if that fails, with the best that were met.
-///
-/// By InteriorPoint. The limit of friction follows the normal impulses, so the path to the solution may end on the way (rare, core/tried.md). Then the
-/// problem is solved step by step, with the limits of the step before: each of these problems is convex (Haslinger's fixed point).
-[[nodiscard]] IslandProblem solve_all_at_once(const IslandProblem& problem, double goal);
 }  // namespace hdem
