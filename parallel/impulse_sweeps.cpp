@@ -39,7 +39,7 @@ std::vector<std::vector<ImpulsePoint>*> impulse_lists(Partition& partition)
     return lists;
 }
 
-/// Islands that sweeps do not bring to an end, each by one thread. Which these are does not depend on the number of threads.
+/// Islands that sweeps do not bring to an end, and those that are hit, each by one thread. Which these are does not depend on the number of threads.
 void solve_islands(const Model& model, ExactIslands which, State& state, const Team& team, Partition& partition, Workspace& work)
 {
     Blocks& blocks = state.blocks;
@@ -59,7 +59,8 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
     for (Index i = parts.begin; i < parts.end; ++i)
         partition.contacts[i].unsolved = are_unsolved(model, which, masses, partition.contacts[i].impulses, blocks, work.pseudo);
     team.barrier();
-    if (std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
+    if (!is_hit &&
+        std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
         return;
     team.alone([&] { partition.island_finder.find(impulse_lists(partition), blocks, partition.islands); });
     const IndexRange islands = team.share(static_cast<Index>(partition.islands.size()));

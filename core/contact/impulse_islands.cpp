@@ -1,5 +1,6 @@
 #include "core/contact/impulse_islands.h"
 
+#include "core/contact/impact_energy.h"
 #include "core/contact/impulse_clusters.h"
 #include "core/contact/impulse_kick.h"
 #include "core/contact/impulse_law.h"
@@ -312,6 +313,24 @@ void solve_correction(const Model& model, const Blocks& blocks, std::vector<Trip
     for (std::size_t i = 0; i < cluster.points.size(); ++i)
         cluster.points[i]->correction = found.points[i].impulse_normal;
 }
+
+/// All points at once if they are few, else cluster by cluster.
+void solve_clusters(const Model& model, double share, bool suits_sweeps, Blocks& blocks, std::vector<Triple>& pseudo,
+                    Island& island)
+{
+    const bool whole = island.points.size() <= small_island;
+    for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
+    {
+        if (cluster.points.size() > small_cluster)
+        {
+            if (!suits_sweeps)
+                island.loss += sweep_more(model, share, blocks, pseudo, cluster);
+            continue;
+        }
+        island.loss += solve_velocities(share, blocks, cluster);
+        solve_correction(model, blocks, pseudo, cluster);
+    }
+}
 }  // namespace
 
 void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::vector<Triple>& pseudo, Island& island)
@@ -321,22 +340,15 @@ void solve_island(const Model& model, ExactIslands which, Blocks& blocks, std::v
         masses.add(blocks.inertia[block]);
     const bool suits_sweeps = masses.suits_sweeps(model.contact.impulse_sweeps);
     const bool is_small = island.points.size() <= small_cluster;
-    if (which == ExactIslands::hit && is_small &&
-        std::any_of(island.points.begin(), island.points.end(), [](const ImpulsePoint* p) { return is_impact(*p); }))
+    const bool is_hit = is_small && which != ExactIslands::great_mass_ratios &&
+                        std::any_of(island.points.begin(), island.points.end(),
+                                    [](const ImpulsePoint* p) { return is_impact(*p); });
+    if (which == ExactIslands::hit && is_hit)
         island.loss += sweep_more(model, left_in_impact, blocks, pseudo, {.points = island.points});
-    if (suits_sweeps && which != ExactIslands::small)
-        return;
-    const bool whole = island.points.size() <= small_island;
-    for (const Cluster& cluster : whole ? std::vector<Cluster>{{.points = island.points}} : cut(model, island, blocks, pseudo))
-    {
-        if (cluster.points.size() > small_cluster)
-        {
-            if (!suits_sweeps)
-                island.loss += sweep_more(model, noticeable(model, which, suits_sweeps), blocks, pseudo, cluster);
-            continue;
-        }
-        island.loss += solve_velocities(noticeable(model, which, suits_sweeps), blocks, cluster);
-        solve_correction(model, blocks, pseudo, cluster);
-    }
+    if (!suits_sweeps || which == ExactIslands::small)
+        solve_clusters(model, noticeable(model, which, suits_sweeps), suits_sweeps, blocks, pseudo, island);
+    if (is_hit)
+        island.loss += restrain_impacts(island.points, blocks,
+                                        [&] { return solve_velocities(left_in_impact, blocks, {.points = island.points}); });
 }
 }  // namespace hdem
