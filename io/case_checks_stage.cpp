@@ -87,9 +87,13 @@ class StageCheck : public CaseCheck
         const bool changes_water = stage.water_level || !stage.water_table.empty();
         const bool has_empty_springs = std::ranges::count(stages_with_empty_springs(def_), &stage) > 0;
         if (stage.excavate.empty() && !ends_a_boundary(stage) && !goes_on && !changes_water && !has_empty_springs)
+        {
+            const bool is_first = &stage == def_.stages.data();
             refuse(fmt::format("nothing is excavated, no boundary ends, no water changes, and no impulses went before{}",
-                               &stage == def_.stages.data() ? "; by [insitu] the rock bears its weight from the start" : ""),
-                   "Add excavate, or remove relax_cycles.");
+                               is_first ? "; with [insitu], all weight acts from the start" : ""),
+                   is_first ? "Give insitu.gradient the weight of the rock, and remove relax_cycles."
+                            : "Add excavate, or remove relax_cycles.");
+        }
         const std::int64_t most = stage.cycles ? *stage.cycles : stage.max_cycles;
         if (!stage.duration && stage.relax_cycles > most)
             refuse(fmt::format("is more than the stage's {} = {}", stage.cycles ? "cycles" : "max_cycles", most),

@@ -127,22 +127,24 @@ SectionSpec domain_section()
 
 SectionSpec generator_section()
 {
-    return {"generator",
-            SectionKind::table,
-            "generator",
-            "How the domain is cut. The same file gives the same blocks, bit for bit, on every machine.",
-            {field<&GeneratorDef::seed>({.name = "seed", .effect = "Seed of all random numbers of the case.", .range = {.low = 0}}),
-             field<&GeneratorDef::smallest_block_area>({.name = "smallest_block_area",
-                                                        .unit = "m2",
-                                                        .effect = "A cut that would leave a smaller piece is refused, and smaller "
-                                                                  "pieces at an excavation outline are joined to a neighbour. "
-                                                                  "The smallest block decides the time step.",
-                                                        .range = non_negative}),
-             field<&GeneratorDef::smallest_edge>({.name = "smallest_edge",
-                                                  .unit = "m",
-                                                  .effect = "A cut that would leave a shorter edge is refused.",
-                                                  .range = non_negative})},
-            part<&CaseDef::generator>};
+    return {
+        "generator",
+        SectionKind::table,
+        "generator",
+        "How the domain is cut. The same file gives the same blocks, bit for bit, on every machine.",
+        {field<&GeneratorDef::seed>({.name = "seed", .effect = "Seed of all random numbers of the case.", .range = {.low = 0}}),
+         field<&GeneratorDef::smallest_block_area>({.name = "smallest_block_area",
+                                                    .unit = "m2",
+                                                    .effect = "A cut that would leave a smaller piece is refused, and smaller "
+                                                              "pieces at an excavation outline are joined to a neighbour, across "
+                                                              "a fault or the boundary of a region only where there is no other. "
+                                                              "The smallest block decides the time step.",
+                                                    .range = non_negative}),
+         field<&GeneratorDef::smallest_edge>({.name = "smallest_edge",
+                                              .unit = "m",
+                                              .effect = "A cut that would leave a shorter edge is refused.",
+                                              .range = non_negative})},
+        part<&CaseDef::generator>};
 }
 
 SectionSpec excavation_section()

@@ -179,7 +179,7 @@ void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
     {
         throw InputError(std::move(problems));
     }
-    merge_slivers(mass, def.generator.smallest_block_area, rock);
+    merge_slivers(mass, def.generator.smallest_block_area, EdgeSources(def).set(0), rock);
     weld_vertices(mass, outlines);
 }
 

@@ -29,8 +29,11 @@ class SliverMerger
 {
   public:
     /// Pieces of outlines.
-    SliverMerger(CutMass& mass, double smallest_area, RockMass& counts)
-        : SliverMerger(mass, counts, {.smallest_area = smallest_area, .first_source = std::numeric_limits<std::int32_t>::min()})
+    SliverMerger(CutMass& mass, double smallest_area, std::int32_t first_joint, RockMass& counts)
+        : SliverMerger(mass, counts,
+                       {.smallest_area = smallest_area,
+                        .first_source = std::numeric_limits<std::int32_t>::min(),
+                        .preferred_source = first_joint})
     {
         for (Slot b = 0; b < mass_.blocks.size(); ++b)
         {
@@ -142,15 +145,16 @@ class SliverMerger
         return lengths;
     }
 
-    /// Along edges across which blocks may be joined.
-    [[nodiscard]] double length_between(const CutBlock& a, const CutBlock& b) const
+    /// Along edges across which blocks may be joined: first of those that are preferred.
+    [[nodiscard]] std::pair<double, double> lengths_across(const CutBlock& a, const CutBlock& b) const
     {
-        double sum = 0.0;
+        double preferred = 0.0, sum = 0.0;
         for (const auto& [source, length] : lengths_between(a, b))
         {
+            preferred += source >= std::max(cells_.first_source, cells_.preferred_source) ? length : 0.0;
             sum += source >= cells_.first_source ? length : 0.0;
         }
-        return sum;
+        return {preferred, sum};
     }
 
     /// The block on the same side with the greatest shared length, or the sliver itself.
@@ -166,18 +170,18 @@ class SliverMerger
                            }
                        });
         Slot best = sliver;
-        double most = 0.0;
+        std::pair<double, double> most;
         for (const Slot b : candidates)
         {
             if (b == sliver || mass_.blocks[b].excavation != mass_.blocks[sliver].excavation)
             {
                 continue;
             }
-            const double length = length_between(mass_.blocks[sliver], mass_.blocks[b]);
-            if (length > most)
+            const std::pair<double, double> lengths = lengths_across(mass_.blocks[sliver], mass_.blocks[b]);
+            if (lengths > most)
             {
                 best = b;
-                most = length;
+                most = lengths;
             }
         }
         return best;
@@ -190,9 +194,19 @@ class SliverMerger
         {
             if (mass_.blocks[sliver].outline != no_index)
             {
-                warn(mass_.blocks[sliver], area);
+                warn(mass_.blocks[sliver], area,
+                     "below generator.smallest_block_area, and no neighbour on its side of the outline to join). Move the outline, "
+                     "or expect a "
+                     "small time step.");
             }
             return;
+        }
+        if (lengths_across(mass_.blocks[sliver], mass_.blocks[target]).first == 0.0)
+        {
+            warn(mass_.blocks[sliver], area,
+                 "below generator.smallest_block_area) and no neighbour but across a fault or the boundary of a region. It is "
+                 "joined to that one "
+                 "and has its material. Move the outline.");
         }
         CutBlock& from = mass_.blocks[sliver];
         CutBlock& to = mass_.blocks[target];
@@ -219,14 +233,12 @@ class SliverMerger
         }
     }
 
-    void warn(const CutBlock& block, double area)
+    void warn(const CutBlock& block, double area, const char* why)
     {
         const std::string outline = std::to_string(block.outline);
         const Vec2 at = area_moments(block.parts.front().vertices).centroid;
         counts_.warnings.push_back({Problem::Severity::warning, "excavation[" + outline + "]",
-                                    "excavation: a piece at " + text(at) + " has area = " + text(area) +
-                                        " m2 (below generator.smallest_block_area, and no neighbour on its side of the outline to "
-                                        "join). Move the outline, or expect a small time step."});
+                                    "excavation: a piece at " + text(at) + " has area = " + text(area) + " m2 (" + why});
     }
 
     CutMass& mass_;
@@ -238,9 +250,9 @@ class SliverMerger
 };
 }  // namespace
 
-void merge_slivers(CutMass& mass, double smallest_area, RockMass& counts)
+void merge_slivers(CutMass& mass, double smallest_area, std::int32_t first_joint, RockMass& counts)
 {
-    SliverMerger(mass, smallest_area, counts).run();
+    SliverMerger(mass, smallest_area, first_joint, counts).run();
 }
 
 void merge_cells(CutMass& mass, SmallCells& cells, RockMass& counts)

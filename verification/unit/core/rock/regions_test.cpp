@@ -194,6 +194,65 @@ TEST(Regions, LieBetweenFaultsAndAreExcavated)
     EXPECT_THAT(rock.warnings[0].text, HasSubstr("fault \"steep\": points (0.575"));
 }
 
+const std::string fault_below_a_hole = R"([domain]
+width = 10.0
+height = 9.0
+[[fault]]
+name = "main"
+points = [[-1, 4], [11, 4]]
+joint = "fault"
+)";
+
+/// A circle comes close to a fault. A sliver between them has its longest edge on the fault, but also a neighbour on its own side.
+TEST(Regions, AreNotKeyedThroughAFaultByTheSliversOfAnExcavation)
+{
+    const RockMass rock = generate_rock_mass(case_of(fault_below_a_hole + R"([[joint_set]]
+name = "upright"
+dip_deg = 90.0
+spacing = 1.6
+origin = [5.3, 4.0]
+[generator]
+smallest_block_area = 0.06
+[[excavation]]
+name = "hole"
+shape = "circle"
+position = [5, 5.5]
+diameter = 3.0
+arc_segments = 16
+inside = "one_block"
+)" + laws));
+    expect_sound(rock);
+    EXPECT_EQ(rock.merged_slivers, 1);
+    EXPECT_TRUE(rock.warnings.empty());
+    for (const RockBlock& block : rock.blocks)
+    {
+        double low = 9.0, high = 0.0;
+        for (const ConvexPart& part : block.parts)
+            for (const Vec2& v : part.vertices)
+            {
+                low = std::min(low, v.y());
+                high = std::max(high, v.y());
+            }
+        EXPECT_TRUE(low > 3.99 || high < 4.01) << low << " to " << high;
+    }
+}
+
+TEST(Regions, TakeSliversAcrossAFaultWhereThereIsNoOtherNeighbour)
+{
+    const RockMass rock = generate_rock_mass(case_of(fault_below_a_hole + R"([generator]
+smallest_block_area = 1.0
+[[excavation]]
+name = "slot"
+shape = "rectangle"
+position = [5, 4.05]
+width = 12.0
+height = 3.0
+)" + laws));
+    EXPECT_EQ(rock.merged_slivers, 1);
+    ASSERT_EQ(rock.warnings.size(), 1U);
+    EXPECT_THAT(rock.warnings[0].text, HasSubstr("no neighbour but across a fault"));
+}
+
 /// Faults and regions come before the sets, and take no numbers from them.
 TEST(Regions, LeaveTheJointsOfSetsAsTheyAre)
 {
