@@ -29,14 +29,26 @@ struct HashOfEnds
     }
 };
 
-void drop_straight_vertices(CutPolygon& polygon)
+/// Sine of the turn at which a side with a vertex that lies up to `slack` beside it is straight.
+double straight_sine_of(const Vec2& before, const Vec2& after, double slack)
+{
+    return straight_sine + slack * (1.0 / before.norm() + 1.0 / after.norm());
+}
+
+bool are_one_side(const EdgeTag& before, const EdgeTag& after)
+{
+    return before == after && after.chord != no_index && after.source != edge_internal;
+}
+
+void drop_straight_vertices(CutPolygon& polygon, double slack)
 {
     for (std::size_t i = polygon.vertices.size(); i-- > 0 && polygon.vertices.size() > 3;)
     {
-        const EdgeTag& before = polygon.edges[previous(i, polygon.edges.size())];
-        const EdgeTag& after = polygon.edges[i];
-        if (before == after && after.chord != no_index && after.source != edge_internal &&
-            std::abs(turn(polygon.vertices, i)) <= straight_sine)
+        const std::size_t last = previous(i, polygon.edges.size());
+        const Vec2 before = polygon.vertices[i] - polygon.vertices[last];
+        const Vec2 after = polygon.vertices[next(i, polygon.vertices.size())] - polygon.vertices[i];
+        if (are_one_side(polygon.edges[last], polygon.edges[i]) &&
+            std::abs(turn(polygon.vertices, i)) <= straight_sine_of(before, after, slack))
         {
             polygon.vertices.erase(polygon.vertices.begin() + static_cast<std::ptrdiff_t>(i));
             polygon.edges.erase(polygon.edges.begin() + static_cast<std::ptrdiff_t>(i));
@@ -48,7 +60,7 @@ void drop_straight_vertices(CutPolygon& polygon)
 class Merger
 {
   public:
-    explicit Merger(const std::vector<CutPolygon>& parts) : part_(parts.size())
+    Merger(const std::vector<CutPolygon>& parts, double slack) : part_(parts.size()), slack_(slack)
     {
         for (const CutPolygon& part : parts)
             add(part);
@@ -168,7 +180,10 @@ class Merger
         const Vec2 before = end(in) - half_[in].at;
         const Vec2 after = end(out) - half_[out].at;
         const double sine = cross(before, after) / (before.norm() * after.norm());
-        return sine > straight_sine || (sine >= -straight_sine && before.dot(after) > 0.0);
+        // Edges of one line may have two chords: those of two cuts.
+        const bool is_side = half_[in].edge.source == half_[out].edge.source && half_[in].edge.source != edge_internal;
+        const double straight = straight_sine_of(before, after, is_side ? slack_ : 0.0);
+        return sine > straight || (sine >= -straight && before.dot(after) > 0.0);
     }
 
     [[nodiscard]] Chain chain_at(std::size_t h, std::size_t most) const
@@ -237,12 +252,13 @@ class Merger
         for (std::size_t i = 0; i < part.edges; ++i, h = half_[h].after)
             out.add(half_[h].at, half_[h].edge);
         if (part.is_union)
-            drop_straight_vertices(out);
+            drop_straight_vertices(out, slack_);
         return out;
     }
 
     std::vector<Half> half_;
     std::vector<Part> part_;
+    double slack_;
     std::unordered_map<Ends, std::size_t, HashOfEnds> open_;  ///< half-edges by their ends
     std::priority_queue<Seam> seams_;
 };
@@ -259,10 +275,10 @@ std::vector<CutPolygon> convex_parts(const CutPolygon& polygon)
     return parts;
 }
 
-void merge_convex_parts(std::vector<CutPolygon>& parts)
+void merge_convex_parts(std::vector<CutPolygon>& parts, double slack)
 {
     if (parts.size() > 1)
-        parts = Merger(parts).run();
+        parts = Merger(parts, slack).run();
 }
 
 double overlap_area(const Polygon& a, const Polygon& b)

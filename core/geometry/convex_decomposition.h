@@ -17,7 +17,8 @@ std::vector<CutPolygon> convex_parts(const CutPolygon& polygon);
 
 /// Remove internal edges that two parts share end to end, the longest first, as long as the union stays convex. A vertex that
 /// becomes straight goes too when both its edges lie on one chord and came from the same source.
-void merge_convex_parts(std::vector<CutPolygon>& parts);
+/// @param slack  such a vertex may lie this far beside its side: far from the origin, coordinates are rounded [m]
+void merge_convex_parts(std::vector<CutPolygon>& parts, double slack = 0.0);
 
 /// Area common to two simple polygons of either orientation, concave or not: the sum over their convex parts [m2].
 ///

@@ -230,7 +230,7 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
     {
         if (from.parts.size() > 1)
         {
-            merge_convex_parts(from.parts);
+            merge_convex_parts(from.parts, mass.tolerance);
         }
         drop_straight_vertices(from.parts, mass.tolerance);
         blocks.push_back(finished(from, regions, domain));

@@ -297,6 +297,30 @@ TEST(Slivers, AreJoinedToANeighbourOnTheirSideOfTheOutline)
     EXPECT_TRUE(rock.warnings.empty());
 }
 
+/// Far from the origin, coordinates are rounded to 1e-11 m. Sides that are straight there stay whole when slivers are joined to blocks.
+TEST(Slivers, LeaveTheSameEdgesFarFromTheOrigin)
+{
+    const auto vertices = [](std::uint64_t seed, const Vec2& by)
+    {
+        CaseDef def = jointed_case(0.0, 0.0, {{-4.4, 1.9}, {-72.7, 2.7}, {55.0, 3.1}}, seed);
+        def.domain.polygon = {by + Vec2(-9, -8), by + Vec2(9, -8), by + Vec2(9, 8), by + Vec2(-9, 8)};
+        for (JointSetDef& set : def.joint_sets)
+            set.origin = by + Vec2(0.31, 0.17 * static_cast<double>(seed));
+        def.generator.smallest_block_area = 0.2;
+        def.excavations = {excavation("ex", OutlineShape::circle, by + Vec2(0.1, -0.2), 5.2, 5.2)};
+        std::vector<std::size_t> counts;
+        for (const RockBlock& block : generate_rock_mass(def).blocks)
+            for (const ConvexPart& part : block.parts)
+                counts.push_back(part.vertices.size());
+        return counts;
+    };
+    int alike = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+        for (const double by : {0.1, 3e4, 1e5})
+            alike += vertices(seed, {by, by}) == vertices(seed, {0.0, 0.0}) ? 1 : 0;
+    EXPECT_GE(alike, 58) << "without slack 24";
+}
+
 TEST(Slivers, LeaveNoBlockBelowTheSmallestAreaAroundATunnel)
 {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
