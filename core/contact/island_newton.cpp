@@ -13,6 +13,7 @@ namespace hdem
 namespace
 {
 constexpr int rounds = 10;
+constexpr int patience = 2;                               ///< rounds after which the error must have fallen
 constexpr int steps = 4;                                  ///< of Newton's method in a round
 constexpr int sweeps = 50;                                ///< that follow them
 constexpr std::array<double, 3> stays{1e-9, 1e-4, 1e-6};  ///< of the rounds in turn
@@ -172,8 +173,10 @@ IslandProblem solve_by_newton(const IslandProblem& problem, double goal)
         least = error;
         best = next;
     };
-    for (int round = 0; round < rounds && least > goal; ++round)
+    int useless = 0;
+    for (int round = 0; round < rounds && least > goal && useless < patience; ++round)
     {
+        const double before = least;
         now = best;
         for (int step = 0; step < steps && least > goal; ++step)
             keep_better(now = newton_step(now, stays[static_cast<std::size_t>(round) % stays.size()]));
@@ -183,6 +186,7 @@ IslandProblem solve_by_newton(const IslandProblem& problem, double goal)
         for (int k = 0; k < sweeps; ++k)
             sweep(now);
         keep_better(now);
+        useless = least < 0.9 * before ? 0 : useless + 1;
     }
     return best;
 }
