@@ -142,7 +142,10 @@ SectionSpec contact_section()
                                                "`hybrid`: chosen for each contact point in each cycle.",
                                      .choices = {"force", "impulse", "hybrid"}}),
          field<&ContactDef::restitution>(
-             {.name = "restitution", .effect = "R of Eq. (15), rebound speed / impact speed of impulse contacts.", .range = share}),
+             {.name = "restitution",
+              .effect = "R of Eq. (15), rebound speed / impact speed of impulse contacts. It is reduced in impacts that would give "
+                        "energy, by friction or in several points at once (not under the preset paper).",
+              .range = share}),
          with_assign(std::move(scale), assign_threshold_scale, "\"model\""),
          field<&ContactDef::threshold_velocity>({.name = "threshold_velocity",
                                                  .unit = "m/s",

@@ -59,7 +59,7 @@ void solve_islands(const Model& model, ExactIslands which, State& state, const T
     for (Index i = parts.begin; i < parts.end; ++i)
         partition.contacts[i].unsolved = are_unsolved(model, which, masses, partition.contacts[i].impulses, blocks, work.pseudo);
     team.barrier();
-    if (!is_hit &&
+    if ((!is_hit || which == ExactIslands::great_mass_ratios) &&
         std::none_of(partition.contacts.begin(), partition.contacts.end(), [](const ContactPart& part) { return part.unsolved; }))
         return;
     team.alone([&] { partition.island_finder.find(impulse_lists(partition), blocks, partition.islands); });

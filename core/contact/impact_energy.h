@@ -17,7 +17,8 @@ namespace hdem
 ///
 /// Newton's restitution, point by point, may give energy where blocks hit with friction or in several points at once (T. R. Kane, Stanford Mechanics
 /// Alumni Club Newsletter, 1984): up to a fifth of that of the impact where a heavy block wedges a light one. With a share of 0 impacts are plastic,
-/// which always takes energy. The greatest share without a gain is kept, to 1/1000. Without a gain, nothing changes.
+/// which always takes energy. It is found by halving, to 1/1000 (a greater parting velocity is taken to give more energy). Without a gain,
+/// nothing changes.
 /// @param solve  finds impulses for other targets; returns the energy that the change takes [J]
 /// @return energy that the change takes [J]
 double restrain_impacts(const std::vector<ImpulsePoint*>& points, const Blocks& blocks, const std::function<double()>& solve);

@@ -196,8 +196,7 @@ class SliverMerger
             {
                 warn(mass_.blocks[sliver], area,
                      "below generator.smallest_block_area, and no neighbour on its side of the outline to join). Move the outline, "
-                     "or expect a "
-                     "small time step.");
+                     "or expect a small time step.");
             }
             return;
         }
@@ -205,8 +204,7 @@ class SliverMerger
         {
             warn(mass_.blocks[sliver], area,
                  "below generator.smallest_block_area) and no neighbour but across a fault or the boundary of a region. It is "
-                 "joined to that one "
-                 "and has its material. Move the outline.");
+                 "joined to that one and has its material. Move the outline.");
         }
         CutBlock& from = mass_.blocks[sliver];
         CutBlock& to = mass_.blocks[target];
