@@ -1,8 +1,12 @@
 #include "core/rock/block_outline.h"
 
+#include "core/rock/weld.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace hdem
@@ -33,6 +37,23 @@ std::vector<OutlineEdge> straightened(std::vector<OutlineEdge> ring, double tole
             out.push_back(edge);
     return out;
 }
+
+/// The outline as one polygon, none where it has holes or touches itself.
+std::optional<CutPolygon> single_ring(const std::vector<CutPolygon>& parts, double tolerance)
+{
+    const std::vector<std::vector<OutlineEdge>> rings = outline_of(parts, tolerance);
+    if (rings.size() != 1)
+        return std::nullopt;
+    CutPolygon ring;
+    std::set<std::pair<double, double>> vertices;
+    for (const OutlineEdge& edge : rings.front())
+    {
+        ring.add(edge.from, edge.tag);
+        if (!vertices.insert({edge.from.x(), edge.from.y()}).second)
+            return std::nullopt;
+    }
+    return ring;
+}
 }  // namespace
 
 std::vector<std::vector<OutlineEdge>> outline_of(const std::vector<CutPolygon>& parts, double tolerance)
@@ -55,5 +76,19 @@ std::vector<std::vector<OutlineEdge>> outline_of(const std::vector<CutPolygon>& 
         rings.push_back(straightened(std::move(ring), tolerance));
     }
     return rings;
+}
+
+void make_sides_whole(std::vector<CutPolygon>& parts, double tolerance)
+{
+    if (parts.size() > 1)
+        if (const std::optional<CutPolygon> ring = single_ring(parts, tolerance))
+        {
+            std::vector<CutPolygon> whole{*ring};
+            drop_straight_vertices(whole, tolerance);
+            parts = convex_parts(whole.front());
+            return;
+        }
+    merge_convex_parts(parts, tolerance);
+    drop_straight_vertices(parts, tolerance);
 }
 }  // namespace hdem

@@ -18,4 +18,9 @@ struct OutlineEdge
 
 /// Outer edges one after another, ring by ring; edges that go straight on along one chord are one.
 [[nodiscard]] std::vector<std::vector<OutlineEdge>> outline_of(const std::vector<CutPolygon>& parts, double tolerance);
+
+/// Convex parts of a block, at whose outer sides no vertex stands where the side goes straight on. Its outline is decomposed anew: cuts that
+/// crossed the block, and slivers that it was joined to, leave internal edges that end on straight sides, and which ones depends on the order
+/// of the cuts. A block around a hole, or one that touches itself, only has its parts merged.
+void make_sides_whole(std::vector<CutPolygon>& parts, double tolerance);
 }  // namespace hdem

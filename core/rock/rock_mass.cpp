@@ -2,6 +2,7 @@
 
 #include "core/model/edge_sources.h"
 #include "core/rock/block_cutter.h"
+#include "core/rock/block_outline.h"
 #include "core/rock/excavation.h"
 #include "core/rock/explicit_blocks.h"
 #include "core/rock/finite_traces.h"
@@ -228,11 +229,7 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
     places.reserve(mass.blocks.size());
     for (CutBlock& from : mass.blocks)
     {
-        if (from.parts.size() > 1)
-        {
-            merge_convex_parts(from.parts, mass.tolerance);
-        }
-        drop_straight_vertices(from.parts, mass.tolerance);
+        make_sides_whole(from.parts, mass.tolerance);
         blocks.push_back(finished(from, regions, domain));
         places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
         from = {};  // a million of them need not wait
