@@ -2,6 +2,7 @@
 #include "io/case_checks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace hdem
@@ -202,7 +203,25 @@ class RockCheck : public CaseCheck
             check(fmt::format("joint_set[{}].region", i), object, set.region, "region", regions);
             check(fmt::format("joint_set[{}].outside", i), object, set.outside, "region", regions);
             check_joint_set(set, fmt::format("joint_set[{}]", i), faults);
+            for (std::size_t j = 0; j < i; ++j)
+                if (have_same_joints(def_.joint_sets[j], set))
+                    problems_.warn(
+                        fmt::format("joint_set[{}]", i), object, "dip_deg, spacing and origin",
+                        fmt::format("are those of \"{}\": its joints are cut already", printable(def_.joint_sets[j].name)),
+                        "Correct one of them, or remove this set.");
         }
+    }
+
+    /// Joint for joint, and nothing about them is drawn.
+    static bool have_same_joints(const JointSetDef& a, const JointSetDef& b)
+    {
+        const auto is_fixed = [](const JointSetDef& set)
+        {
+            return !set.dip_law.is_random() && !set.spacing_law.is_random() && set.deviation_deg == 0.0 && !set.trace &&
+                   !set.orientation && set.persistence == 1.0 && set.spacing > 0.0;
+        };
+        return is_fixed(a) && is_fixed(b) && std::remainder(a.dip_deg - b.dip_deg, 180.0) == 0.0 && a.spacing == b.spacing &&
+               a.origin == b.origin && a.region == b.region && a.outside == b.outside;
     }
 
     void check_insitu()

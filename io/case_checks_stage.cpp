@@ -183,6 +183,18 @@ class StageCheck : public CaseCheck
         if (!ends_at_rest(stage) && given(path + ".solver") && asks_for_statics(stage))
             problems_.warn(path + ".solver", object, "solver", "has no effect: the stage does not look for rest",
                            "Add \"converged\" to until, or remove this key.");
+        else if (asks_for_statics(stage) && !resolve_rules(def_)[number_of(stage)].tries_statics && def_.bolts.empty() &&
+                 def_.liners.empty())
+            problems_.warn(
+                path + ".solver", object, "solver = \"static\"",
+                "has no effect: a static solution needs gravity and the default damping, and no loads, prescribed motions, "
+                "relax_to or impulse method",
+                "Remove this key.");
+    }
+
+    [[nodiscard]] std::size_t number_of(const StageDef& stage) const
+    {
+        return static_cast<std::size_t>(&stage - def_.stages.data());
     }
 };
 }  // namespace

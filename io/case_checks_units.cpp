@@ -26,6 +26,8 @@ class UnitCheck : public CaseCheck
             check_bolt(def_.bolts[i], fmt::format("bolt[{}].", i));
         if (def_.insitu.given)
             check_insitu();
+        if (def_.water.given)
+            check_water();
     }
 
   private:
@@ -34,6 +36,14 @@ class UnitCheck : public CaseCheck
         if (material.density > 0.0 && (material.density < 200.0 || material.density > 2e4))
             problems_.warn("material." + material.name + ".density", fmt::format("material \"{}\"", printable(material.name)),
                            fmt::format("density = {:.6g}", material.density), "rock has 1500 to 3500 kg/m3",
+                           "Give it in kg/m3, not in t/m3 or kN/m3.");
+    }
+
+    void check_water()
+    {
+        const double density = def_.water.density;
+        if (density > 0.0 && (density < 500.0 || density > 2e3))
+            problems_.warn("water.density", "[water]", fmt::format("density = {:.6g}", density), "water has 1000 kg/m3",
                            "Give it in kg/m3, not in t/m3 or kN/m3.");
     }
 

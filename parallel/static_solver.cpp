@@ -3,6 +3,7 @@
 #include "core/boundary/side_forces.h"
 #include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
+#include "core/statics/static_blocks.h"
 #include "parallel/static_approach.h"
 #include "parallel/static_ways.h"
 
@@ -13,8 +14,7 @@ namespace hdem
 {
 namespace
 {
-constexpr Index least_blocks = 200;  // fewer come to rest in less time than a user notices
-constexpr Index large = 10'000;      // from zero stress Newton by itself takes longer than with cycles in turn
+constexpr Index large = 10'000;  // from zero stress Newton by itself takes longer than with cycles in turn
 
 double weight_work(const Model& model, const State& before, const State& after)
 {
@@ -139,7 +139,7 @@ bool can_solve_statics(const Model& model, const State& state)
         free += state.blocks.is_free(b) ? 1 : 0;
     Equilibrium now;
     add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, now);
-    return free >= least_blocks && now.kinetic_energy <= now.kinetic_energy_at(10.0 * model.convergence.mean_speed);
+    return free >= least_static_blocks && now.kinetic_energy <= now.kinetic_energy_at(10.0 * model.convergence.mean_speed);
 }
 
 StaticOutcome solve_statics(const Model& model, State& state, int threads, const StaticRule& rule)

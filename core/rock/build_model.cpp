@@ -9,6 +9,7 @@
 #include "core/rock/resolve_names.h"
 #include "core/stage/properties.h"
 #include "core/stage/rules.h"
+#include "core/statics/static_blocks.h"
 #include "core/stress/insitu_stress.h"
 #include "core/support/resolve_support.h"
 #include "core/water/resolve_water.h"
@@ -113,6 +114,23 @@ void add_joints_and_densities(const CaseDef& def, const RockMass& rock, const Pl
     }
     assign_joints(def, model);
 }
+
+/// A static solution is asked for, and there will be none.
+void warn_of_few_blocks(const CaseDef& def, const Blocks& blocks, std::vector<Problem>& problems)
+{
+    Index free = 0;
+    for (Index b = 0; b < blocks.size(); ++b)
+        free += blocks.is_free(b) ? 1 : 0;
+    const std::vector<StageRules> rules = resolve_rules(def);
+    for (std::size_t s = 0; s < def.stages.size() && free < least_static_blocks; ++s)
+        if (rules[s].tries_statics)
+            problems.push_back({.severity = Problem::Severity::warning,
+                                .key = "stage[" + std::to_string(s) + "].solver",
+                                .text = "stage \"" + def.stages[s].name + "\": solver = \"static\" (has no effect: there are " +
+                                        std::to_string(free) + " free blocks, and below " + std::to_string(least_static_blocks) +
+                                        " cycles are as fast). Remove this key."});
+}
+
 /// Nothing bears the weight of any block, in no stage.
 bool falls_as_a_whole(const CaseDef& def, const Model& model, const Blocks& blocks)
 {
@@ -206,6 +224,7 @@ Setup build_model(const CaseDef& def)
                             .key = {},
                             .text = "rock mass: no block is fixed, and no side or bolt holds one (all of it falls). Set "
                                     "domain.fixed, or fixed = true of a block."});
+    warn_of_few_blocks(def, free_at_times, problems);
     for (Problem& problem : rock.warnings)
         problems.push_back(std::move(problem));
     std::erase_if(problems,

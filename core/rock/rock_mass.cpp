@@ -107,6 +107,16 @@ void warn_of_refused_cuts(const JointSetDef& set, std::size_t number, std::int64
                                  "smallest_edge, or give a greater spacing."});
 }
 
+/// Cells may be larger than the domain.
+void warn_of_large_cells(const CaseDef& def, const Polygon& domain, RockMass& rock)
+{
+    const Box box = bounding_box(domain);
+    if (def.voronoi.given && def.voronoi.edge > (box.high - box.low).maxCoeff())
+        rock.warnings.push_back(
+            {Problem::Severity::warning, "voronoi.edge",
+             "[voronoi]: edge = " + text(def.voronoi.edge) + " m (a cell is larger than the whole domain). Give a shorter edge."});
+}
+
 void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& regions, CutMass& mass, RockMass& rock)
 {
     rock.sets.resize(std::max(rock.sets.size(), def.joint_sets.size()));
@@ -343,6 +353,7 @@ RockMass generate_rock_mass(const CaseDef& def)
         {
             throw InputError(std::move(problems));
         }
+        warn_of_large_cells(def, domain.polygon, rock);
         cut_joint_sets(def, domain.polygon, regions, mass, rock);
         if (def.trace_cells.traces > 0)
         {

@@ -166,7 +166,7 @@ std::string warnings(const std::string& text)
 TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
 {
     const std::string bolt = two_blocks + "[[bolt]]\nfrom = [0.5, 0.5]\nto = [0.5, -0.5]\n";
-    const std::string stress = two_blocks + "[insitu]\n";
+    const std::string stress = two_blocks + "[insitu]\n", water = two_blocks + "[water]\nlevel = 0\n";
     struct Slip
     {
         std::string text, says;
@@ -185,7 +185,8 @@ TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
         {bolt + "area = 4.9e-4\nyield = 200\n", "yield = 200 (a stress of 0.41 MPa in the bar). Give the force in N"},
         {stress + "stress = [1e6, 2e6, 0]\n", "17:10: warning: [insitu]: stress = [1e+06, 2e+06, 0] (tension in all directions"},
         {stress + "surface = -150\nratio = 0.7\n", "17:11: warning: [insitu]: surface = -150 (all rock lies above it"},
-        {stress + "surface = 150\nratio = 70\n", "18:9: warning: [insitu]: ratio = 70 ("}};
+        {stress + "surface = 150\nratio = 70\n", "18:9: warning: [insitu]: ratio = 70 ("},
+        {water + "density = 1\n", "18:11: warning: [water]: density = 1 (water has 1000 kg/m3). Give it in kg/m3"}};
     for (const Slip& slip : slips)
         EXPECT_THAT(warnings(slip.text), testing::HasSubstr(slip.says));
     const std::string meant[] = {two_blocks,
@@ -195,9 +196,33 @@ TEST(CaseReader, WarnsOfNumbersThatAreMeantInAnotherUnit)
                                  with(two_blocks, "= 30.0", "= 2"),
                                  bolt + "area = 4.9e-4\nyield = 2e5\n",
                                  stress + "stress = [-1e6, 1e5, 0]\n",
-                                 stress + "surface = 150\nratio = 3\n"};
+                                 stress + "surface = 150\nratio = 3\n",
+                                 water + "density = 1030\n"};
     for (const std::string& text : meant)
         EXPECT_EQ(warnings(text), "") << text;
+}
+
+TEST(CaseReader, WarnsOfASetThatIsThereAlready)
+{
+    const std::string rock = two_blocks + "[domain]\nwidth = 5\nheight = 5\norigin = [20, 20]\n", set = "[[joint_set]]\ndip_deg = ";
+    const std::string first = rock + set + "-60\nspacing = 1\n" + set;
+    EXPECT_THAT(
+        warnings(first + "120\nspacing = 1\n"),
+        testing::HasSubstr("joint set \"set2\": dip_deg, spacing and origin (are those of \"set1\": its joints are cut already)"));
+    for (const char* other : {"60\nspacing = 1\n", "-60\nspacing = 1.5\n", "-60\nspacing = 1\norigin = [21, 20.5]\n",
+                              "-60\nspacing = 1\npersistence = 0.5\n", "-60\nspacing = 1\ndeviation_deg = 2\n"})
+        EXPECT_EQ(warnings(first + other), "") << other;
+}
+
+TEST(CaseReader, WarnsOfAStaticSolutionThatIsNotSought)
+{
+    const std::string rest = with(two_blocks, "cycles = 10", "until = \"converged\"\nsolver = \"static\"");
+    const std::string load = "[[load]]\nblocks = [\"top\"]\nforce = [1, 0]\n",
+                      said = "a static solution needs gravity and the default";
+    EXPECT_EQ(warnings(rest), "");
+    for (const std::string& more :
+         {load, std::string("[contact]\nmethod = \"impulse\"\n"), std::string("[damping]\npreset = \"paper\"\n")})
+        EXPECT_THAT(warnings(rest + more), testing::HasSubstr(said)) << more;
 }
 
 /// Local damping lets a weight that acts at once press up to a third more than it weighs.

@@ -203,6 +203,19 @@ TEST(BuildModel, RefusesNamesThatNobodyDefined)
         << "all of them, not the first";
 }
 
+TEST(BuildModel, WarnsOfAStaticSolutionOfFewBlocks)
+{
+    for (const auto& [columns, is_told] : {std::pair(19, true), std::pair(20, false)})
+    {
+        CaseDef scene = scenes::grid(columns, 10);
+        scene.stages = {{.name = "rest", .until_converged = true, .solver = RestSolver::statics}};
+        const std::vector<Problem> warnings = build_model(scene).warnings;
+        ASSERT_EQ(warnings.size(), is_told ? 1u : 0u) << columns;
+        for (const Problem& warning : warnings)
+            EXPECT_THAT(warning.text, HasSubstr("solver = \"static\" (has no effect: there are 190 free blocks, and below 200"));
+    }
+}
+
 TEST(BuildModel, RefusesAModelThatCannotMove)
 {
     CaseDef scene = scenes::empty_scene();

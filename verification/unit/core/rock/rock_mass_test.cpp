@@ -89,6 +89,20 @@ TEST(RockMass, WarnsOfASetThatIsRefusedMostOfItsCuts)
     }
 }
 
+TEST(RockMass, WarnsOfCellsLargerThanTheDomain)
+{
+    CaseDef def = jointed_case(35.0, 33.0, {});
+    def.voronoi.given = true;
+    for (const auto& [edge, is_told] : {std::pair(34.0, false), std::pair(36.0, true)})
+    {
+        def.voronoi.edge = edge;
+        const RockMass rock = generate_rock_mass(def);
+        ASSERT_EQ(rock.warnings.size(), is_told ? 1u : 0u) << edge;
+        for (const Problem& warning : rock.warnings)
+            EXPECT_THAT(warning.text, testing::HasSubstr("edge = 36 m (a cell is larger than the whole domain)"));
+    }
+}
+
 TEST(RockMass, HasNoEdgeBelowTheSmallestEdge)
 {
     CaseDef def = jointed_case(35.0, 33.0, {{0.0, 1.9}, {60.0, 1.9}, {120.0, 1.9}});
