@@ -271,7 +271,9 @@ IslandProblem InteriorPoint::solve(double goal)
             break;
         IslandProblem next = present();
         const double error = next.error();
-        if (!(error < least) || next.greatest_impulse() > greatest_)
+        if (next.greatest_impulse() > greatest_)
+            break;  // they grow without end: no impulses solve it
+        if (!(error < least))
             continue;
         least = error;
         best = std::move(next);

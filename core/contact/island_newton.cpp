@@ -164,10 +164,13 @@ IslandProblem solve_by_newton(const IslandProblem& problem, double goal)
     const double bound = problem.impulse_bound();
     IslandProblem best = problem, now = problem;
     double least = best.error();
+    bool grows = false;  // in this round, impulses without end: there may be none that solve it
     const auto keep_better = [&](const IslandProblem& next)
     {
         const double error = next.error();
-        if (!(error < least) || next.greatest_impulse() > bound)
+        const bool is_bounded = next.greatest_impulse() <= bound;
+        grows = grows || !is_bounded;
+        if (!(error < least) || !is_bounded)
             return;
         least = error;
         best = next;
@@ -176,6 +179,7 @@ IslandProblem solve_by_newton(const IslandProblem& problem, double goal)
     for (int round = 0; round < rounds && least > goal && useless < patience; ++round)
     {
         const double before = least;
+        grows = false;
         now = best;
         for (int step = 0; step < steps && least > goal; ++step)
             keep_better(now = newton_step(now, stays[static_cast<std::size_t>(round) % stays.size()]));
@@ -185,7 +189,7 @@ IslandProblem solve_by_newton(const IslandProblem& problem, double goal)
         for (int k = 0; k < sweeps; ++k)
             sweep(now);
         keep_better(now);
-        useless = least < 0.9 * before ? 0 : useless + 1;
+        useless = least < 0.9 * before ? 0 : grows ? patience : useless + 1;
     }
     return best;
 }

@@ -62,22 +62,22 @@ struct Summary
 
 void report_summary(Report& report, const RobustVariant& variant, const Summary& all)
 {
-    const auto row = [&](const Worst& worst, const char* what, const char* source, double reference, Bar bar)
+    const auto row = [&](const Worst& worst, const char* what, const char* source, double reference, Bar bar, bool is_judged)
     {
         if (worst.scene.empty())
             return;
         const Quantity quantity{fmt::format("{}: {} ({})", variant.name, what, worst.scene), source, reference, worst.value};
-        variant.has_bars ? report.require(quantity, bar) : report.inform(quantity);
+        is_judged ? report.require(quantity, bar) : report.inform(quantity);
     };
     report.require(
         {fmt::format("{}: runs that stop with an error{}", variant.name, all.failures), "-", 0.0, static_cast<double>(all.failed)},
         absolute(0.0));
-    row(all.overlap, "overlap / width [-]", "1/2: may come out behind", robust_bars.overlap, at_most());
-    row(all.lowest, "lowest centroid [m]", "surface of the rock", 0.0, at_least());
-    row(all.gain, "energy gain [-]", "energy balance", robust_bars.energy_gain, at_most());
-    row(all.speed, "speed / what energy allows [-]", "√(v² + 2 g h + ω² I/m)", robust_bars.speed, at_most());
-    row(all.late_speed, "speed at the end [m/s]", "rest", robust_bars.late_speed, at_most());
-    row(all.carried, "weight on the ground, off by [-]", "equilibrium", robust_bars.carried, at_most());
+    row(all.overlap, "overlap / width [-]", "1/2: may come out behind", robust_bars.overlap, at_most(), variant.has_bars);
+    row(all.lowest, "lowest centroid [m]", "surface of the rock", 0.0, at_least(), variant.has_bars);
+    row(all.gain, "energy gain [-]", "energy balance", robust_bars.energy_gain, at_most(), true);
+    row(all.speed, "speed / what energy allows [-]", "√(v² + 2 g h + ω² I/m)", robust_bars.speed, at_most(), variant.has_bars);
+    row(all.late_speed, "speed at the end [m/s]", "rest", robust_bars.late_speed, at_most(), variant.has_bars);
+    row(all.carried, "weight on the ground, off by [-]", "equilibrium", robust_bars.carried, at_most(), variant.has_bars);
 }
 
 template <std::vector<Scene> (*scenes)(int)>
