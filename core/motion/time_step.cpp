@@ -3,6 +3,7 @@
 #include "core/detection/contact_tracking.h"
 #include "core/geometry/convex_part.h"
 #include "core/motion/contact_springs.h"
+#include "core/motion/stiffest_part.h"
 #include "core/support/bolt_springs.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace hdem
 {
@@ -102,31 +104,19 @@ double stable_step(IndexRange range, const Model& model, const BlockContacts& li
 namespace
 {
 /// K u of the contacts.
-void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& contacts, Springs which, const std::vector<Vec3>& u,
-                   std::vector<Vec3>& force)
+void add_stiffness(const Model& model, const Blocks& blocks, const Contacts& contacts, const std::vector<Index>& some,
+                   Springs which, const std::vector<Vec3>& u, std::vector<Vec3>& force)
 {
-    for (Index i = 0; i < contacts.size(); ++i)
+    for (const Index i : some)
     {
         const Index ref = contacts.ref[i], inc = contacts.inc[i];
-        const auto add = [&](const ContactSpring& spring)
-        {
-            const double f = spring.stiffness * (spring.inc.dot(u[inc]) - spring.ref.dot(u[ref]));
-            force[inc] += f * spring.inc;
-            force[ref] -= f * spring.ref;
-        };
-        for_springs(model, blocks, contacts, i,
-                    [&](const EdgeTouch& touch, int k, const ContactSpring& normal, const ContactSpring& shear)
-                    {
-                        const std::uint8_t regime = contacts.regime[k][i];
-                        const bool counts = which == Springs::acting
-                                                ? is_spring(regime)
-                                                : is_closed(touch.length, touch.point[k].overlap + contacts.preload(k, i),
-                                                            contacts.length_floor(i));
-                        if (counts)
-                            add(normal);
-                        if (counts && (which == Springs::closed || regime == static_cast<std::uint8_t>(Regime::stick)))
-                            add(shear);
-                    });
+        for_acting_springs(model, blocks, contacts, which, i,
+                           [&](const ContactSpring& spring)
+                           {
+                               const double f = spring.stiffness * (spring.inc.dot(u[inc]) - spring.ref.dot(u[ref]));
+                               force[inc] += f * spring.inc;
+                               force[ref] -= f * spring.ref;
+                           });
     }
 }
 
@@ -159,22 +149,23 @@ double energy_of(const Vec3& u, const Vec3& inverse_mass)
 
 StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contacts& contacts, Springs which, int iterations)
 {
-    const auto n = static_cast<std::size_t>(blocks.size());
-    std::vector<Vec3> u(n), force(n);
+    const Part part = stiffest_part(model, blocks, contacts, which);
+    std::vector<Vec3> u(static_cast<std::size_t>(blocks.size()), Vec3::Zero()), force(u.size());
     // A start with a share in every mode: one of a pattern has none in the stiffest of two blocks that face each other.
     std::mt19937 random;
     const auto share = [&] { return static_cast<double>(random()) / 0x1p31 - 1.0; };
-    for (std::size_t i = 0; i < n; ++i)
+    for (const Index i : part.blocks)
         for (int d = 0; d < 3; ++d)
             u[i][d] = d < 2 ? share() : share() / model.radius[i];
     StableLimit limit;
     for (int k = 0; k < iterations; ++k)
     {
-        std::fill(force.begin(), force.end(), Vec3::Zero());
-        add_stiffness(model, blocks, contacts, which, u, force);
+        for (const Index i : part.blocks)
+            force[i] = Vec3::Zero();
+        add_stiffness(model, blocks, contacts, part.contacts, which, u, force);
         add_bolt_stiffness(model, blocks, u, force);
         double uu = 0.0, vv = 0.0, most = 0.0;  // in the norm of the masses, which the iteration makes symmetric
-        for (Index i = 0; i < blocks.size(); ++i)
+        for (const Index i : part.blocks)
         {
             const Vec3 inverse = inverse_masses(blocks, i);
             uu += energy_of(u[i], inverse);
@@ -191,8 +182,8 @@ StableLimit stable_limit(const Model& model, const Blocks& blocks, const Contact
             break;
         limit.step = 2.0 / std::sqrt(std::sqrt(vv / uu));
         const double scale = 1.0 / std::sqrt(vv);
-        for (Vec3& value : u)
-            value *= scale;
+        for (const Index i : part.blocks)
+            u[i] *= scale;
     }
     return limit;
 }

@@ -147,6 +147,34 @@ TEST(StableStepBound, OfOneSpringBetweenTwoBlocksIsTheLimit)
     EXPECT_NEAR(critical_time_step(pair.model, pair.state.blocks, pair.state.contacts, 2000), limit, 1e-6 * limit);
 }
 
+/// Of large models, only the part around the stiffest blocks is looked at.
+TEST(CriticalTimeStep, OfALargeModelIsThatOfItsPattern)
+{
+    const auto limit = [](int columns, int rows)
+    {
+        CaseRun run(scenes::grid(columns, rows));
+        run.advance(1);
+        return critical(run, 300);
+    };
+    const double small = limit(12, 12), large = limit(160, 130);
+    EXPECT_NEAR(large, small, 0.02 * small);
+}
+
+TEST(CriticalTimeStep, OfALargeModelIsThatOfItsLightestBlock)
+{
+    const auto limit = [](int columns, int rows)
+    {
+        CaseDef scene = scenes::grid(columns, rows);
+        scene.materials.push_back({.name = "light", .density = 50.0});
+        scene.blocks[static_cast<std::size_t>(columns * (rows / 2) + columns / 2)].material = "light";
+        CaseRun run(scene);
+        run.advance(1);
+        return critical(run, 300);
+    };
+    const double small = limit(12, 12), large = limit(160, 130);
+    EXPECT_NEAR(large, small, 1e-3 * small);
+}
+
 /// 0.83 to 0.99 of it in these.
 TEST(StableStepBound, IsBelowTheLimitOfAnyPackingButNotByMuch)
 {
