@@ -62,7 +62,8 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
                    {
                        for (Index k = 0; k < static_cast<Index>(chunk.contacts.size()); ++k)
                            list_.put(chunk.first + k, chunk.contacts[k]);
-                       chunk.contacts = {};
+                       chunk.contacts = std::vector<Contact>();  // = {} would keep its memory
+                       chunk.pairs = std::vector<std::uint64_t>();
                    });
     }
     team.alone([&] { finish(model, state); });
@@ -85,15 +86,19 @@ void ContactRebuild::find_pairs(Chunk& chunk, const Shapes& shapes) const
     const auto own = std::partition(chunk.pairs.begin(), chunk.pairs.end(),
                                     [&](std::uint64_t pair) { return holds(chunk.parts, first_of(pair)); });
     chunk.foreign.assign(own, chunk.pairs.end());
+    std::sort(chunk.foreign.begin(), chunk.foreign.end());
     chunk.pairs.erase(own, chunk.pairs.end());
 }
 
 void ContactRebuild::sort_pairs(Chunk& chunk) const
 {
     for (const Chunk& other : chunks_)
-        for (const std::uint64_t pair : other.foreign)
-            if (holds(chunk.parts, first_of(pair)))
-                chunk.pairs.push_back(pair);
+    {
+        const auto first = std::lower_bound(other.foreign.begin(), other.foreign.end(), chunk.parts.begin,
+                                            [](std::uint64_t pair, Index part) { return first_of(pair) < part; });
+        for (auto pair = first; pair != other.foreign.end() && first_of(*pair) < chunk.parts.end; ++pair)
+            chunk.pairs.push_back(*pair);
+    }
     std::sort(chunk.pairs.begin(), chunk.pairs.end());
 }
 
