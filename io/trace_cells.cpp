@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
 #include "core/rock/line_stretches.h"
+#include "core/rock/weld.h"
 #include "io/lines_through_corners.h"
 #include "io/segment_index.h"
 #include "io/traces.h"
@@ -52,16 +53,23 @@ class Geos
             parts.push_back(line(points).release());
         return own(GEOSGeom_createCollection_r(context_, GEOS_MULTILINESTRING, parts.data(), static_cast<unsigned>(parts.size())));
     }
+    [[nodiscard]] Polygon points(const GEOSGeometry* line) const
+    {
+        const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(context_, line);
+        unsigned size = 0;
+        GEOSCoordSeq_getSize_r(context_, sequence, &size);
+        Polygon points(size);
+        for (unsigned i = 0; i < size; ++i)
+            GEOSCoordSeq_getXY_r(context_, sequence, i, &points[i].x(), &points[i].y());
+        return points;
+    }
     /// Its points without the last, which is the first.
     [[nodiscard]] Polygon ring(const GEOSGeometry* closed) const
     {
-        const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(context_, closed);
-        unsigned size = 0;
-        GEOSCoordSeq_getSize_r(context_, sequence, &size);
-        Polygon points(size > 0 ? size - 1 : 0);
-        for (unsigned i = 0; i < points.size(); ++i)
-            GEOSCoordSeq_getXY_r(context_, sequence, i, &points[i].x(), &points[i].y());
-        return points;
+        Polygon ring = points(closed);
+        if (!ring.empty())
+            ring.pop_back();
+        return ring;
     }
 
     /// A point inside an area, or on a line.
@@ -199,6 +207,24 @@ double round_off(const Polygon& domain)
     return std::max(1e-9 * (box.high - box.low).norm(), 64.0 * std::numeric_limits<double>::epsilon() * largest);
 }
 
+/// Lines that meet almost in one point leave stretches as short as a rounding between them. What is cut further would lose its corners there.
+Geos::Geometry welded(const Geos& geos, Geos::Geometry noded, double by)
+{
+    std::vector<Polygon> stretches;
+    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), noded.get()); ++i)
+        stretches.push_back(geos.points(GEOSGetGeometryN_r(geos.get(), noded.get(), i)));
+    std::vector<Vec2*> points;
+    for (Polygon& stretch : stretches)
+        for (Vec2& point : stretch)
+            points.push_back(&point);
+    if (!weld_points(std::move(points), by))
+        return noded;
+    for (Polygon& stretch : stretches)
+        stretch.erase(std::unique(stretch.begin(), stretch.end()), stretch.end());
+    std::erase_if(stretches, [](const Polygon& stretch) { return stretch.size() < 2; });
+    return geos.own(GEOSUnaryUnion_r(geos.get(), geos.lines(stretches).get()));  // two may have become one
+}
+
 /// Ends of traces that lie on another trace or on a side, as far as numbers can tell, cross it; they may end a rounding short of it.
 void let_meet(const Polygon& domain, const std::vector<SourceLine>& lines, std::vector<Polygon>& traces, double by)
 {
@@ -254,7 +280,7 @@ TraceCells cut_into_cells(const Polygon& domain, const std::vector<Polygon>& tra
     // All at once, and what lies outside the domain left out later: lines cut off at the boundary before may end a rounding short of it.
     all.push_back(domain);
     all.back().push_back(domain.front());
-    const auto noded = geos.own(GEOSUnaryUnion_r(geos.get(), geos.lines(all).get()));
+    const auto noded = welded(geos, geos.own(GEOSUnaryUnion_r(geos.get(), geos.lines(all).get())), round_off(domain));
     GEOSGeometry* bridges = nullptr;
     GEOSGeometry* ends = nullptr;
     GEOSGeometry* invalid = nullptr;

@@ -1,6 +1,7 @@
 #include "core/detection/bearing_part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hdem
@@ -70,20 +71,28 @@ Neighbour neighbour_of(const Shapes& shapes, Index part, Index edge, bool at_end
 }
 
 /// Does a pair touch with a corner whose other edge lies flatter on what it touches, and is of a part beside this one? The two edges at a corner are then no choice of
-/// this part alone: the one that it has may even stand at right angles to what the corner lies on.
+/// this part alone: the one that it has may even stand at right angles to what the corner lies on, or be off it all along but for that corner.
 bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Facing& facing)
 {
     constexpr double steep = -0.7, clearly = 0.05;  // cosines
     const Index part = facing.ref_is_a ? pair.b : pair.a;
     const RelativePose& pose = facing.ref_is_a ? pair.b_from_a : pair.a_from_b;
-    const Vec2 t = shapes.edge_tangent[facing.ref_edge];
+    const Vec2 t = shapes.edge_tangent[facing.ref_edge], start = shapes.vertex[facing.ref_edge];
     const auto along = [&](Index e) { return t.dot(pose.turned(shapes.edge_tangent[e])); };
-    if (along(facing.inc_edge) < steep)
-        return false;
+    const auto across = [&](Index e) { return std::abs(cross(t, pose.turned(shapes.edge_tangent[e]))); };
+    const auto seen = [&](Index v) { return Vec2(pose.moved(shapes.vertex[v]) - start); };
     const Index end = shapes.next_vertex(part, facing.inc_edge);
-    const bool at_end = cross(t, pose.turned(shapes.vertex[end] - shapes.vertex[facing.inc_edge])) > 0.0;
-    const Neighbour other = neighbour_of(shapes, part, facing.inc_edge, at_end);
-    return other.part != part && is_external(shapes, other.edge) && along(other.edge) < along(facing.inc_edge) - clearly;
+    const double depth = cross(t, seen(facing.inc_edge)), depth_at_end = cross(t, seen(end));
+    const Neighbour other = neighbour_of(shapes, part, facing.inc_edge, depth_at_end > depth);
+    if (other.part == part || !is_external(shapes, other.edge))
+        return false;
+    if (along(facing.inc_edge) >= steep)
+        return along(other.edge) < along(facing.inc_edge) - clearly;
+    const double from = t.dot(seen(other.edge)), to = t.dot(seen(shapes.next_vertex(other.part, other.edge)));
+    const bool is_over = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0) >
+                         pair.margin;
+    return std::min(depth, depth_at_end) < -pair.margin && is_over && along(other.edge) < steep &&
+           across(other.edge) < 0.5 * across(facing.inc_edge);
 }
 
 /// Would the parts of `pair` be apart if the parts around them that `facing` is of were drawn apart? By the least way, out of the edge that faces.

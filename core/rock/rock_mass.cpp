@@ -291,6 +291,20 @@ void check_names(const CaseDef& def, const RockMass& rock)
     }
 }
 
+/// Nothing of the rock may be lost on the way, and no block be without a shape.
+void check_area(const RockMass& rock)
+{
+    double sum = 0.0;
+    for (const RockBlock& block : rock.blocks)
+        sum += area(block);
+    if (!(std::abs(sum - rock.domain_area) <= 1e-6 * rock.domain_area))
+        throw InputError(Problem{
+            .key = "domain",
+            .text = "rock mass: its blocks have an area of " + text(sum) + " m2, and the domain one of " + text(rock.domain_area) +
+                    " m2 (joints, faults or outlines that meet almost in one point could not be cut). Move one of "
+                    "them by a millimetre."});
+}
+
 /// The smallest block sets the time step: one far below the rest is worth a word.
 void warn_of_small_blocks(const CaseDef& def, RockMass& rock)
 {
@@ -365,6 +379,7 @@ RockMass generate_rock_mass(const CaseDef& def)
         }
         cut_excavations(def, mass, rock);
         add_generated(def, domain, regions, mass, rock);
+        check_area(rock);
         check_names(def, rock);
         warn_of_small_blocks(def, rock);
     }

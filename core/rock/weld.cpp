@@ -72,36 +72,32 @@ void drop_straight_vertices(std::vector<CutPolygon>& parts, double tolerance)
             }
 }
 
-void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines)
+bool weld_points(std::vector<Vec2*> points, double tolerance)
 {
-    std::vector<Vec2*> vertices = vertices_in(mass, widened_boxes(outlines, mass.tolerance));
-    std::sort(vertices.begin(), vertices.end(),
+    std::sort(points.begin(), points.end(),
               [](const Vec2* a, const Vec2* b) { return a->x() != b->x() ? a->x() < b->x() : a->y() < b->y(); });
     bool moved = false;
-    std::vector<bool> done(vertices.size(), false);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
+    std::vector<bool> done(points.size(), false);
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
         if (done[i])
-        {
             continue;
-        }
-        const Vec2 at = *vertices[i];
-        for (std::size_t j = i + 1; j < vertices.size() && vertices[j]->x() - at.x() < mass.tolerance; ++j)
-        {
-            if (!done[j] && std::abs(vertices[j]->y() - at.y()) < mass.tolerance)
+        const Vec2 at = *points[i];
+        for (std::size_t j = i + 1; j < points.size() && points[j]->x() - at.x() < tolerance; ++j)
+            if (!done[j] && std::abs(points[j]->y() - at.y()) < tolerance)
             {
-                moved = moved || *vertices[j] != at;
-                *vertices[j] = at;
+                moved = moved || *points[j] != at;
+                *points[j] = at;
                 done[j] = true;
             }
-        }
     }
-    if (moved)
-    {
+    return moved;
+}
+
+void weld_vertices(CutMass& mass, const std::vector<Polygon>& outlines)
+{
+    if (weld_points(vertices_in(mass, widened_boxes(outlines, mass.tolerance)), mass.tolerance))
         for (CutBlock& block : mass.blocks)
-        {
             std::for_each(block.parts.begin(), block.parts.end(), drop_repeated_vertices);
-        }
-    }
 }
 }  // namespace hdem

@@ -7,6 +7,10 @@
 
 namespace hdem
 {
+/// Points nearer to each other than the tolerance become the one with the least x.
+/// @return  whether any of them has moved
+bool weld_points(std::vector<Vec2*> points, double tolerance);
+
 /// Vertices within an outline's box and nearer to each other than mass.tolerance take the same coordinates.
 ///
 /// Chords make neighbours agree wherever one cut parted them. A point where two outlines or an outline's vertex and a joint happen

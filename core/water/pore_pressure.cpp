@@ -19,8 +19,7 @@ double WaterTable::height(double across) const
 
 namespace
 {
-constexpr int pieces_a_triangle = 2;  ///< of a stretch across a field, whose pressure bends in each triangle
-constexpr int most_pieces = 64;
+constexpr double steepest = 0.01;  ///< sine of the angle of a face that runs along a crack
 
 /// Where a point lies along a polyline, if it lies on it.
 std::optional<double> way_along(const std::vector<Vec2>& line, const Vec2& at, double tolerance)
@@ -67,7 +66,7 @@ class Pressure
         {
             const auto lies_on = [&](const std::vector<Vec2>& line, const auto& pressure) -> std::optional<std::array<double, 2>>
             {
-                const double e = water_.tolerance;
+                const double e = water_.tolerance * (1.0 + 1e-9);  // places where a face leaves it are on it
                 const auto first = way_along(line, a, e), last = way_along(line, b, e);
                 if (!first || !last || !way_along(line, 0.5 * (a + b), e))
                     return std::nullopt;
@@ -130,8 +129,68 @@ Vec2 direction(const Vec2& from, const Vec2& to)
     return (to - from).normalized();
 }
 
+/// Part of a stretch that lies in one triangle of the field: its pressure runs straight there.
+struct FieldSpan
+{
+    double from, to;  ///< along the stretch [m]
+    double p_from, p_to;
+
+    [[nodiscard]] double at(double way) const { return to > from ? p_from + (p_to - p_from) * (way - from) / (to - from) : p_from; }
+};
+
+/// Of all triangles that a stretch crosses. One along a side of two triangles lies in both.
+std::vector<FieldSpan> field_spans(const PressureField& field, const Vec2& from, const Vec2& to)
+{
+    std::vector<FieldSpan> spans;
+    const double length = (to - from).norm();
+    const Vec2 low = from.cwiseMin(to), high = from.cwiseMax(to);
+    for (const auto& corners : field.triangle)
+    {
+        const std::array<Vec2, 3> p{field.points[corners[0]], field.points[corners[1]], field.points[corners[2]]};
+        const Vec2 lowest = p[0].cwiseMin(p[1]).cwiseMin(p[2]), highest = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
+        const double slack_of_box = 1e-9 * (highest - lowest).maxCoeff();
+        if ((low - highest).maxCoeff() > slack_of_box || (lowest - high).maxCoeff() > slack_of_box)
+            continue;
+        const double whole = cross(p[1] - p[0], p[2] - p[0]), slack = 1e-9 * whole;
+        double begin = 0.0, end = 1.0, p_from = 0.0, p_to = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)  // areas of the triangles over the side that faces corner k: its share of the pressure
+        {
+            const Vec2 &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
+            const double at_from = cross(b - a, from - a), at_to = cross(b - a, to - a);
+            const double pressure = field.pressure[corners[k]] / whole;
+            p_from += pressure * at_from;
+            p_to += pressure * at_to;
+            if (at_from < -slack && at_to < -slack)
+                end = -1.0;
+            else if (at_from < -slack)
+                begin = std::max(begin, (at_from + slack) / (at_from - at_to));
+            else if (at_to < -slack)
+                end = std::min(end, (at_from + slack) / (at_from - at_to));
+        }
+        if (begin < end)
+            spans.push_back({begin * length, end * length, p_from + begin * (p_to - p_from), p_from + end * (p_to - p_from)});
+    }
+    return spans;
+}
+
+/// Adds ways along a face at which it comes within the tolerance of a line that it runs almost along, or leaves it.
+void add_band(const FaceStretch& face, double length, const std::vector<Vec2>& line, double tolerance, std::vector<double>& ways)
+{
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    {
+        const Vec2 along = direction(line[i], line[i + 1]);
+        const double off_from = cross(along, face.drawn_from - line[i]), off_to = cross(along, face.drawn_to - line[i]);
+        if (std::abs(off_to - off_from) > steepest * length)
+            continue;
+        for (const double edge : {-tolerance, tolerance})
+            if ((off_from < edge) != (off_to < edge))
+                ways.push_back(length * std::clamp((edge - off_from) / (off_to - off_from), 0.0, 1.0));
+    }
+}
+
 /// Ways along a face at which its pressure may bend, ascending, with both ends.
-std::vector<double> bends(const Water& water, const Pressure& pressure, const FaceStretch& face, double length)
+std::vector<double> bends(const Water& water, const Pressure& pressure, const FaceStretch& face, double length,
+                          const std::vector<FieldSpan>& spans)
 {
     std::vector<double> ways{0.0, length};
     const auto add = [&](double way)
@@ -149,14 +208,18 @@ std::vector<double> bends(const Water& water, const Pressure& pressure, const Fa
     const Vec2 along = direction(face.drawn_from, face.drawn_to);
     for (const WaterCrack& crack : water.cracks)
         for (const std::vector<Vec2>* line : {&crack.crack, &crack.outlet})
+        {
+            if (!face.cracks_act)
+                continue;
             for (const Vec2& p : *line)
-                if (face.cracks_act && std::abs(cross(along, p - face.drawn_from)) <= water.tolerance)
+                if (std::abs(cross(along, p - face.drawn_from)) <= water.tolerance)
                     add((p - face.drawn_from).dot(along));
-    if (!water.field.triangle.empty())
+            add_band(face, length, *line, water.tolerance, ways);
+        }
+    for (const FieldSpan& span : spans)
     {
-        const double count = std::clamp(std::ceil(pieces_a_triangle * length / water.field.spacing), 1.0, double{most_pieces});
-        for (int i = 1; i < static_cast<int>(count); ++i)
-            add(length * i / count);
+        add(span.from);
+        add(span.to);
     }
     std::ranges::sort(ways);
     return ways;
@@ -178,13 +241,22 @@ PressureSum pressure_along(const Water& water, Index stage, const FaceStretch& f
         return sum;
     const Vec2 along = direction(face.from, face.to), drawn_along = direction(face.drawn_from, face.drawn_to);
     const Pressure pressure(water, stage);
-    const std::vector<double> ways = bends(water, pressure, face, length);
+    const bool has_field = face.table_acts && !water.field.triangle.empty();
+    const std::vector<FieldSpan> spans = has_field ? field_spans(water.field, face.from, face.to) : std::vector<FieldSpan>{};
+    const std::vector<double> ways = bends(water, pressure, face, length, spans);
     for (std::size_t i = 0; i + 1 < ways.size(); ++i)
     {
         std::optional<std::array<double, 2>> ends;
         if (face.cracks_act && !water.cracks.empty())
             ends = pressure.on_crack(face.drawn_from + ways[i] * drawn_along, face.drawn_from + ways[i + 1] * drawn_along);
-        if (!ends && face.table_acts)
+        if (!ends && has_field)
+        {
+            const double middle = 0.5 * (ways[i] + ways[i + 1]);
+            const auto span = std::ranges::find_if(spans, [&](const FieldSpan& s) { return s.from <= middle && middle <= s.to; });
+            if (span != spans.end())
+                ends = {span->at(ways[i]), span->at(ways[i + 1])};
+        }
+        else if (!ends && face.table_acts)
             ends = {pressure.at(face.from + ways[i] * along), pressure.at(face.from + ways[i + 1] * along)};
         if (ends)
             add_piece(ways[i], (*ends)[0], ways[i + 1], (*ends)[1], sum);

@@ -16,8 +16,8 @@ namespace hdem
 {
 namespace
 {
-constexpr double near_line = 1e-4;     ///< share of the mean block size
-constexpr double least_on_face = 0.1;  ///< share of a straight piece of a crack
+constexpr double near_line = 1e-4;      ///< share of the mean block size
+constexpr double least_on_face = 0.95;  ///< share of a straight piece of a crack
 
 std::vector<Vec2> moved(const std::vector<Vec2>& points, const Vec2& origin)
 {
@@ -146,9 +146,11 @@ class WaterResolver
         const std::vector<double> shares = shares_on_faces(line, model_, blocks_);
         for (std::size_t i = 0; i < shares.size(); ++i)
             if (shares[i] < least_on_face)
-                warn(key, object + " from " + text(Vec2(line[i] + origin_)) + " to " + text(Vec2(line[i + 1] + origin_)) +
-                              " m (no face of a block lies on it within " + text(water_.tolerance) +
-                              " m: its water presses on nothing). Give the points of the joint as it is drawn.");
+                warn(key, object + " from " + text(Vec2(line[i] + origin_)) + " to " + text(Vec2(line[i + 1] + origin_)) + " m (" +
+                              (shares[i] == 0.0 ? "no face of a block lies on it"
+                                                : "faces of blocks lie on " + text(100.0 * shares[i]) + " % of it") +
+                              " within " + text(water_.tolerance) + " m: its water presses on nothing" +
+                              (shares[i] == 0.0 ? "" : " elsewhere") + "). Give the points of the joint as it is drawn.");
     }
 
     void add_field()

@@ -175,6 +175,32 @@ TEST(ConcaveBlock, BearsWithItsLowerFaceOnly)
                 }
 }
 
+/// A seam of two parts ends at the end of a foot. The part beside it has the inclined side there, and touches the ground with that corner alone. It must not bear:
+/// it would press with half of that side's length.
+TEST(ConcaveBlock, BearsWithItsFootAloneWhereASeamEndsAtItsEnd)
+{
+    const Polygon ground{{-20.0, -3.0}, {20.0, -3.0}, {20.0, 0.0}, {-20.0, 0.0}};
+    const Polygon block{{0.162, 0.0}, {6.033, 0.776}, {3.895, 1.565}, {3.701, 1.383}, {3.014, 1.893}, {-2.987, 1.107}, {0.0, 0.0}};
+    for (const double turn : {0.0, 37.0, 200.0})
+        for (const bool is_mirrored : {false, true})
+        {
+            const auto placed = [&](const Polygon& shape) { return turned(is_mirrored ? mirrored(shape) : shape, turn); };
+            BlockPair pair = as_drawn(placed(ground), placed(block));
+            const Vec2 down = -1e-5 * turned_left(Vec2(std::cos(radians(turn)), std::sin(radians(turn))));
+            BlockMotion& m = pair.motion(pair.b);
+            m.x += down.x();
+            m.y += down.y();
+            pair.search();
+            std::vector<double> pressed;
+            for (Index i = 0; i < pair.state.contacts.size(); ++i)
+                if (const EdgeTouch touch = pair.touch(pair.state.contacts.get(i));
+                    touch.length > 0.0 && std::max(touch.point[0].overlap, touch.point[1].overlap) > 0.0)
+                    pressed.push_back(touch.length);
+            ASSERT_EQ(pressed.size(), 1U) << "turned by " << turn << ", mirrored " << is_mirrored;
+            EXPECT_NEAR(pressed[0], 0.162, 1e-9);
+        }
+}
+
 /// A hook above a bar that hangs on a stem: the top of the bar is one side in two pieces, and a lip of the hook is above each. Both are known before they land, or the hook
 /// would land on one lip a cycle earlier and slip sideways.
 TEST(ConcaveBlock, LandsOnBothPiecesOfASplitSideAtOnce)

@@ -163,6 +163,25 @@ TEST(Regions, BesideJointsAlmostAlongFaultsHaveAreas)
     }
 }
 
+/// Two faults meet on the side of the domain within a rounding. A block around an island is cut into triangles, which lost a corner there.
+TEST(Regions, BesideFaultsThatMeetAlmostInAPointLoseNoArea)
+{
+    for (const double off : {0.0, 1e-15, 1e-13, 1e-11, 1e-9})
+        for (const double turn : {0.0, 31.0, 90.0})
+        {
+            const std::string text = "[domain]\npolygon = [[0, 0], [16, 0], [16, 12], [0, 12]]\n"
+                                     "[[fault]]\nname = \"a\"\npoints = [[-4, 6.2], [17, 16.7]]\n" +
+                                     fmt::format("[[fault]]\nname = \"b\"\npoints = [[-1, {}], [17, 13.3]]\n", 7.9 + off) +
+                                     "[[region]]\nname = \"r\"\npolygon = [[10, 1], [11, 1.1], [11, 2], [10.2, 2]]\n"
+                                     "[[joint_set]]\ndip_deg = 26\nspacing = 20\norigin = [8, 4]\n" +
+                                     laws;
+            const RockMass rock = generate_rock_mass(case_of(text, turn));
+            EXPECT_NEAR(summed_area(rock), 192.0, 1e-7) << off << ", turned by " << turn;
+            for (const RockBlock& block : rock.blocks)
+                EXPECT_TRUE(moments(block).centroid.allFinite()) << block.name;
+        }
+}
+
 TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
 {
     const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");

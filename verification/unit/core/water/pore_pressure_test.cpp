@@ -90,5 +90,47 @@ TEST(PorePressure, OfAFieldIsLinearInTriangles)
     PressureField line{.points = {{0, 0}, {1, 1}, {2, 2}}, .pressure = {0, 0, 0}, .triangle = {}};
     EXPECT_FALSE(make_triangles(line));
 }
+
+/// Points near a joint, and four far around them: a stretch is followed from triangle to triangle, however much they differ in size.
+TEST(PorePressure, OfAFieldIsFollowedThroughTrianglesOfAnySize)
+{
+    Water water = under({{0.0, 0.0}});
+    const std::array<Vec2, 6> along{Vec2(-2.5, 0), Vec2(0, 0), Vec2(2, 90e3), Vec2(5, 60e3), Vec2(10, 0), Vec2(12.5, 0)};
+    for (const double y : {-1.0, 0.0, 1.0})
+        for (const Vec2& p : along)
+        {
+            water.field.points.emplace_back(p.x(), y);
+            water.field.pressure.push_back(p.y());
+        }
+    for (const double x : {-95.0, 105.0})
+        for (const double y : {-100.0, 100.0})
+        {
+            water.field.points.emplace_back(x, y);
+            water.field.pressure.push_back(0.0);
+        }
+    ASSERT_TRUE(make_triangles(water.field));
+    for (const double y : {0.0, -0.3, 0.5})
+    {
+        const PressureSum sum = pressure_along(water, 0, {0, y}, {10, y});
+        EXPECT_NEAR(sum.force, 465e3, 1e-3) << y;
+        EXPECT_NEAR(sum.moment, 120e3 + 225e3 * 3.4 + 150e3 * (5.0 + 5.0 / 3.0), 1e-2) << y;
+        const PressureSum back = pressure_along(water, 0, {10, y}, {0, y});
+        EXPECT_NEAR(back.force, sum.force, 1e-3);
+        EXPECT_NEAR(back.moment, 10.0 * sum.force - sum.moment, 1e-2);
+    }
+}
+
+/// A face that leaves the line of a crack bears its water as far as it lies within the tolerance.
+TEST(PorePressure, OfACrackEndsWhereAFaceLeavesItsLine)
+{
+    Water water = under({{0.0, -100.0}});
+    water.tolerance = 1e-4;
+    water.cracks = {{.crack = {{0, 0}, {0, 2}}, .outlet = {{0, 0}, {-3, 0}}, .level = 2.0}};
+    const double exact = pressure_along(water, 0, {0, 0}, {0, 2}).force;
+    EXPECT_NEAR(exact, 0.5 * water.unit_weight * 4.0, 1e-6 * exact);
+    const double beside = pressure_along(water, 0, {0, 0}, {2e-4, 2}).force;  // leaves it half way up
+    EXPECT_NEAR(beside, 0.75 * exact, 1e-3 * exact);
+    EXPECT_EQ(pressure_along(water, 0, {3e-4, 0}, {3e-4, 2}).force, 0.0);
+}
 }  // namespace
 }  // namespace hdem
