@@ -12,7 +12,7 @@ namespace hdem
 ///
 /// Ears with the shortest new edge are cut off first, then internal edges are removed, the longest first, as long as the
 /// union stays convex: at most four times the least possible number of parts (Hertel, Mehlhorn 1983).
-/// @pre the polygon is simple and anticlockwise
+/// @pre the polygon is anticlockwise, and simple but for vertices and internal edges at which it touches itself
 std::vector<CutPolygon> convex_parts(const CutPolygon& polygon);
 
 /// Remove internal edges that two parts share end to end, the longest first, as long as the union stays convex. A vertex that

@@ -151,7 +151,20 @@ class Remainder
                 offer(waiting);
     }
 
-    /// A vertex in the closed triangle that cutting off k would take.
+    /// Does an edge of vertex v, which is at the place of corner c of a triangle, lead into the triangle?
+    [[nodiscard]] bool enters(std::size_t v, const Polygon& triangle, std::size_t c) const
+    {
+        const Vec2 first = triangle[next(c, 3)] - triangle[c], last = triangle[previous(c, 3)] - triangle[c];
+        const auto leads_in = [&](std::size_t to)
+        {
+            const Vec2 way = points_[to] - triangle[c];
+            return cross(first, way) > straight_sine * first.norm() * way.norm() &&
+                   cross(way, last) > straight_sine * last.norm() * way.norm();
+        };
+        return leads_in(vertex_[v].before) || leads_in(vertex_[v].after);
+    }
+
+    /// A vertex in the closed triangle that cutting off k would take. Where the polygon touches itself, one at the place of a corner counts if its edges lead inside.
     [[nodiscard]] std::optional<std::size_t> blocking_vertex(std::size_t k) const
     {
         const std::array<std::size_t, 3> corners = {vertex_[k].before, k, vertex_[k].after};
@@ -161,6 +174,8 @@ class Remainder
             bool inside = std::ranges::find(corners, found.second) == corners.end();
             for (std::size_t c = 0; c < 3 && inside; ++c)
             {
+                if (points_[found.second] == corner[c])
+                    return enters(found.second, corner, c);
                 const Vec2 edge = corner[next(c, 3)] - corner[c];
                 inside = cross(edge, points_[found.second] - corner[c]) >= -straight_sine * edge.squaredNorm();
             }

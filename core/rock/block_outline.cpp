@@ -5,14 +5,84 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
-#include <set>
+#include <tuple>
 #include <utility>
 
 namespace hdem
 {
 namespace
 {
+using Place = std::pair<double, double>;
+
+Place place_of(const Vec2& p)
+{
+    return {p.x(), p.y()};
+}
+
+/// The edges at the outside of parts, found by where they begin.
+class OuterEdges
+{
+  public:
+    explicit OuterEdges(const std::vector<CutPolygon>& parts)
+    {
+        for (const CutPolygon& part : parts)
+            for (std::size_t i = 0; i < part.vertices.size(); ++i)
+                if (part.edges[i].source != edge_internal)
+                    from_.insert({place_of(part.vertices[i]),
+                                  {{part.vertices[i], part.vertices[next(i, part.vertices.size())], part.edges[i]}}});
+    }
+
+    /// All rings. Where the block touches itself, a ring goes on along the rock between its edges.
+    [[nodiscard]] std::vector<std::vector<OutlineEdge>> rings()
+    {
+        std::vector<std::vector<OutlineEdge>> rings;
+        for (auto& [place, first] : from_)
+        {
+            if (first.is_used)
+                continue;
+            rings.emplace_back();
+            for (Edge* edge = &first; edge != nullptr && !edge->is_used; edge = after(edge->edge))
+            {
+                edge->is_used = true;
+                rings.back().push_back(edge->edge);
+            }
+        }
+        return rings;
+    }
+
+    /// Does the block touch itself here?
+    [[nodiscard]] bool is_shared(const Vec2& p) const { return from_.count(place_of(p)) > 1; }
+
+  private:
+    struct Edge
+    {
+        OutlineEdge edge;
+        bool is_used = false;
+    };
+
+    /// Of the edges that begin where `edge` ends, the first one clockwise from it: the rock lies on the left of both.
+    Edge* after(const OutlineEdge& edge)
+    {
+        const auto [first, last] = from_.equal_range(place_of(edge.to));
+        const Vec2 back = edge.from - edge.to;
+        const auto turn = [&](const OutlineEdge& e)  // clockwise from `back`, in (0, 360) degrees
+        {
+            const Vec2 way = e.to - e.from;
+            const double angle = std::atan2(cross(way, back), way.dot(back));
+            return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+        };
+        Edge* best = nullptr;
+        for (auto at = first; at != last; ++at)
+            if (best == nullptr || turn(at->second.edge) < turn(best->edge))
+                best = &at->second;
+        return best;
+    }
+
+    std::multimap<Place, Edge> from_;
+};
+
 bool goes_on(const OutlineEdge& before, const OutlineEdge& after, double tolerance)
 {
     const Vec2 way = after.to - before.from;
@@ -20,74 +90,165 @@ bool goes_on(const OutlineEdge& before, const OutlineEdge& after, double toleran
            std::abs(cross(way, before.to - before.from)) <= tolerance * way.norm() && (before.to - before.from).dot(way) > 0.0;
 }
 
-std::vector<OutlineEdge> straightened(std::vector<OutlineEdge> ring, double tolerance)
+std::vector<OutlineEdge> straightened(std::vector<OutlineEdge> ring, const OuterEdges& edges, double tolerance)
 {
+    const auto is_one_side = [&](const OutlineEdge& before, const OutlineEdge& after)
+    { return !edges.is_shared(after.from) && goes_on(before, after, tolerance); };
     // Begin where a corner is, so that no straight side lies across the end of the list.
     for (std::size_t i = 0; i < ring.size(); ++i)
-        if (!goes_on(ring[previous(i, ring.size())], ring[i], tolerance))
+        if (!is_one_side(ring[previous(i, ring.size())], ring[i]))
         {
             std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(i), ring.end());
             break;
         }
     std::vector<OutlineEdge> out;
     for (const OutlineEdge& edge : ring)
-        if (!out.empty() && goes_on(out.back(), edge, tolerance))
+        if (!out.empty() && is_one_side(out.back(), edge))
             out.back().to = edge.to;
         else
             out.push_back(edge);
     return out;
 }
 
-/// The outline as one polygon, none where it has holes or touches itself.
-std::optional<CutPolygon> single_ring(const std::vector<CutPolygon>& parts, double tolerance)
+CutPolygon polygon_of(const std::vector<OutlineEdge>& ring)
 {
-    const std::vector<std::vector<OutlineEdge>> rings = outline_of(parts, tolerance);
-    if (rings.size() != 1)
-        return std::nullopt;
-    CutPolygon ring;
-    std::set<std::pair<double, double>> vertices;
-    for (const OutlineEdge& edge : rings.front())
+    CutPolygon polygon;
+    for (const OutlineEdge& edge : ring)
+        polygon.add(edge.from, edge.tag);
+    return polygon;
+}
+
+/// Does the way from a to b meet an edge of the polygon at another place than its ends?
+bool is_blocked(const CutPolygon& polygon, const Vec2& a, const Vec2& b)
+{
+    for (std::size_t i = 0; i < polygon.vertices.size(); ++i)
     {
-        ring.add(edge.from, edge.tag);
-        if (!vertices.insert({edge.from.x(), edge.from.y()}).second)
+        const Vec2 &p = polygon.vertices[i], &q = polygon.vertices[next(i, polygon.vertices.size())];
+        const bool has_end = p == a || p == b || q == a || q == b;
+        const double of_p = cross(b - a, p - a), of_q = cross(b - a, q - a), of_a = cross(q - p, a - p), of_b = cross(q - p, b - p);
+        if (!has_end && (of_p > 0.0) != (of_q > 0.0) && (of_a > 0.0) != (of_b > 0.0))
+            return true;
+        const double t = (p - a).dot(b - a);
+        if (p != a && p != b && std::abs(of_p) <= 1e-9 * (b - a).squaredNorm() && t > 0.0 && t < (b - a).squaredNorm())
+            return true;
+    }
+    return false;
+}
+
+/// Does a way from vertex i lead into the rock beside it, which lies on the left of the polygon's edges?
+bool leads_inside(const CutPolygon& polygon, std::size_t i, const Vec2& way)
+{
+    const std::size_t n = polygon.vertices.size();
+    const Vec2 out = polygon.vertices[next(i, n)] - polygon.vertices[i],
+               back = polygon.vertices[previous(i, n)] - polygon.vertices[i];
+    return cross(out, back) > 0.0 ? cross(out, way) > 0.0 && cross(way, back) > 0.0
+                                  : cross(back, way) < 0.0 || cross(way, out) < 0.0;
+}
+
+/// The vertices of a polygon from vertex k on around, and that one once more.
+void add_around(const CutPolygon& polygon, std::size_t k, const EdgeTag& last, CutPolygon& out)
+{
+    for (std::size_t i = 0, n = polygon.vertices.size(); i < n; ++i)
+        out.add(polygon.vertices[(k + i) % n], polygon.edges[(k + i) % n]);
+    out.add(polygon.vertices[k], last);
+}
+
+/// A hole becomes one ring with its outside by an internal edge there and back: the shortest from corner to corner that crosses nothing.
+/// @return  false: there is none
+bool join_hole(CutPolygon& outside, const CutPolygon& hole, const std::vector<CutPolygon>& others)
+{
+    std::vector<std::tuple<double, std::size_t, std::size_t>> ways;
+    for (std::size_t i = 0; i < outside.vertices.size(); ++i)
+        for (std::size_t j = 0; j < hole.vertices.size(); ++j)
+            ways.emplace_back((hole.vertices[j] - outside.vertices[i]).squaredNorm(), i, j);
+    std::ranges::sort(ways);
+    for (const auto& [length2, i, j] : ways)
+    {
+        const Vec2 &a = outside.vertices[i], &b = hole.vertices[j];
+        const auto blocks = [&](const CutPolygon& polygon) { return is_blocked(polygon, a, b); };
+        if (!leads_inside(outside, i, b - a) || !leads_inside(hole, j, a - b) || blocks(outside) || blocks(hole) ||
+            std::ranges::any_of(others, blocks))
+            continue;
+        const EdgeTag internal{edge_internal, no_index};
+        CutPolygon joined;
+        for (std::size_t k = 0; k < i; ++k)
+            joined.add(outside.vertices[k], outside.edges[k]);
+        joined.add(outside.vertices[i], internal);
+        add_around(hole, j, internal, joined);
+        for (std::size_t k = i; k < outside.vertices.size(); ++k)
+            joined.add(outside.vertices[k], outside.edges[k]);
+        outside = std::move(joined);
+        return true;
+    }
+    return false;
+}
+
+/// The outline as one polygon. Holes are joined to it by internal edges.
+std::optional<CutPolygon> single_polygon(const std::vector<CutPolygon>& parts, double tolerance)
+{
+    std::optional<CutPolygon> outside;
+    std::vector<CutPolygon> holes;
+    OuterEdges edges(parts);
+    for (std::vector<OutlineEdge>& ring : edges.rings())
+    {
+        const bool is_simple = std::ranges::none_of(ring, [&](const OutlineEdge& e) { return edges.is_shared(e.from); });
+        std::vector<CutPolygon> polygon{polygon_of(straightened(std::move(ring), edges, tolerance))};
+        if (is_simple)
+            drop_straight_vertices(polygon, tolerance);
+        if (signed_area(polygon.front().vertices) < 0.0)
+            holes.push_back(std::move(polygon.front()));
+        else if (outside)
+            return std::nullopt;
+        else
+            outside = std::move(polygon.front());
+    }
+    if (!outside)
+        return std::nullopt;
+    std::ranges::sort(holes, {}, [](const CutPolygon& hole) { return place_of(hole.vertices.front()); });
+    while (!holes.empty())
+    {
+        const CutPolygon hole = std::move(holes.back());
+        holes.pop_back();
+        if (!join_hole(*outside, hole, holes))
             return std::nullopt;
     }
-    return ring;
+    return outside;
+}
+
+double area_of(const std::vector<CutPolygon>& parts)
+{
+    double sum = 0.0;
+    for (const CutPolygon& part : parts)
+        sum += signed_area(part.vertices);
+    return sum;
+}
+
+/// Round-off may leave an outline that crosses itself.
+bool are_sound(const std::vector<CutPolygon>& parts, double area)
+{
+    const auto is_sound = [](const CutPolygon& part) { return signed_area(part.vertices) > 0.0 && is_convex(part.vertices, 1e-9); };
+    return std::ranges::all_of(parts, is_sound) && std::abs(area_of(parts) - area) <= 1e-6 * area;
 }
 }  // namespace
 
 std::vector<std::vector<OutlineEdge>> outline_of(const std::vector<CutPolygon>& parts, double tolerance)
 {
-    std::multimap<std::pair<double, double>, OutlineEdge> from;
-    for (const CutPolygon& part : parts)
-        for (std::size_t i = 0; i < part.vertices.size(); ++i)
-            if (part.edges[i].source != edge_internal)
-                from.insert({{part.vertices[i].x(), part.vertices[i].y()},
-                             {part.vertices[i], part.vertices[next(i, part.vertices.size())], part.edges[i]}});
-    std::vector<std::vector<OutlineEdge>> rings;
-    while (!from.empty())
-    {
-        std::vector<OutlineEdge> ring;
-        for (auto edge = from.begin(); edge != from.end(); edge = from.find({ring.back().to.x(), ring.back().to.y()}))
-        {
-            ring.push_back(edge->second);
-            from.erase(edge);
-        }
-        rings.push_back(straightened(std::move(ring), tolerance));
-    }
+    OuterEdges edges(parts);
+    std::vector<std::vector<OutlineEdge>> rings = edges.rings();
+    for (std::vector<OutlineEdge>& ring : rings)
+        ring = straightened(std::move(ring), edges, tolerance);
     return rings;
 }
 
 void make_sides_whole(std::vector<CutPolygon>& parts, double tolerance)
 {
     if (parts.size() > 1)
-        if (const std::optional<CutPolygon> ring = single_ring(parts, tolerance))
-        {
-            std::vector<CutPolygon> whole{*ring};
-            drop_straight_vertices(whole, tolerance);
-            parts = convex_parts(whole.front());
-            return;
-        }
+        if (const std::optional<CutPolygon> whole = single_polygon(parts, tolerance))
+            if (std::vector<CutPolygon> anew = convex_parts(*whole); are_sound(anew, area_of(parts)))
+            {
+                parts = std::move(anew);
+                return;
+            }
     merge_convex_parts(parts, tolerance);
     drop_straight_vertices(parts, tolerance);
 }

@@ -21,6 +21,6 @@ struct OutlineEdge
 
 /// Convex parts of a block, at whose outer sides no vertex stands where the side goes straight on. Its outline is decomposed anew: cuts that
 /// crossed the block, and slivers that it was joined to, leave internal edges that end on straight sides, and which ones depends on the order
-/// of the cuts. A block around a hole, or one that touches itself, only has its parts merged.
+/// of the cuts. Holes are joined to the outside by internal edges. Where round-off leaves no sound parts, those that are there are merged only.
 void make_sides_whole(std::vector<CutPolygon>& parts, double tolerance);
 }  // namespace hdem

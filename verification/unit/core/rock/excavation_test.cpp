@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace hdem
 {
@@ -319,6 +320,42 @@ TEST(Slivers, LeaveTheSameEdgesFarFromTheOrigin)
         for (const double by : {0.1, 3e4, 1e5})
             alike += vertices(seed, {by, by}) == vertices(seed, {0.0, 0.0}) ? 1 : 0;
     EXPECT_EQ(alike, 60) << "without slack 24";
+}
+
+/// The parts around a hole end at corners alone: no side is in two pieces.
+TEST(Excavation, LeavesTheSidesOfTheBlockAroundItWhole)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int i = 0; i < 60; ++i)
+    {
+        CaseDef def = jointed_case(0.0, 0.0, {});
+        def.domain.polygon = {{0, 0}, {12, 0}, {12, 9}, {7, 9}, {6, 8}, {0, 9}};
+        std::size_t sides = def.domain.polygon.size();
+        for (const Vec2& centre : {Vec2(3.0, 4.0), Vec2(8.5, 4.5)})
+        {
+            ExcavationDef hole = excavation("hole" + std::to_string(def.excavations.size()), OutlineShape::polygon, {0, 0}, 0.0,
+                                            0.0);
+            hole.inside = InsideOutline::one_block;
+            const int corners = 3 + static_cast<int>(6.0 * share(random));
+            for (int k = 0; k < corners; ++k)
+            {
+                const double angle = 2.0 * std::numbers::pi * (k + 0.5 * share(random)) / corners,
+                             radius = 0.5 + 2.0 * share(random);
+                hole.polygon.emplace_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+            }
+            sides += hole.polygon.size();
+            def.excavations.push_back(hole);
+        }
+        const RockMass rock = generate_rock_mass(def);
+        expect_sound(rock);
+        ASSERT_EQ(rock.blocks.size(), 3u);
+        std::size_t found = 0;
+        for (const ConvexPart& part : rock.blocks[0].parts)
+            found += static_cast<std::size_t>(
+                std::ranges::count_if(part.source, [](std::int32_t source) { return source != edge_internal; }));
+        EXPECT_EQ(found, sides) << i;
+    }
 }
 
 /// Cuts and joined slivers leave internal edges in concave blocks. None of these parts a straight side, whichever cut came first.
