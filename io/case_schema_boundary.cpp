@@ -81,13 +81,15 @@ SectionSpec boundary_section()
                                         .effect = "Of the wall. Belongs to kind velocity.",
                                         .range = speed,
                                         .default_note = "must be given with kind velocity"}),
-         field<&BoundaryDef::target>({.name = "target",
-                                      .unit = "Pa",
-                                      .effect = "Compression to reach: force of the wall divided by the length of the side as "
-                                                "drawn, without the parts in front of fixed blocks. Belongs to kind servo.",
-                                      .example = "2e6",
-                                      .range = positive,
-                                      .default_note = "must be given with kind servo"}),
+         field<&BoundaryDef::target>(
+             {.name = "target",
+              .unit = "Pa",
+              .effect = "Compression to reach: force of the wall divided by the length of the side as "
+                        "drawn, without the parts in front of fixed blocks. In wet rock this is the effective stress: the "
+                        "pressure of the water on the side comes on top. Belongs to kind servo.",
+              .example = "2e6",
+              .range = positive,
+              .default_note = "must be given with kind servo"}),
          field<&BoundaryDef::max_velocity>({.name = "max_velocity",
                                             .unit = "m/s",
                                             .effect = "Greatest speed of the wall. Belongs to kind servo.",

@@ -138,6 +138,8 @@ SectionSpec generator_section()
                                                     .effect = "A cut that would leave a smaller piece is refused, and smaller "
                                                               "pieces at an excavation outline are joined to a neighbour, across "
                                                               "a fault or the boundary of a region only where there is no other. "
+                                                              "Cuts are made one after another: which of them are refused "
+                                                              "depends on their order, and may differ in a mirrored model. "
                                                               "The smallest block decides the time step.",
                                                     .range = non_negative}),
          field<&GeneratorDef::smallest_edge>({.name = "smallest_edge",
@@ -194,10 +196,12 @@ SectionSpec excavation_section()
                                              .effect = "Vertices of the outline when shape = \"polygon\".",
                                              .range = coordinate,
                                              .default_note = "must be given for a polygon"}),
-             field<&ExcavationDef::inside>({.name = "inside",
-                                            .effect = "`jointed`: the blocks inside keep the joints that cut them; `one_block`: "
-                                                      "the inside is a single rigid block.",
-                                            .choices = {"jointed", "one_block"}})},
+             field<&ExcavationDef::inside>(
+                 {.name = "inside",
+                  .effect = "`jointed`: the blocks inside keep the joints that cut them; `one_block`: "
+                            "the inside is a single rigid block. Rock in two excavations belongs to the first "
+                            "one in the file.",
+                  .choices = {"jointed", "one_block"}})},
             append<&CaseDef::excavations>};
 }
 

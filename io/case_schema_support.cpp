@@ -152,15 +152,17 @@ SectionSpec bolt_section()
 {
     std::vector<KeySpec> keys = place_keys();
     std::ranges::move(bar_keys(), std::back_inserter(keys));
-    return {"bolt",
-            SectionKind::array,
-            "bolt",
-            "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears "
-            "tension only. grouted: a bar bonded to the rock along its length (cable, dowel); the bond may slip, the bar may "
-            "yield; at a joint it is free over twice its diameter. local: an axial and a shear spring at each joint that the line "
-            "from -> to crosses. A bolt is fastened to the blocks at its points; a block that is excavated takes its part with it. "
-            "Bolts act as forces with all methods. With bolts no static solution is tried.",
-            std::move(keys),
-            append<&CaseDef::bolts>};
+    return {
+        "bolt",
+        SectionKind::array,
+        "bolt",
+        "Rock bolts. anchored: a bar between its head and its end, free in between, with or without pretension; it bears "
+        "tension only. grouted: a bar bonded to the rock along its length (cable, dowel); the bond may slip, the bar may "
+        "yield; the bond reaches up to each joint, and the bar takes its direction there over twice its diameter. local: an axial "
+        "spring, in tension and compression, and a shear spring at each joint that the line from -> to crosses. A bolt is fastened "
+        "to the blocks at its points; a block that is excavated takes its part with it. "
+        "Bolts act as forces with all methods. With bolts no static solution is tried.",
+        std::move(keys),
+        append<&CaseDef::bolts>};
 }
 }  // namespace hdem

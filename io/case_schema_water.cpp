@@ -39,9 +39,11 @@ SectionSpec water_section()
               .example = "\"p.csv\"",
               .default_note = "none"}),
          field<&WaterDef::density>({.name = "density", .unit = "kg/m3", .effect = "ρ_w.", .range = positive}),
-         field<&WaterDef::ponded>({.name = "ponded",
-                                   .effect = "true: water also presses on free faces below its level, so that a submerged block "
-                                             "loses ρ_w g A of its weight. false: on joints only."}),
+         field<&WaterDef::ponded>(
+             {.name = "ponded",
+              .effect = "true: water also presses on free faces below its level, so that a submerged block "
+                        "loses ρ_w g A of its weight. false: on joints only, and between blocks that have moved a quarter "
+                        "of their size against each other no longer."}),
          field<&WaterDef::joints>(
              {.name = "joints",
               .effect = "Names of the [joint.NAME] that water gets into. A [[water_crack]] presses on its line in any joint.",

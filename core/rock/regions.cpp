@@ -5,6 +5,7 @@
 #include "core/rock/problem_text.h"
 
 #include <algorithm>
+#include <map>
 
 namespace hdem
 {
@@ -143,13 +144,21 @@ void Regions::add_boundaries(const JointSetDef& set, const Vec2& from, const Vec
 
 const std::string& Regions::material(const CutBlock& block) const
 {
-    if (!limits_.empty())
+    if (limits_.empty())
+        return def_.domain.material;
+    const auto region_of = [&](const CutPolygon& part)
     {
-        const Vec2 point = point_inside(block);
+        const Vec2 point = area_moments(part.vertices).centroid;
         for (std::size_t i = 0; i < limits_.size(); ++i)
             if (!def_.regions[i].material.empty() && holds(i, point))
-                return def_.regions[i].material;
-    }
-    return def_.domain.material;
+                return i;
+        return limits_.size();
+    };
+    std::map<std::size_t, double> areas;
+    for (const CutPolygon& part : block.parts)
+        areas[region_of(part)] += signed_area(part.vertices);
+    const auto smaller = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const std::size_t most = std::ranges::max_element(areas, smaller)->first;
+    return most < limits_.size() ? def_.regions[most].material : def_.domain.material;
 }
 }  // namespace hdem

@@ -34,7 +34,9 @@ class Regions
     /// Adds the shares of a way at which the boundary of one region is met.
     void add_boundary(const std::string& region, const Vec2& from, const Vec2& to, std::vector<double>& shares) const;
 
-    /// Material of the first region with one around the block, else of the domain.
+    /// Material of the first region with one around each part, else of the domain; where parts differ, that of the greatest area. (The whole inside of an excavation,
+    /// and blocks that slivers were joined to, may lie across a boundary.)
+    /// @pre the block's parts are those that were cut
     [[nodiscard]] const std::string& material(const CutBlock& block) const;
 
   private:

@@ -11,6 +11,7 @@
 #include "core/rock/problem_text.h"
 #include "core/rock/regions.h"
 #include "core/rock/rock_checks.h"
+#include "core/rock/rock_warnings.h"
 #include "core/rock/side_walls.h"
 #include "core/rock/slivers.h"
 #include "core/rock/start_mass.h"
@@ -50,15 +51,6 @@ Domain make_domain(const CaseDef& def)
     return domain;
 }
 
-void warn_of_no_joints(const JointSetDef& set, std::size_t number, std::int64_t joints, RockMass& rock)
-{
-    if (joints == 0)
-    {
-        rock.warnings.push_back({Problem::Severity::warning, "joint_set[" + std::to_string(number) + "]",
-                                 "joint set \"" + set.name + "\": no joint crosses the domain. Check its spacing and origin."});
-    }
-}
-
 /// What was drawn of a through-going set.
 DrawnSet noted(const JointSetDef& set, const JointTraces& joints, const Polygon& domain, double tolerance)
 {
@@ -89,32 +81,6 @@ DrawnSet noted(const JointSetDef& set, const JointTraces& joints, const Polygon&
         before = at;
     }
     return drawn;
-}
-
-/// Of the cuts of a set that may be refused without a word [-]
-constexpr double most_refused = 0.5;
-
-/// The rock mass would not be the one that was asked for: uncut rock is stronger than any joint.
-void warn_of_refused_cuts(const JointSetDef& set, std::size_t number, std::int64_t refused, std::int64_t cuts, RockMass& rock)
-{
-    if (static_cast<double>(refused) <= most_refused * static_cast<double>(refused + cuts))
-        return;
-    rock.warnings.push_back({Problem::Severity::warning, "joint_set[" + std::to_string(number) + "]",
-                             "joint set \"" + set.name + "\": " + std::to_string(refused) + " of " +
-                                 std::to_string(refused + cuts) +
-                                 " cuts of blocks were refused (a piece or an edge would be too small; the rock stays whole "
-                                 "there, and is stronger than with the joint). Reduce generator.smallest_block_area and "
-                                 "smallest_edge, or give a greater spacing."});
-}
-
-/// Cells may be larger than the domain.
-void warn_of_large_cells(const CaseDef& def, const Polygon& domain, RockMass& rock)
-{
-    const Box box = bounding_box(domain);
-    if (def.voronoi.given && def.voronoi.edge > (box.high - box.low).maxCoeff())
-        rock.warnings.push_back(
-            {Problem::Severity::warning, "voronoi.edge",
-             "[voronoi]: edge = " + text(def.voronoi.edge) + " m (a cell is larger than the whole domain). Give a shorter edge."});
 }
 
 void cut_joint_sets(const CaseDef& def, const Polygon& domain, const Regions& regions, CutMass& mass, RockMass& rock)
@@ -190,14 +156,14 @@ void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
     {
         throw InputError(std::move(problems));
     }
+    warn_of_overlaps(def, outlines, rock);
     merge_slivers(mass, def.generator.smallest_block_area, EdgeSources(def).set(0), rock);
     weld_vertices(mass, outlines);
 }
 
-RockBlock finished(CutBlock& from, const Regions& regions, const Domain& domain)
+RockBlock finished(CutBlock& from, const Domain& domain)
 {
     RockBlock block;
-    block.material = regions.material(from);
     block.excavation = from.excavation;
     bool is_fixed = false;
     for (CutPolygon& part : from.parts)
@@ -239,8 +205,10 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
     places.reserve(mass.blocks.size());
     for (CutBlock& from : mass.blocks)
     {
+        const std::string& material = regions.material(from);
         make_sides_whole(from.parts, mass.tolerance);
-        blocks.push_back(finished(from, regions, domain));
+        blocks.push_back(finished(from, domain));
+        blocks.back().material = material;
         places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
         from = {};  // a million of them need not wait
     }
@@ -291,39 +259,6 @@ void check_names(const CaseDef& def, const RockMass& rock)
     }
 }
 
-/// Nothing of the rock may be lost on the way, and no block be without a shape.
-void check_area(const RockMass& rock)
-{
-    double sum = 0.0;
-    for (const RockBlock& block : rock.blocks)
-        sum += area(block);
-    if (!(std::abs(sum - rock.domain_area) <= 1e-6 * rock.domain_area))
-        throw InputError(Problem{
-            .key = "domain",
-            .text = "rock mass: its blocks have an area of " + text(sum) + " m2, and the domain one of " + text(rock.domain_area) +
-                    " m2 (joints, faults or outlines that meet almost in one point could not be cut). Move one of "
-                    "them by a millimetre."});
-}
-
-/// The smallest block sets the time step: one far below the rest is worth a word.
-void warn_of_small_blocks(const CaseDef& def, RockMass& rock)
-{
-    const RockBlock* smallest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (const RockBlock& block : rock.blocks)
-    {
-        const double a = area(block);
-        smallest = a < least ? &block : smallest;
-        least = std::min(least, a);
-    }
-    const double mean = rock.domain_area / static_cast<double>(rock.blocks.size());
-    if (def.generator.smallest_block_area <= 0.0 && least < 1e-3 * mean)
-    {
-        rock.warnings.push_back({Problem::Severity::warning, "generator.smallest_block_area",
-                                 "block \"" + smallest->name + "\": area = " + text(least) + " m2 (the mean is " + text(mean) +
-                                     " m2, and the smallest block decides the time step). Set generator.smallest_block_area."});
-    }
-}
 }  // namespace
 
 AreaMoments moments(const RockBlock& block)

@@ -70,15 +70,22 @@ void add_stretch(const Polygon& stretch, const BoltDef& pattern, std::vector<Bol
     for (std::size_t i = 1; i < stretch.size(); ++i)
         length += (stretch[i] - stretch[i - 1]).norm();
     const double number = std::max(1.0, std::ceil(length / pattern.along - 1e-9));
+    const auto along = [&](std::size_t i) { return Vec2((stretch[i] - stretch[i - 1]).normalized()); };
     double passed = 0.0, next = 0.5 * length / number;
     for (std::size_t i = 1; i < stretch.size(); ++i)
     {
         const double piece = (stretch[i] - stretch[i - 1]).norm();
-        const Vec2 along = (stretch[i] - stretch[i - 1]) / piece;
         for (; next < passed + piece; next += length / number)
         {
-            const Vec2 head = stretch[i - 1] + (next - passed) * along;
-            lines.push_back({head, head - pattern.length * turned_left(along)});
+            // In a corner a bolt halves the angle, on whichever of the two pieces rounding puts it.
+            const double slack = 1e-9 * length, way = next - passed;
+            Vec2 direction = along(i);
+            if (way < slack && i > 1)
+                direction = (direction + along(i - 1)).normalized();
+            else if (piece - way < slack && i + 1 < stretch.size())
+                direction = (direction + along(i + 1)).normalized();
+            const Vec2 head = stretch[i - 1] + way * along(i);
+            lines.push_back({head, head - pattern.length * turned_left(direction)});
         }
         passed += piece;
     }

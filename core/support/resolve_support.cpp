@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <unordered_set>
 
@@ -195,6 +196,7 @@ class SupportResolver
             return problems_.push_back({.key = key_ + ".name",
                                         .text = object_ + "name (another bolt is called \"" + name +
                                                 "\"; those of a pattern are called NAME.1, NAME.2, ...). Give another name."});
+        warn_along_joint(head, end, name);
         Bolt bolt = with_numbers(from, name, length);
         if (from.kind == BoltKind::grouted &&
             !may_have(key_ + (from.segment ? ".segment" : ".bond_stiffness"), object_, longest_piece(from, bolt), length))
@@ -213,6 +215,28 @@ class SupportResolver
                                                                 : grouted_history_size(bolt));
         model_.support.history_size += bolt.history_size;
         model_.support.bolts.push_back(std::move(bolt));
+    }
+
+    /// A bolt along a joint is in the block that comes first, and not in the other one.
+    void warn_along_joint(const Vec2& head, const Vec2& end, const std::string& name)
+    {
+        const double length = (end - head).norm();
+        const Vec2 aside = 1e-6 * model_.mean_size * turned_left((end - head) / length);
+        std::map<Index, double> more_on_left;
+        for (const double side : {1.0, -1.0})
+            for (const PathPiece& piece : pieces_along(head + side * aside, end + side * aside, model_, blocks_, gone_))
+                more_on_left[piece.block] += side * (piece.to - piece.from);
+        const auto by_way = [](const auto& a, const auto& b) { return a.second < b.second; };
+        if (more_on_left.empty())
+            return;
+        const auto [right, left] = std::ranges::minmax_element(more_on_left, by_way);
+        if (left->second > 0.01 * length && right->second < -0.01 * length)
+            problems_.push_back({.severity = Problem::Severity::warning,
+                                 .key = key_ + ".from",
+                                 .text = "bolt \"" + name + "\": it runs along the joint between blocks \"" +
+                                         model_.name[left->first] + "\" and \"" + model_.name[right->first] + "\" over " +
+                                         text(std::min(left->second, -right->second)) +
+                                         " m (it is in one of them only). Move it aside."});
     }
 
     /// The one place where what is said of one bolt becomes what acts on a metre of thickness.

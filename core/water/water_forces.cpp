@@ -15,8 +15,9 @@ namespace hdem
 {
 namespace
 {
-constexpr double steepest = 0.5;        ///< of an edge against the one it faces [-]
-constexpr double cracks_follow = 0.25;  ///< way of a block over its size up to which cracks press on it [-]
+constexpr double steepest = 0.5;  ///< of an edge against the one it faces [-]
+constexpr double
+    faces_follow = 0.25;  ///< way of a block over its size up to which cracks, and joints without ponded water, press on it [-]
 
 /// Part of an edge, from its first vertex.
 struct Stretch
@@ -37,6 +38,23 @@ Vec2 to_body(const BlockMotion& motion, const Vec2& world)
     return {motion.c * d.x() + motion.s * d.y(), -motion.s * d.x() + motion.c * d.y()};
 }
 
+/// How far a block has moved from where it is drawn [m].
+Vec2 way_of(const Model& model, const State& state, Index block)
+{
+    const BlockMotion& motion = state.blocks.motion[block];
+    return Vec2(motion.x, motion.y) - model.water.drawn[model.user_number[block]];
+}
+
+/// Is there water between two blocks? Without ponded water, in joints that were drawn alone: what has fallen and lies on a floor below the water table would be pressed off it,
+/// fall again without a pressure on it, and be thrown about.
+bool has_joint_water(const Model& model, const State& state, Index contact)
+{
+    const Index ref = state.contacts.ref[contact], inc = state.contacts.inc[contact];
+    const double apart = (way_of(model, state, ref) - way_of(model, state, inc)).norm();
+    return model.water.wet_law[state.contacts.law[contact]] != 0 &&
+           (model.water.ponded || apart <= faces_follow * std::min(model.size(ref), model.size(inc)));
+}
+
 /// Stretches of edges that face another block.
 void add_facing(const Model& model, const State& state, Index i, std::vector<Stretch>& faces)
 {
@@ -49,7 +67,7 @@ void add_facing(const Model& model, const State& state, Index i, std::vector<Str
     const EdgeTouch touch = touch_edges(edges, on_ref, on_inc);
     if (!(touch.length > contacts.length_floor(i)) || std::abs(touch.slope) > steepest)
         return;
-    const bool wet = model.water.wet_law[contacts.law[i]] != 0;
+    const bool wet = has_joint_water(model, state, i);
     const auto add = [&](Index edge, double a, double b)
     {
         const double length = model.shapes.edge_length[edge];
@@ -134,9 +152,7 @@ class DryOpenings
 /// Cracks press on a block until it has gone far.
 bool do_cracks_act(const Model& model, const State& state, Index block)
 {
-    const BlockMotion& motion = state.blocks.motion[block];
-    const Vec2 way = Vec2(motion.x, motion.y) - model.water.drawn[model.user_number[block]];
-    return !model.water.cracks.empty() && way.norm() <= cracks_follow * model.size(block);
+    return !model.water.cracks.empty() && way_of(model, state, block).norm() <= faces_follow * model.size(block);
 }
 
 class WaterForces
@@ -314,7 +330,7 @@ double mean_joint_pressure(const Model& model, const State& state, Index contact
 {
     if (!model.water.given)
         return 0.0;
-    const bool wet = model.water.wet_law[state.contacts.law[contact]] != 0;
+    const bool wet = has_joint_water(model, state, contact);
     const Index block = state.contacts.ref[contact];
     const Vec2 drawn = model.water.drawn[model.user_number[block]];
     const FaceStretch face{.from = from,

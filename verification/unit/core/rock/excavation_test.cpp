@@ -262,6 +262,26 @@ TEST(Excavations, ThatOverlapLeaveTheCommonAreaToTheFirst)
     }
 }
 
+TEST(Excavations, ThatOverlapAreWarnedOfIfTheSecondIsRemovedFirst)
+{
+    CaseDef def = jointed_case(20.0, 18.0, {});
+    def.excavations = {excavation("one", OutlineShape::rectangle, {8.0, 8.0}, 4.0, 4.0),
+                       excavation("two", OutlineShape::rectangle, {11.0, 9.0}, 4.0, 2.0)};
+    for (const bool is_told : {false, true})
+    {
+        def.stages = {{.name = "a"}, {.name = "b"}};
+        def.stages[0].excavate = {is_told ? "two" : "one"};
+        def.stages[1].excavate = {is_told ? "one" : "two"};
+        const RockMass rock = generate_rock_mass(def);
+        ASSERT_EQ(rock.warnings.size(), is_told ? 1u : 0u);
+        if (is_told)
+        {
+            EXPECT_NE(rock.warnings[0].text.find("excavation \"two\": 2 m2 of it lie in \"one\""), std::string::npos)
+                << rock.warnings[0].text;
+        }
+    }
+}
+
 TEST(Excavations, ThatTouchShareTheirBoundary)
 {
     CaseDef def = rock_case(4);

@@ -182,6 +182,30 @@ TEST(Regions, BesideFaultsThatMeetAlmostInAPointLoseNoArea)
         }
 }
 
+/// The inside of an excavation as one block may lie across a boundary. Its parts follow the cuts, and the largest of them need not be in what most of it is in.
+TEST(Regions, GiveABlockAcrossThemTheMaterialOfItsGreatestArea)
+{
+    for (const int sign : {1, -1})
+    {
+        const auto polygon = [&](const std::vector<Vec2>& points)
+        {
+            std::string text;
+            for (const Vec2& p : points)
+                text += fmt::format("{}[{}, {}]", text.empty() ? "[" : ", ", sign * p.x(), p.y());
+            return text + "]";
+        };
+        const std::string text = "[domain]\npolygon = " + polygon({{0, 0}, {11, 0}, {11, 10}, {0, 10}}) +
+                                 "\n[[region]]\nname = \"soft\"\nmaterial = \"shale\"\npolygon = " +
+                                 polygon({{3, 3.6}, {6, 3.6}, {6, 7}, {3, 6}}) +
+                                 "\n[[joint_set]]\ndip_deg = 90\nspacing = 60\norigin = [" + std::to_string(sign) + ", 1]\n" +
+                                 "[[excavation]]\nname = \"e\"\nshape = \"polygon\"\ninside = \"one_block\"\npolygon = " +
+                                 polygon({{4, 2}, {7, 2}, {7, 3}, {5, 3}, {5, 5}, {4, 5}}) + "\n" + laws;
+        const RockMass rock = generate_rock_mass(case_of(text));
+        EXPECT_EQ(rock.blocks.back().name, "e");
+        EXPECT_EQ(rock.blocks.back().material, "rock") << "1.4 of its 5 m2 are in the shale";
+    }
+}
+
 TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
 {
     const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");

@@ -261,6 +261,39 @@ until = "converged"
     EXPECT_EQ(trial_of(true, 3.0).end, TrialEnd::failed) << "with a third of its strength it does not hold the slab";
 }
 
+TEST(Bolts, AlongAJointAreWarnedOf)
+{
+    for (const auto& [x, is_told] : {std::pair(1.0, true), std::pair(1.01, false)})
+    {
+        CaseDef scene = scenes::grid(2, 2);
+        BoltDef bolt;
+        bolt.name = "b";
+        bolt.kind = BoltKind::anchored;
+        bolt.from = Vec2(x, 0.5);
+        bolt.to = Vec2(x, 1.5);
+        bolt.stiffness = 1e7;
+        scene.bolts.push_back(bolt);
+        const std::vector<Problem> warnings = build_model(scene).warnings;
+        ASSERT_EQ(warnings.size(), is_told ? 1u : 0u) << x;
+        for (const Problem& warning : warnings)
+            EXPECT_NE(warning.text.find("it runs along the joint between blocks \"1."), std::string::npos) << warning.text;
+    }
+}
+
+TEST(BoltPattern, HalvesTheAngleInACorner)
+{
+    const Polygon room = {{0, 0}, {4, 0}, {4, 2}, {2, 3}, {0, 2}};
+    BoltDef pattern;
+    pattern.length = 3.0;
+    pattern.along = 1.5;
+    pattern.arc = Vec2(30.0, 150.0);
+    const std::vector<BoltLine> roof = bolts_around(room, pattern);
+    ASSERT_EQ(roof.size(), 3u);
+    EXPECT_LT((roof[1].from - Vec2(2.0, 3.0)).norm(), 1e-12);
+    EXPECT_LT((roof[1].to - Vec2(2.0, 6.0)).norm(), 1e-12);
+    EXPECT_NEAR(roof[0].to.x() + roof[2].to.x(), 4.0, 1e-12);
+}
+
 TEST(BoltPattern, StandsInEqualStretchesSquareToTheOutline)
 {
     const Polygon room = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};

@@ -201,6 +201,27 @@ TEST(WaterForces, OfAFieldFollowItsGradientAndMustReachTheRock)
     EXPECT_THROW(static_cast<void>(build_model(scene)), InputError);
 }
 
+/// What has fallen on a floor below a water table has no water under it, unless it is ponded: it would be pressed off the floor, fall again, and be thrown about.
+TEST(WaterForces, OfJointsThatWereNotDrawnNeedPondedWater)
+{
+    CaseDef scene = scenes::block_on_ground();
+    for (const bool is_ponded : {false, true})
+        for (const double drawn : {0.0, 0.2, 1.5})
+        {
+            scene.blocks[1].polygon = scenes::rectangle({0.0, drawn}, {1.0, 1.0 + drawn});
+            scene.water = {.given = true, .level = 12.0, .ponded = is_ponded};
+            const CaseRun run(scene,
+                              [&](const Model& model, State& state) { state.blocks.motion[model.find_block("block")].y -= drawn; });
+            const double up = run.state().water[run.slot("block")].y;
+            if (is_ponded)
+                EXPECT_NEAR(up, weight_of_water, 1e-6 * weight_of_water) << drawn;
+            else if (drawn < 1.0)
+                EXPECT_NEAR(up, 12.0 * weight_of_water, 1e-6 * weight_of_water) << drawn;
+            else
+                EXPECT_EQ(up, 0.0) << drawn;
+        }
+}
+
 /// The water of a crack goes with the faces on its line, until their block has moved a quarter of its size.
 TEST(WaterForces, OfACrackStayWithItsFaces)
 {
