@@ -40,6 +40,25 @@ std::vector<double> joint_strains(const Model& model, const State& state)
     }
     return strains;
 }
+
+/// Stretch of the bolts of each block at which they yield, or that they have if they never do: before, they hold with less than their strength [m].
+std::vector<double> bolt_stretches(const Model& model, const State& state)
+{
+    std::vector<double> stretches(static_cast<std::size_t>(model.blocks()), 0.0);
+    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
+    {
+        const Bolt& bolt = model.support.bolts[i];
+        for (const BoltLink& link : bolt.links)
+        {
+            const double stiffness = bolt.kind == BoltKind::anchored ? bolt.stiffness : link.axial_stiffness;
+            const double force = bolt.yield < Bolt::none ? bolt.yield : state.support.bolts[i].force;
+            for (const Index block : {link.first, link.second})
+                if (block != no_index && stiffness > 0.0)
+                    stretches[block] = std::max(stretches[block], force / stiffness);
+        }
+    }
+    return stretches;
+}
 }  // namespace
 
 double rim_displacement(Index block, const Model& model, const Blocks& blocks)
@@ -53,10 +72,10 @@ FailureWatch::FailureWatch(const FailureRule& rule, const Model& model, const St
       track_(static_cast<std::size_t>(model.blocks())),
       time_(state.time)
 {
-    const std::vector<double> strains = joint_strains(model, state);
+    const std::vector<double> strains = joint_strains(model, state), stretches = bolt_stretches(model, state);
     for (Index i = 0; i < model.blocks(); ++i)
         track_[model.user_number[i]].limit = rule.displacement.value_or(
-            std::max(rule.share * model.size(i), rule.strains * strains[i]));
+            std::max({rule.share * model.size(i), rule.strains * strains[i], rule.stretches * stretches[i]}));
 }
 
 bool FailureWatch::advance(Track& track, double moved, double seconds) const

@@ -58,6 +58,20 @@ TEST(FailureWatch, AConstantForceFailsWhereItPassesTheLimit)
     EXPECT_NEAR(moved.go([](double t) { return 0.5 * 0.05 * t * t; }, 10.0), 0.02, 1e-3);
 }
 
+/// A soft bolt holds with its strength once it is stretched.
+TEST(FailureWatch, WaitsForBoltsToYield)
+{
+    for (const auto& [stiffness, limit] : {std::pair("1e9", 0.02), std::pair("1e6", 4.0 * 0.05)})
+    {
+        const std::string bolt = std::string(
+                                     "[[bolt]]\nname = \"b\"\nfrom = [0.5, 0.5]\nto = [0.5, -0.5]\nyield = 5e4\nstiffness = ") +
+                                 stiffness;
+        const test::CaseRun run(read_case_text(block_on_ground + bolt, "case.toml").def);
+        const FailureWatch watch(FailureRule{}, run.model(), run.state());
+        EXPECT_NEAR(watch.limit(run.model().user_number[run.model().find_block("block")]), limit, 1e-12);
+    }
+}
+
 TEST(FailureWatch, WhatSlowsDownHasNotFailed)
 {
     Moved moved;
