@@ -14,6 +14,7 @@
 #include "core/rock/rock_warnings.h"
 #include "core/rock/side_walls.h"
 #include "core/rock/slivers.h"
+#include "core/rock/split_sides.h"
 #include "core/rock/start_mass.h"
 #include "core/rock/weld.h"
 
@@ -207,6 +208,7 @@ void add_generated(const CaseDef& def, const Domain& domain, const Regions& regi
     {
         const std::string& material = regions.material(from);
         make_sides_whole(from.parts, mass.tolerance);
+        split_sides(from.parts, mass.tolerance);
         blocks.push_back(finished(from, domain));
         blocks.back().material = material;
         places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});

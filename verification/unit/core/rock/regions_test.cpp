@@ -206,6 +206,24 @@ TEST(Regions, GiveABlockAcrossThemTheMaterialOfItsGreatestArea)
     }
 }
 
+/// A side that is the region's outline and then the excavation's faces one edge of the excavation as one block. Each of its two edges has a part, and so a contact:
+/// stressed rock is in balance.
+TEST(Regions, BearAlongTheWholeOfASideOfTwoOutlines)
+{
+    CaseDef def = case_of("[domain]\npolygon = [[0, 0], [11, 0], [11, 10], [0, 10]]\nhold = \"mean\"\n"
+                          "[[region]]\nname = \"r\"\npolygon = [[2, 4], [5, 4], [5, 5], [3, 5], [3, 7], [2, 7]]\n"
+                          "[[joint_set]]\ndip_deg = 90\nspacing = 2\norigin = [3, 3]\n"
+                          "[[excavation]]\nname = \"e\"\nshape = \"polygon\"\ninside = \"one_block\"\n"
+                          "polygon = [[4, 2], [7, 2], [7, 3], [5, 3], [5, 5], [4, 5]]\n" +
+                          laws +
+                          "[gravity]\nvector = [0, 0]\n[insitu]\nstress = [-3e6, -2e6, 3e5]\n"
+                          "[[boundary]]\nedges = [0, 1, 2, 3]\nkind = \"stress\"\nstress = \"insitu\"\n");
+    CaseRun run(def);
+    run.advance(20);
+    for (Index b = 0; b < run.model().blocks(); ++b)
+        EXPECT_LT(run.state().blocks.displacement(b).norm(), 1e-12) << run.model().name[b];
+}
+
 TEST_P(Turned, ABentFaultPartsWhatIsAboveFromWhatIsBelow)
 {
     const std::string bent = test::with(two_halves, "[[-1, 2], [5, 2]]", "[[5, 1], [2, 3], [-1, 1]]");
