@@ -41,7 +41,7 @@ std::vector<double> joint_strains(const Model& model, const State& state)
     return strains;
 }
 
-/// Stretch of the bolts of each block at which they yield, or that they have if they never do: before, they hold with less than their strength [m].
+/// How much farther the bolts of each block stretch until they yield, or how far they are stretched if they never do: before, they hold with less than their strength [m].
 std::vector<double> bolt_stretches(const Model& model, const State& state)
 {
     std::vector<double> stretches(static_cast<std::size_t>(model.blocks()), 0.0);
@@ -51,7 +51,8 @@ std::vector<double> bolt_stretches(const Model& model, const State& state)
         for (const BoltLink& link : bolt.links)
         {
             const double stiffness = bolt.kind == BoltKind::anchored ? bolt.stiffness : link.axial_stiffness;
-            const double force = bolt.yield < Bolt::none ? bolt.yield : state.support.bolts[i].force;
+            const double now = state.support.bolts[i].force;
+            const double force = bolt.yield < Bolt::none ? std::max(bolt.yield - now, 0.0) : now;
             for (const Index block : {link.first, link.second})
                 if (block != no_index && stiffness > 0.0)
                     stretches[block] = std::max(stretches[block], force / stiffness);

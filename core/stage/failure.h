@@ -15,7 +15,8 @@ struct FailureRule
     std::optional<double> displacement;  ///< of its rim [m]; not given: the greatest of the next three
     double share = 0.02;                 ///< of the block's size
     double strains = 10.0;               ///< times the greatest elastic strain of its joints
-    double stretches = 4.0;   ///< times the stretch at which its bolts yield: before, they hold with less than their strength
+    double
+        stretches = 4.0;  ///< times the stretch that its bolts still need to yield: before, they hold with less than their strength
     double least_area = 0.0;  ///< smaller blocks do not count [m2]
 };
 
