@@ -30,7 +30,7 @@ SectionSpec factor_of_safety_section()
          .unit = "m",
          .effect = "A block that moves farther than this in a trial, and does not slow down, has failed. `\"auto\"`: 0.02 of the "
                    "block's size (root of its area), at least ten times the elastic deformation of its joints and four times the "
-                   "stretch at which its bolts yield.",
+                   "stretch that its bolts still need to yield.",
          .example = "0.1",
          .range = length,
          .choices = {"auto"},
