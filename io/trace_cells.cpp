@@ -1,3 +1,5 @@
+#include "core/geometry/convex_decomposition.h"
+#include "core/geometry/hole_joining.h"
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
 #include "core/rock/line_stretches.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
 
 namespace hdem
@@ -142,17 +145,28 @@ void add_segments(const Polygon& points, std::int32_t source, std::vector<TraceS
         segments.push_back({points[i - 1], points[i], source});
 }
 
-/// Outer rings of a collection's areas, anticlockwise.
-std::vector<Polygon> rings_of(const Geos& geos, const GEOSGeometry* areas)
+/// Convex pieces of a cell with holes. Nothing where round-off leaves no way to a hole.
+std::vector<Polygon> pieces_around_holes(Polygon outside, const std::vector<Polygon>& holes)
 {
-    std::vector<Polygon> rings;
-    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), areas); ++i)
+    const auto polygon_of = [](Polygon ring)
     {
-        rings.push_back(geos.ring(GEOSGetExteriorRing_r(geos.get(), GEOSGetGeometryN_r(geos.get(), areas, i))));
-        make_anticlockwise(rings.back());
+        const std::size_t n = ring.size();
+        return CutPolygon{std::move(ring), std::vector<EdgeTag>(n)};
+    };
+    std::vector<CutPolygon> clockwise;
+    for (Polygon hole : holes)
+    {
+        make_anticlockwise(hole);
+        std::ranges::reverse(hole);
+        clockwise.push_back(polygon_of(std::move(hole)));
     }
-    return rings;
+    std::vector<Polygon> pieces;
+    if (const std::optional<CutPolygon> whole = join_holes(polygon_of(std::move(outside)), std::move(clockwise)))
+        for (CutPolygon& part : convex_parts(*whole))
+            pieces.push_back(std::move(part.vertices));
+    return pieces;
 }
+
 /// Half of the length of a ring's edges counts as dropped: each of them has two sides.
 void drop_ring(const Polygon& ring, const SegmentIndex& segments, TraceCells& result)
 {
@@ -165,8 +179,7 @@ void drop_ring(const Polygon& ring, const SegmentIndex& segments, TraceCells& re
     }
 }
 
-/// Cells in the domain. One with holes comes in triangles. The library cannot always find them: then what is in the holes, a few blocks
-/// inside of one, is dropped.
+/// Cells in the domain. One with holes comes in convex pieces. Where there are none, what is in the holes, a few blocks inside of one, is dropped.
 void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domain, TraceCells& result)
 {
     std::vector<Vec2> places;
@@ -178,11 +191,18 @@ void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domai
         if (!contains(domain, place))
             continue;
         places.push_back(place);
-        const int holes = GEOSGetNumInteriorRings_r(geos.get(), cell);
-        GEOSGeometry* triangles = holes > 0 ? GEOSConstrainedDelaunayTriangulation_r(geos.get(), cell) : nullptr;
-        result.cells.push_back(rings_of(geos, triangles != nullptr ? geos.own(triangles).get() : cell));
-        for (int h = 0; h < holes && triangles == nullptr; ++h)
-            filled.push_back(geos.ring(GEOSGetInteriorRingN_r(geos.get(), cell, h)));
+        Polygon outside = geos.ring(GEOSGetExteriorRing_r(geos.get(), cell));
+        make_anticlockwise(outside);
+        std::vector<Polygon> holes;
+        for (int h = 0; h < GEOSGetNumInteriorRings_r(geos.get(), cell); ++h)
+            holes.push_back(geos.ring(GEOSGetInteriorRingN_r(geos.get(), cell, h)));
+        std::vector<Polygon> pieces = holes.empty() ? std::vector<Polygon>{outside} : pieces_around_holes(outside, holes);
+        if (pieces.empty())
+        {
+            pieces = {std::move(outside)};
+            std::ranges::move(holes, std::back_inserter(filled));
+        }
+        result.cells.push_back(std::move(pieces));
     }
     if (filled.empty())
         return;

@@ -182,6 +182,25 @@ TEST(Regions, BesideFaultsThatMeetAlmostInAPointLoseNoArea)
         }
 }
 
+/// Islands in a block beside a bent fault are found in any orientation.
+TEST(Regions, LieAsIslandsInABlock)
+{
+    for (const double turn : {0.0, 31.0, 90.0, 180.0, 270.0})
+    {
+        const RockMass rock = generate_rock_mass(
+            case_of("[domain]\npolygon = [[0, 0], [16, 0], [16, 14], [0, 14]]\n"
+                    "[[fault]]\nname = \"f\"\npoints = [[-1, 10], [13, 5], [17, 10]]\n"
+                    "[[region]]\nname = \"r0\"\nmaterial = \"shale\"\npolygon = [[12, 2], [13, 3], [12, 5]]\n"
+                    "[[region]]\nname = \"r1\"\nmaterial = \"shale\"\n"
+                    "polygon = [[2, 3], [3, 4], [2, 5], [1, 4]]\n" +
+                        laws,
+                    turn));
+        EXPECT_EQ(rock.blocks.size(), 4u) << turn;
+        EXPECT_NEAR(summed_area(rock), 224.0, 1e-9) << turn;
+        EXPECT_THAT(areas(rock, "shale"), ElementsAre(testing::DoubleNear(1.5, 1e-6), testing::DoubleNear(2.0, 1e-6))) << turn;
+    }
+}
+
 /// The inside of an excavation as one block may lie across a boundary. Its parts follow the cuts, and the largest of them need not be in what most of it is in.
 TEST(Regions, GiveABlockAcrossThemTheMaterialOfItsGreatestArea)
 {
