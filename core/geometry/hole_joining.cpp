@@ -1,6 +1,7 @@
 #include "core/geometry/hole_joining.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -46,13 +47,15 @@ void add_around(const CutPolygon& polygon, std::size_t k, const EdgeTag& last, C
 /// @return  false: there is none
 bool join_hole(CutPolygon& outside, const CutPolygon& hole, const std::vector<CutPolygon>& others)
 {
-    std::vector<std::tuple<double, std::size_t, std::size_t>> ways;
+    std::vector<std::tuple<double, std::size_t, std::size_t>> ways;  // a heap, the shortest on top: one of the first few is free
     for (std::size_t i = 0; i < outside.vertices.size(); ++i)
         for (std::size_t j = 0; j < hole.vertices.size(); ++j)
             ways.emplace_back((hole.vertices[j] - outside.vertices[i]).squaredNorm(), i, j);
-    std::ranges::sort(ways);
-    for (const auto& [length2, i, j] : ways)
+    std::ranges::make_heap(ways, std::greater<>());
+    for (; !ways.empty(); ways.pop_back())
     {
+        std::ranges::pop_heap(ways, std::greater<>());
+        const auto [length2, i, j] = ways.back();
         const Vec2 &a = outside.vertices[i], &b = hole.vertices[j];
         const auto blocks = [&](const CutPolygon& polygon) { return is_blocked(polygon, a, b); };
         if (!leads_inside(outside, i, b - a) || !leads_inside(hole, j, a - b) || blocks(outside) || blocks(hole) ||
