@@ -21,6 +21,7 @@ constexpr double gap_share = 1e-3;     // of the mean block size: so much may li
 constexpr double bridge_share = 0.01;  // of the longest segment: length of a bar's piece at a joint
 constexpr double most_bolts = 1e5;     // of one pattern
 constexpr double most_pieces = 1e6;    // of all bolts and liners together: more would fill the memory before anything is said
+constexpr double most_bare = 0.05;     // of the length of a liner: so much may have no block behind it without a word
 
 double length_of(const std::vector<Polygon>& lines)
 {
@@ -87,9 +88,26 @@ class SupportResolver
                                  .text = "liner \"" + def.name + "\": " + (is_early ? early : nothing_behind)});
             return;
         }
+        warn_of_air_behind(*liner, key);
         liner->history = model_.support.history_size;
         model_.support.history_size += liner->history_size;
         model_.support.liners.push_back(std::move(*liner));
+    }
+
+    void warn_of_air_behind(const Liner& liner, const std::string& key)
+    {
+        double length = 0.0, bare = 0.0;
+        for (const LinerSegment& segment : liner.segments)
+        {
+            length += segment.length;
+            bare += segment.block == no_index ? segment.length : 0.0;
+        }
+        if (bare > most_bare * length)
+            problems_.push_back({.severity = Problem::Severity::warning,
+                                 .key = key,
+                                 .text = "liner \"" + liner.name + "\": " + text(bare) + " of its " + text(length) +
+                                         " m have no block behind them (it hangs in the air there). Give points on the "
+                                         "outline of the rock to change that."});
     }
 
     /// Walls, and what is excavated by the time of the stage.

@@ -1,6 +1,7 @@
 #include "core/support/bolt_link.h"
 #include "core/support/liner_beam.h"
 #include "core/support/liner_forces.h"
+#include "io/case_reader.h"
 #include "io/frame_writer.h"
 #include "io/hdf5_reader.h"
 #include "verification/unit/core/support/liner_scenes.h"
@@ -184,6 +185,24 @@ TEST(Liners, KeepThePointsOfTheirPath)
     scene.liners[0].segment = 10.0;
     const CaseRun run(scene);
     EXPECT_EQ(run.model().support.liners[0].nodes.size(), 5U);
+}
+
+TEST(Liners, InTheAirAreWarnedOf)
+{
+    for (const auto& [end, is_told] : {std::pair("0", false), std::pair("-0.05", true)})
+    {
+        const std::string text = std::string("[material.rock]\ndensity = 2700\n[joint.default]\nnormal_stiffness = 1e9\n"
+                                             "shear_stiffness = 1e9\nfriction_angle_deg = 30\n"
+                                             "[[block]]\nname = \"a\"\npolygon = [[-3, 0], [0, 0], [0, 1], [-3, 1]]\nfixed = true\n"
+                                             "[[block]]\nname = \"b\"\npolygon = [[0, 0], [2, 0], [2, 1], [0, 1]]\n"
+                                             "[[liner]]\nname = \"l\"\nthickness = 0.1\nmodulus = 2e10\nnormal_stiffness = 2e9\n"
+                                             "shear_stiffness = 1e9\npath = [[2, 0], [-2.5, ") +
+                                 end + "]]\n[[stage]]\ncycles = 10\n";
+        const std::vector<Problem> warnings = build_model(read_case_text(text, "case.toml").def).warnings;
+        ASSERT_EQ(warnings.size(), is_told ? 1u : 0u) << end;
+        for (const Problem& warning : warnings)
+            EXPECT_NE(warning.text.find(" m have no block behind them"), std::string::npos) << warning.text;
+    }
 }
 
 /// The rock behind it is one block with a notch.
