@@ -21,7 +21,7 @@ constexpr double gap_share = 1e-3;     // of the mean block size: so much may li
 constexpr double bridge_share = 0.01;  // of the longest segment: length of a bar's piece at a joint
 constexpr double most_bolts = 1e5;     // of one pattern
 constexpr double most_pieces = 1e6;    // of all bolts and liners together: more would fill the memory before anything is said
-constexpr double most_bare = 0.05;     // of the length of a liner: so much may have no block behind it without a word
+constexpr double most_bare = 0.5;      // of the length of a liner: so much may have no block behind it without a word
 
 double length_of(const std::vector<Polygon>& lines)
 {
