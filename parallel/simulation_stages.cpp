@@ -185,7 +185,7 @@ void Simulation::change_properties()
 
 void Simulation::begin_stage(Index stage)
 {
-    const StageDef def = model_.stages[stage];  // blocks may be sorted meanwhile, and the model moves
+    const StageDef& def = model_.stages[stage];
     const Index before = state_.stage;
     const BoundaryChange sides = boundary_change(model_, before, stage);
     if (state_.stage_begun)

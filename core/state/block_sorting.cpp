@@ -96,6 +96,7 @@ void sort_blocks(Model& model, State& state)
     Model sorted = model;
     reorder_blocks(user_number, sorted);
     const Moved moved(model, sorted.shapes, from);
+    sorted.stages.swap(model.stages);  // where they are: a run keeps pointers to them
     model = std::move(sorted);
 
     fields::for_each(fields::block_arrays, state.blocks, [&](auto& array) { permute(from, array); });

@@ -76,6 +76,18 @@ TEST(BlockSorting, KeepsNamesNumbersStateAndContactHistory)
     }
 }
 
+/// A run keeps pointers to its stages while its blocks are sorted.
+TEST(BlockSorting, LeavesStagesWhereTheyAre)
+{
+    Wall wall;
+    wall.shuffle();
+    const StageDef* stages = wall.model.stages.data();
+    const std::string name = stages->name;
+    sort_blocks(wall.model, wall.state);
+    EXPECT_EQ(wall.model.stages.data(), stages);
+    EXPECT_EQ(stages->name, name);
+}
+
 /// A run finds its order decayed, sorts its blocks, and goes on as the run whose blocks were never out of order.
 /// Between fixed blocks there are no contacts. Those of blocks that a stage frees are found anew, and blocks may be sorted then.
 TEST(BlockSorting, LeavesTheBondOfBlocksThatAStageFrees)
