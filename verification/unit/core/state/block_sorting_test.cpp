@@ -84,7 +84,7 @@ TEST(BlockSorting, LeavesStagesWhereTheyAre)
     const StageDef* stages = wall.model.stages.data();
     const std::string name = stages->name;
     sort_blocks(wall.model, wall.state);
-    EXPECT_EQ(wall.model.stages.data(), stages);
+    ASSERT_EQ(wall.model.stages.data(), stages);
     EXPECT_EQ(stages->name, name);
 }
 
