@@ -58,7 +58,7 @@ struct DrawnSet
 /// What traces of finite length cut the domain into.
 struct TraceCells
 {
-    /// Pieces of each cell, anticlockwise: the cell itself, or triangles when it has a hole. Neighbours, and pieces of one cell, have the
+    /// Pieces of each cell, anticlockwise: the cell itself, or convex ones when it has holes. Neighbours, and pieces of one cell, have the
     /// same vertices along their border [m].
     std::vector<std::vector<Polygon>> cells;
     std::vector<TraceSegment> segments;

@@ -31,7 +31,6 @@ struct PressureField
     std::vector<Vec2> points;                    ///< local coordinates [m]
     std::vector<double> pressure;                ///< [Pa]
     std::vector<std::array<Index, 3>> triangle;  ///< anticlockwise
-    double spacing = 0.0;                        ///< typical length of their sides [m]
 };
 
 struct Water

@@ -50,7 +50,6 @@ bool make_triangles(PressureField& field)
     boost::polygon::voronoi_diagram<double> diagram;
     boost::polygon::construct_voronoi(points.begin(), points.end(), &diagram);
     field.triangle.clear();
-    double sides = 0.0;
     for (const auto& corner : diagram.vertices())  // of the cells; the points around it are a triangle, or more on one circle
     {
         std::vector<Index> around;
@@ -67,13 +66,9 @@ bool make_triangles(PressureField& field)
             if (area < 0.0)
                 std::swap(t[1], t[2]);
             if (area != 0.0)
-            {
                 field.triangle.push_back(t);
-                sides += (field.points[t[1]] - field.points[t[0]]).norm();
-            }
         }
     }
-    field.spacing = field.triangle.empty() ? 0.0 : sides / static_cast<double>(field.triangle.size());
     return !field.triangle.empty();
 }
 }  // namespace hdem
