@@ -50,6 +50,21 @@ class Saver
         file_.write(path, values, table_shape<Item, Members>(items.size()), Hdf5Writer::Packing::plain);
     }
 
+    /// Contacts are taken out of their lanes anew for each table: all of them as values would need more memory than the file.
+    template <typename Stored, typename Members>
+    void contact_rows(const std::string& path, const Contacts& contacts, const Members& members)
+    {
+        std::vector<Stored> values;
+        values.reserve(static_cast<std::size_t>(contacts.size()) * columns_of<Contact, Members>);
+        for (Index i = 0; i < contacts.size(); ++i)
+        {
+            Contact contact = contacts.get(i);
+            std::apply([&](auto&... member) { (values.push_back(static_cast<Stored>(member)), ...); }, members(contact));
+        }
+        file_.write(path, values, table_shape<Contact, Members>(static_cast<std::uint64_t>(contacts.size())),
+                    Hdf5Writer::Packing::plain);
+    }
+
   private:
     Hdf5Writer& file_;
 };
@@ -79,15 +94,34 @@ class Loader
             std::apply([&](auto&... member) { (take(member), ...); }, members(item));
     }
 
+    /// The first table says how many contacts there are.
+    template <typename Stored, typename Members>
+    void contact_rows(const std::string& path, Contacts& contacts, const Members& members)
+    {
+        const std::uint64_t expected = contacts_counted_ ? static_cast<std::uint64_t>(contacts.size()) : any_extent;
+        const std::vector<Stored> values = file_.read<Stored>(path, table_shape<Contact, Members>(expected));
+        if (!contacts_counted_)
+            contacts.resize(static_cast<Index>(values.size() / columns_of<Contact, Members>));
+        contacts_counted_ = true;
+        auto at = values.begin();
+        const auto take = [&](auto& member) { member = static_cast<std::remove_reference_t<decltype(member)>>(*at++); };
+        for (Index i = 0; i < contacts.size(); ++i)
+        {
+            Contact contact = contacts.get(i);
+            std::apply([&](auto&... member) { (take(member), ...); }, members(contact));
+            contacts.put(i, contact);
+        }
+    }
+
   private:
     const Hdf5Reader& file_;
+    bool contacts_counted_ = false;
 };
 
 /// What of a checkpoint's state is kept otherwise in the memory.
 struct Unpacked
 {
     std::vector<Index> user_number;
-    std::vector<Contact> contacts;
     std::vector<std::uint8_t> stale;  ///< per contact
 };
 
@@ -132,21 +166,17 @@ void exchange(Archive& archive, Index blocks, State& state, Unpacked& unpacked)
 
     tables::for_each_of_contact(state.contacts.has_preload, state.contacts.has_memory,
                                 [&]<typename T>(tables::As<T>, const char* path, const auto& list)
-                                {
-                                    auto& contacts = unpacked.contacts;
-                                    archive.template rows<T>(path, contacts.empty() ? any_extent : contacts.size(), contacts, list);
-                                });
-    archive.template rows<std::uint8_t>("/contacts/stale", unpacked.contacts.size(), unpacked.stale, fields::number);
+                                { archive.template contact_rows<T>(path, state.contacts, list); });
+    archive.template rows<std::uint8_t>("/contacts/stale", static_cast<std::uint64_t>(state.contacts.size()), unpacked.stale,
+                                        fields::number);
 }
 }  // namespace
 
 void save_state(const Model& model, const State& state, Hdf5Writer& file)
 {
-    Unpacked unpacked{.user_number = model.user_number, .contacts = {}, .stale = {}};
     const Contacts& contacts = state.contacts;
-    for (Index i = 0; i < contacts.size(); ++i)
-        unpacked.contacts.push_back(contacts.get(i));
-    unpacked.stale.assign(contacts.stale.begin(), contacts.stale.begin() + contacts.size());
+    Unpacked unpacked{.user_number = model.user_number,
+                      .stale = {contacts.stale.begin(), contacts.stale.begin() + contacts.size()}};
     Saver saver(file);
     exchange(saver, model.blocks(), const_cast<State&>(state), unpacked);  // a Saver changes nothing
 }
@@ -167,14 +197,7 @@ State load_state(const Hdf5Reader& file, Model& model)
         file.fail("/blocks/user_number", "not an order of the blocks: the file is damaged");
     reorder_blocks(unpacked.user_number, model);
 
-    Contacts& contacts = state.contacts;
-    const auto n = static_cast<Index>(unpacked.contacts.size());
-    contacts.resize(n);
-    for (Index i = 0; i < n; ++i)
-    {
-        contacts.put(i, unpacked.contacts[i]);
-        contacts.stale[i] = unpacked.stale[i];
-    }
+    std::ranges::copy(unpacked.stale, state.contacts.stale.begin());
     if (const auto damage = find_damage(model, state))
         file.fail(damage->object, damage->reason);
     return state;
