@@ -63,23 +63,23 @@ TEST(JointImpulses, HoldAsLongAsAllOfTheJointDoes)
     {
         double dip, friction, turn;
     };
-    for (const auto& [dip, friction, turn] : {Slope{25.0, 0.0, 0.0}, Slope{45.0, 20.0, 0.0}, Slope{45.0, 20.0, 61.0}})
+    for (const Slope& slope : {Slope{25.0, 0.0, 0.0}, Slope{45.0, 20.0, 0.0}, Slope{45.0, 20.0, 61.0}})
     {
-        const double b = dip * std::numbers::pi / 180.0, tan_phi = std::tan(friction * std::numbers::pi / 180.0);
+        const double b = slope.dip * std::numbers::pi / 180.0, tan_phi = std::tan(slope.friction * std::numbers::pi / 180.0);
         const auto moved = [&](double factor)
         {
             CaseDef scene = scenes::block_on_ground(2.0, 1.0);
             scene.gravity = {g * std::sin(b), -g * std::cos(b)};
             scene.contact.method = Method::impulse;
-            scene.joints[0].friction_angle_deg = friction;
+            scene.joints[0].friction_angle_deg = slope.friction;
             scene.joints[0].cohesion = factor * weight * (std::sin(b) - std::cos(b) * tan_phi);
-            scene.joints[0].residual_friction_angle_deg = friction;
-            CaseRun run(scenes::turned(scene, turn));
+            scene.joints[0].residual_friction_angle_deg = slope.friction;
+            CaseRun run(scenes::turned(scene, slope.turn));
             run.advance(3000);
             return run.displacement("block").norm();
         };
-        EXPECT_LT(moved(1.01), 1e-5) << dip;
-        EXPECT_GT(moved(0.99), 1e-3) << dip;
+        EXPECT_LT(moved(1.01), 1e-5) << slope.dip;
+        EXPECT_GT(moved(0.99), 1e-3) << slope.dip;
     }
 }
 

@@ -114,7 +114,7 @@ TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
     {
         double height, slope_deg, friction_deg, time, share;
     };
-    for (const auto& [height, slope_deg, friction_deg, time, share] :
+    for (const Tipping& tip :
          {Tipping{2.4, 40.0, 25.0, 0.9, 0.03}, Tipping{2.5, 45.0, 30.0, 0.9, 0.03}, Tipping{3.0, 25.0, 60.0, 0.9, 0.08}})
         for (const bool mirrored : {false, true})
         {
@@ -123,20 +123,20 @@ TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
                 CaseDef scene = scenes::empty_scene();
                 scene.contact.method = GetParam();
                 scene.damping.preset = preset;
-                scene.joints[0].friction_angle_deg = friction_deg;
+                scene.joints[0].friction_angle_deg = tip.friction_deg;
                 scenes::add_fixed_block(scene, "ground", rectangle({-50.0, -2.0}, {50.0, 0.0}));
-                scenes::add_block(scene, "column", rectangle({0.0, 0.0}, {1.0, height}));
-                scene = scenes::turned(scene, -slope_deg);
+                scenes::add_block(scene, "column", rectangle({0.0, 0.0}, {1.0, tip.height}));
+                scene = scenes::turned(scene, -tip.slope_deg);
                 scene.gravity = {0.0, -g};
                 CaseRun moves(mirrored ? scenes::mirrored(scene) : scene);
-                run_for(moves, time);
+                run_for(moves, tip.time);
                 return moves;
             };
             const CaseRun free = run(DampingPreset::dynamic), damped = run(DampingPreset::automatic);
-            SCOPED_TRACE(fmt::format("1 m x {} m on {} degrees{}", height, slope_deg, mirrored ? ", mirrored" : ""));
+            SCOPED_TRACE(fmt::format("1 m x {} m on {} degrees{}", tip.height, tip.slope_deg, mirrored ? ", mirrored" : ""));
             EXPECT_GT(free.displacement("column").norm(), 0.1);
             EXPECT_NEAR(damped.displacement("column").norm(), free.displacement("column").norm(),
-                        share * free.displacement("column").norm());
+                        tip.share * free.displacement("column").norm());
         }
 }
 
