@@ -86,17 +86,17 @@ SectionSpec load_section()
              {.name = "moment", .unit = "N m", .effect = "Positive anticlockwise, per metre of thickness.", .range = any_size}),
          field<&LoadDef::velocity_x>({.name = "velocity_x",
                                       .unit = "m/s",
-                                      .effect = "Prescribed; the block's x must be fixed.",
+                                      .effect = "Prescribed; the block's x must be fixed. 0 once the load has ended.",
                                       .range = speed,
                                       .default_note = "not prescribed"}),
          field<&LoadDef::velocity_y>({.name = "velocity_y",
                                       .unit = "m/s",
-                                      .effect = "Prescribed; the block's y must be fixed.",
+                                      .effect = "Prescribed; the block's y must be fixed. 0 once the load has ended.",
                                       .range = speed,
                                       .default_note = "not prescribed"}),
          field<&LoadDef::angular_velocity>({.name = "angular_velocity",
                                             .unit = "rad/s",
-                                            .effect = "Prescribed; the block's rotation must be fixed.",
+                                            .effect = "Prescribed; the block's rotation must be fixed. 0 once the load has ended.",
                                             .range = speed,
                                             .default_note = "not prescribed"}),
          inner_field<&LoadDef::interval, &Interval::from_cycle>(
@@ -178,7 +178,9 @@ SectionSpec contact_section()
               .range = {.low = 0, .high = 1e12}}),
          field<&ContactDef::length_floor>({.name = "length_floor",
                                            .effect = "Least contact length as a share of the smaller block's size (the square root "
-                                                     "of its area); it lets corner-on-corner contacts bear.",
+                                                     "of its area); it lets corner-on-corner contacts bear. Edges that lie over "
+                                                     "each other by less than a fifth of it bear "
+                                                     "nothing, so that blocks slide over the ends of joints.",
                                            .range = {.low = 0, .high = 1, .low_included = false}}),
          field<&ContactDef::overlap_limit>(
              {.name = "overlap_limit",

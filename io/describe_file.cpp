@@ -90,7 +90,7 @@ void describe_results(Page& page, const Hdf5Reader& in)
     page.add("command", fmt::format("{}", fmt::join(in.read_texts(from + "/command_line"), " ")));
     page.add("begin", in.text(from, "begin"));
     const std::string end = in.text(from, "end");
-    page.add("end", end.empty() ? "not reached: the run goes on, or was killed" : end);
+    page.add("end", end.empty() ? "not reached: the run goes on, was stopped or killed" : end);
     page.add("written by", commit_of(in, from));
     page.add("built with",
              fmt::format("{}, {}, {}", in.text(from, "compiler"), in.text(from, "build_type"), in.text(from, "flags")));
@@ -104,7 +104,7 @@ void describe_results(Page& page, const Hdf5Reader& in)
                            : fmt::format("{}, the last at cycle {}, {:.6g} s", cycles.size(), cycles.back(), times.back()));
     describe_table(page, in, "energy", "/energy");
     for (const std::string& name : in.children("/history"))
-        describe_table(page, in, "history", "/history/" + name);
+        describe_table(page, in, fmt::format("history {}", printable(name)), "/history/" + name);
 }
 
 void describe_checkpoint(Page& page, const Hdf5Reader& in)

@@ -16,6 +16,15 @@ double points_in(Regime regime, const State& state)
         points += std::count(end.begin(), end.end(), static_cast<std::uint8_t>(regime));
     return static_cast<double>(points);
 }
+/// Of blocks that move as they are told: work of the loads that nothing else shows.
+double driven_kinetic_energy(const Model& model, const Blocks& blocks)
+{
+    double sum = 0.0;
+    for (Index i = 0; i < blocks.size(); ++i)
+        if (blocks.present[i] != 0 && !blocks.is_free(i))
+            sum += kinetic_energy(model, blocks, i);
+    return sum;
+}
 }  // namespace
 
 std::vector<Column> energy_columns()
@@ -26,7 +35,7 @@ std::vector<Column> energy_columns()
     for (const LedgerTerm& term : ledger_terms)
         if (term.side != LedgerSide::aside)
             columns.push_back({term.name, "J"});
-    columns.insert(columns.end(), {{"elastic_normal", "J"}, {"elastic_shear", "J"}, {"residual", "J"}});
+    columns.insert(columns.end(), {{"elastic_normal", "J"}, {"elastic_shear", "J"}, {"driven_kinetic", "J"}, {"residual", "J"}});
     return columns;
 }
 
@@ -44,6 +53,7 @@ void sample_energies(const Model& model, const State& state, std::vector<double>
         if (term.side != LedgerSide::aside)
             row.push_back(state.ledger.*term.value);
     const StoredEnergy stored = stored_energy(model, state);
-    row.insert(row.end(), {stored.elastic_normal, stored.elastic_shear, residual(state.ledger, stored)});
+    row.insert(row.end(), {stored.elastic_normal, stored.elastic_shear, driven_kinetic_energy(model, state.blocks),
+                           residual(state.ledger, stored)});
 }
 }  // namespace hdem

@@ -33,7 +33,7 @@ std::string read_row(std::string_view line, FactorTable& rows)
     for (const int k : {0, 1})
     {
         Scanner column{trimmed(comma == std::string_view::npos ? line : (k == 0 ? line.substr(0, comma) : line.substr(comma + 1)))};
-        const std::string text(column.rest);
+        const std::string text(trimmed(line));
         if (comma == std::string_view::npos || !column.take_number(row[static_cast<std::size_t>(k)]) || !column.rest.empty())
             return fmt::format("expected two numbers, got \"{}\"). Write cycle,factor or time,factor with points as decimal marks.",
                                printable(text, 20));

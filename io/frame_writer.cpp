@@ -102,13 +102,26 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
         const std::optional<Frame> frame = read_frame(file);
         if (!frame || frame->cycle > state.cycle || (frame->cycle == state.cycle && is_of_interruption(model, state)))
             younger_.push_back(file);
-        else if (name.starts_with("blocks_"))
-            frames_.push_back(*frame);
+        else
+            take(*frame, name.substr(0, name.find('_')));
     }
     const int last = frames_.empty() ? -1 : frames_.back().number;
     std::erase_if(younger_,
                   [&](const auto& file) { return frame_number(file.filename().string()) <= last; });  // older, but damaged
     write_series();
+}
+
+/// Files come by their names: those of blocks first.
+void FrameWriter::take(const Frame& frame, const std::string& kind)
+{
+    if (kind == "blocks")
+        frames_.push_back(frame);
+    const auto it = std::ranges::find(frames_, frame.number, &Frame::number);
+    if (it == frames_.end())
+        return;
+    it->kinds.push_back(kind);
+    if (std::ranges::find(kinds_, kind) == kinds_.end())
+        kinds_.push_back(kind);
 }
 
 void FrameWriter::remove_younger_frames()
@@ -121,7 +134,7 @@ void FrameWriter::remove_younger_frames()
 const Frame& FrameWriter::write(const Model& model, const State& state)
 {
     const int number = frames_.empty() ? 0 : frames_.back().number + 1;
-    Frame frame{.number = number, .cycle = state.cycle, .time = state.time, .stage = {}};
+    Frame frame{.number = number, .cycle = state.cycle, .time = state.time, .stage = {}, .kinds = kinds_of(model)};
     if (state.stage >= 0 && static_cast<std::size_t>(state.stage) < model.stages.size())
         frame.stage = model.stages[static_cast<std::size_t>(state.stage)].name;
     if (model.output.contacts)
@@ -145,7 +158,8 @@ void FrameWriter::write_series(const std::string& kind) const
 {
     nlohmann::ordered_json series = {{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
     for (const Frame& frame : frames_)
-        series["files"].push_back({{"name", frame_file(kind, frame.number)}, {"time", frame.time}});
+        if (std::ranges::find(frame.kinds, kind) != frame.kinds.end())
+            series["files"].push_back({{"name", frame_file(kind, frame.number)}, {"time", frame.time}});
     write_atomically(folder_ / (kind + ".hdf.series"), series.dump(1) + "\n", Flush::later);
 }
 }  // namespace hdem

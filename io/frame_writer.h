@@ -14,8 +14,9 @@ struct Frame
 {
     int number = 0;  ///< NNNNNN of its files
     std::int64_t cycle = 0;
-    double time = 0.0;  ///< [s]
-    std::string stage;  ///< name
+    double time = 0.0;               ///< [s]
+    std::string stage;               ///< name
+    std::vector<std::string> kinds;  ///< that it has files of: "blocks", "contacts", ...
 };
 
 /// Files: FOLDER/frames/blocks_NNNNNN.hdf, contacts_NNNNNN.hdf, bolts_NNNNNN.hdf and liners_NNNNNN.hdf, and FOLDER/blocks.hdf.series and so on, which
@@ -38,10 +39,11 @@ class FrameWriter
     void write_series() const;
 
     [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
-    /// "blocks", and "contacts", "bolts" and "liners" where they are written
+    /// "blocks", and "contacts", "bolts" and "liners" where they are written, or were before a restart
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
   private:
+    void take(const Frame& frame, const std::string& kind);
     void write_series(const std::string& kind) const;
 
     std::filesystem::path folder_;

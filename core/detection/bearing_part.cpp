@@ -1,5 +1,7 @@
 #include "core/detection/bearing_part.h"
 
+#include "core/detection/edge_neighbour.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,13 +16,6 @@ constexpr int rings = 2;
 /// Multiple of the depth. An external edge behind which the overlap is deeper is on the other side of the block. (A spike of 37 degrees along a seam lies
 /// three times as deep behind the face as behind the seam.)
 constexpr double farthest = 3.0;
-
-Index part_of(const Shapes& shapes, Index block, Index edge)
-{
-    const auto begin = shapes.vertex_begin.begin();
-    const auto first = begin + shapes.part_begin[block], last = begin + shapes.part_begin[block + 1];
-    return static_cast<Index>(std::upper_bound(first, last, edge) - begin) - 1;
-}
 
 /// The part itself is the first.
 std::vector<Index> parts_around(const Shapes& shapes, Index part)
@@ -43,33 +38,6 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
     return around;
 }
 
-/// The edge of the block that meets `edge` at its end, or at its start, and the part which has it.
-struct Neighbour
-{
-    Index edge, part;
-};
-
-Neighbour neighbour_of(const Shapes& shapes, Index part, Index edge, bool at_end)
-{
-    const auto beside = [&](const Neighbour& at)
-    {
-        if (at_end)
-            return shapes.next_vertex(at.part, at.edge);
-        return at.edge > shapes.vertex_begin[at.part] ? at.edge - 1 : shapes.vertex_begin[at.part + 1] - 1;
-    };
-    const Index block = shapes.part_block[part];
-    Neighbour at{edge, part};
-    for (Index turns = shapes.part_begin[block]; turns < shapes.part_begin[block + 1]; ++turns)  // internal edges at a corner
-    {
-        at.edge = beside(at);
-        if (is_external(shapes, at.edge) || shapes.to_twin[at.edge] == 0)
-            break;
-        at.edge += shapes.to_twin[at.edge];
-        at.part = part_of(shapes, block, at.edge);
-    }
-    return at;
-}
-
 /// Does a pair touch with a corner whose other edge lies flatter on what it touches, and is of a part beside this one? The two edges at a corner are then no choice of
 /// this part alone: the one that it has may even stand at right angles to what the corner lies on, or be off it all along but for that corner.
 bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Facing& facing)
@@ -83,7 +51,7 @@ bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Faci
     const auto seen = [&](Index v) { return Vec2(pose.moved(shapes.vertex[v]) - start); };
     const Index end = shapes.next_vertex(part, facing.inc_edge);
     const double depth = cross(t, seen(facing.inc_edge)), depth_at_end = cross(t, seen(end));
-    const Neighbour other = neighbour_of(shapes, part, facing.inc_edge, depth_at_end > depth);
+    const EdgeNeighbour other = neighbour_of(shapes, part, facing.inc_edge, depth_at_end > depth);
     if (other.part == part || !is_external(shapes, other.edge))
         return false;
     if (along(facing.inc_edge) >= steep)

@@ -35,6 +35,9 @@ struct RelativePose
     return shapes.edge_source[edge] != edge_internal;
 }
 
+/// Cosine of the angle between two pieces of one side.
+inline constexpr double in_line = 0.999;
+
 /// Distance of a part from the line of an edge.
 struct Distance
 {

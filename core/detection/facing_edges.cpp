@@ -11,9 +11,6 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Cosine of the angle between two pieces of one side.
-constexpr double in_line = 0.999;
-
 /// Does an edge lie flat on another, and a second edge at an angle to it that a sliver beside them would have? By the sines of their angles to it.
 bool is_flat_beside(double sine, double other_sine)
 {
@@ -85,7 +82,11 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     f.edges = make_edges(shapes, ref_edge, inc_part, f.inc_edge);
     const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
     const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
-    const EdgeTouch touch = touch_edges(f.edges, ref, inc);
+    const EdgeView view = view_edges(f.edges, ref, inc);
+    const EdgeTouch touch = touch_edges(f.edges, view, ref, inc);
+    f.length = touch.length;
+    f.middle = 0.5 * (touch.point[0].ref_t + touch.point[1].ref_t) - f.edges.start_t;
+    f.full = std::min(f.edges.length, std::abs(view.t1 - view.t0));
     f.overlap = touch.length > pair.round_off ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
     return f;
 }

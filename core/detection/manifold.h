@@ -17,6 +17,7 @@ namespace hdem
 /// apart. Otherwise the reference edge is the external edge of least overlap, and the incident edge is the other part's
 /// external edge that faces it most squarely. An edge behind whose line only a reflex corner of the other block lies is no axis: the block goes on
 /// in the part beside it. A pair that overlaps less across an internal edge than across any external one may bear nothing (detection/bearing_part.h). The
+/// pair whose edges lie over each other by no more than a corner bears nothing either. The
 /// previous reference edge is kept unless another one's overlap is less by a margin (a tenth of the length floor), since shear history lives on the
 /// contact and must not jump between edges.
 /// On a change of features each point's forces go to the nearest new point, if the new edge runs in nearly the same direction. Then it is the same joint; any other has no

@@ -1,5 +1,7 @@
 #include "tools/hdem/run_start.h"
 
+#include "core/stage/load_changes.h"
+#include "core/stage/rules.h"
 #include "io/atomic_file.h"
 #include "io/frame_writer.h"
 #include "io/provenance.h"
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 namespace hdem
 {
@@ -49,6 +52,19 @@ void take_case(LoadedCase loaded, RunStart& start)
     start.record.begin = timestamp();
 }
 
+/// A stage may have a method of its own, which --method would not reach.
+void check_methods(const RunOptions& options, const Model& model)
+{
+    if (!options.method)
+        return;
+    for (const StageDef& stage : model.stages)
+        if (stage.method && std::string(name_of(*stage.method)) != *options.method)
+            refuse(fmt::format("--method {}: (stage \"{}\" has method = \"{}\" of its own). Leave --method away, or give --set "
+                               "stage.{}.method={} as well.",
+                               *options.method, printable(stage.name, 60), name_of(*stage.method), printable(stage.name, 60),
+                               *options.method));
+}
+
 RunStart start_anew(const RunOptions& options)
 {
     RunStart start;
@@ -56,6 +72,7 @@ RunStart start_anew(const RunOptions& options)
     start.record.overrides = overrides_of(options);
     start.lock = std::make_unique<RunLock>(start.folder);
     take_case(load_case(options.case_file, parsed(start.record.overrides)), start);
+    check_methods(options, start.loaded.setup.model);
     return start;
 }
 
@@ -153,6 +170,39 @@ std::vector<std::string> merged_overrides(const RunOptions& options, std::vector
     return overrides;
 }
 
+/// Number of the stage that `key` belongs to, stage[1].cycles or stage.NAME.cycles.
+std::optional<std::size_t> stage_of(const std::string& key, const std::vector<StageDef>& stages)
+{
+    if (key.starts_with("stage["))
+        return std::stoul(key.substr(6));
+    if (!key.starts_with("stage."))
+        return std::nullopt;
+    const std::string name = key.substr(6, key.rfind('.') - 6);
+    const auto it = std::ranges::find(stages, name, &StageDef::name);
+    return it != stages.end() ? std::optional(static_cast<std::size_t>(it - stages.begin())) : std::nullopt;
+}
+
+/// A stage that is over cannot last longer, and the one that runs cannot be shorter than it is.
+void check_stages_to_come(std::span<const std::string> overrides, const Setup& setup)
+{
+    const Model& model = setup.model;
+    const State& state = setup.state;
+    for (const std::string& text : overrides)
+    {
+        const auto stage = stage_of(parse_override(text).key, model.stages);
+        if (!stage || *stage >= model.stages.size())
+            continue;
+        const auto running = static_cast<std::size_t>(state.stage);
+        const StageDef& def = model.stages[*stage];
+        if (*stage < running)
+            refuse(fmt::format("{}: (stage \"{}\" is over: the run is in stage \"{}\"). Leave it away, or begin a new run.",
+                               printable(text, 60), printable(def.name, 60), printable(model.stages[running].name, 60)));
+        if (*stage == running && state.stage_begun && last_cycle(def, state.stage_begin_cycle, model.time_step) < state.cycle)
+            refuse(fmt::format("{}: (stage \"{}\" has lasted {} cycles already). Give more, or begin a new run.",
+                               printable(text, 60), printable(def.name, 60), state.cycle - state.stage_begin_cycle));
+    }
+}
+
 void check_same_case(const RunOptions& options, const RunRecord& record)
 {
     if (options.case_file.empty())
@@ -179,9 +229,11 @@ RunStart start_again(const RunOptions& options)
     start.record = found.reader.record();
     RunRecord& record = start.record;
     check_same_case(options, record);
+    const std::size_t at_first = record.overrides.size();
     record.overrides = merged_overrides(options, record.overrides);
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
+    check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup);
     record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
     start.notes.push_back(
         fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));

@@ -74,6 +74,34 @@ Contacts carried_over(const Contacts& contacts, const std::vector<Index>& law, b
     }
     return now;
 }
+/// Does the case say when something happens in seconds? They are counted as cycles of one step.
+bool counts_seconds(const Model& model, const State& state)
+{
+    const auto stage = static_cast<std::size_t>(state.stage);
+    return std::ranges::any_of(model.loads, [](const Load& load) { return load.has_times(); }) ||
+           std::ranges::any_of(model.boundaries, [](const Boundary& boundary) { return boundary.factor.is_by_time; }) ||
+           std::ranges::any_of(model.stages, [](const StageDef& each)
+                               { return !each.set_table.empty() && each.set_table_by == TableColumn::time; }) ||
+           (state.stage_begun && stage < model.stages.size() && model.stages[stage].duration);
+}
+
+/// The step of a changed model may be smaller.
+void take_step(const Model& before, Moment& moment)
+{
+    auto& [model, state] = moment;
+    if (model.has_step || !(model.time_step < before.time_step))
+        return;
+    if (state.cycle > 0 && counts_seconds(model, state))
+        refuse(fmt::format(
+            "case: the change makes the step smaller ({:.4g} s, it was {:.4g} s), and the run counts seconds in steps. Give "
+            "time.step = {:.4g} from the beginning.",
+            model.time_step, before.time_step, model.time_step));
+    if (state.default_step > 0.0)
+        state.default_step = std::min(state.default_step, model.default_time_step);
+    state.blocks.step.next = std::min(state.blocks.step.next, model.time_step);
+    if (state.cycle == 0)
+        state.blocks.step.last = state.blocks.step.next;
+}
 }  // namespace
 
 Moment with_other_stages(const Simulation& now, Setup next)
@@ -91,12 +119,7 @@ Moment with_other_stages(const Simulation& now, Setup next)
                            model.stages.size(), begun));
     state.contacts = carried_over(state.contacts, numbers_of_laws(before, model),
                                   next.state.contacts.has_preload || state.contacts.has_preload);
-    if (model.has_step)
-        return moment;
-    if (state.default_step > 0.0)
-        state.default_step = std::min(state.default_step, model.default_time_step);
-    if (model.time_step < before.time_step)
-        state.blocks.step.next = std::min(state.blocks.step.next, model.time_step);
+    take_step(before, moment);
     return moment;
 }
 }  // namespace hdem

@@ -15,7 +15,7 @@ from shell import anchor
 MANY_BLOCKS = 4000      # from here on a picture is made of dots, which is smaller then
 MOST_POINTS = 1200      # of a curve: more than a screen shows
 COUNTS = "contact points"
-STORED = ("kinetic_energy", "elastic_normal", "elastic_shear")
+STORED = ("kinetic_energy", "elastic_normal", "elastic_shear", "driven_kinetic")
 NOT_ENERGIES = ("unbalanced_force_ratio", "greatest_speed", "stick_points", "slip_points", "impulse_points")
 
 

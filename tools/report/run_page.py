@@ -26,7 +26,7 @@ LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by
           "global_damping": ("spent by global damping", -1), "impulse_loss": ("spent by impulses", -1),
           "contact_changes": ("taken by changes of contacts", -1), "property_changes": ("taken by changed stiffness and density", -1),
           "removed": ("gone with removed blocks", -1), "kinetic_energy": ("kinetic", 0),
-          "elastic_normal": ("in normal springs", 0), "elastic_shear": ("in shear springs", 0)}
+          "elastic_normal": ("in normal springs", 0), "elastic_shear": ("in shear springs", 0), "driven_kinetic": ("kinetic, of blocks that move as prescribed", 0)}
 # what else the page takes from summary.json, and its kind
 SUMMARY = {"stages": list, "warnings": list, "converged": bool, "max_displacement": float, "wall_seconds": float, "cycles": float,
            "contact_point_updates_per_second": float}

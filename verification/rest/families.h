@@ -6,6 +6,7 @@
 namespace hdem::verification::rest
 {
 [[nodiscard]] Scene incline_scene(int number);
+[[nodiscard]] Scene tiles_scene(int number);
 [[nodiscard]] Scene stack_scene(int number);
 [[nodiscard]] Scene notch_scene(int number);
 [[nodiscard]] Scene wedge_scene(int number);

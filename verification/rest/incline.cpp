@@ -2,6 +2,8 @@
 ///
 ///   factor of safety against sliding   F = (W cos(beta) tan(phi) + c L) / (W sin(beta))
 ///   against toppling                   F_t = L / (h tan(beta))               L base, h height of the block
+///
+/// rest.tiles: the same on a plane of many blocks. Their joints end in the plane, which may have steps there, far below the settlement of the block.
 
 #include "verification/rest/families.h"
 #include "verification/rest/springs.h"
@@ -137,12 +139,20 @@ Scene toppling_scene(int number, Draw& draw)
     return scene;
 }
 
-Scene sliding_scene(int number, Draw& draw)
+enum class Ground
+{
+    plane,
+    tiles
+};
+
+Scene sliding_scene(int number, Draw& draw, Ground ground, Incline& incline)
 {
     constexpr std::array<double, 10> factors{0.5, 0.8, 0.95, 0.99, 1.01, 1.02, 1.05, 1.3, 2.0, 4.0};
-    Incline incline{.beta_deg = draw.between(3.0, 60.0), .base = draw.scale(0.1, 10.0), .factor = draw.one_of(factors)};
+    incline = {.beta_deg = draw.between(3.0, 60.0), .base = draw.scale(0.1, 10.0), .factor = draw.one_of(factors)};
     incline.height = incline.base * std::min(draw.scale(0.2, 3.0), 0.7 / std::tan(incline.beta()));
     incline.by_cohesion = draw.chance(0.5) ? 0.0 : draw.between(0.1, 0.9);
+    if (ground == Ground::tiles && 3.0 * incline.height * std::tan(incline.beta()) > 0.9 * incline.base)
+        incline.by_cohesion = 0.0;  // the upper end of the base opens, and a joint that has opened as a whole has no cohesion
     const bool thrown = incline.factor > 1.2 && draw.chance(0.3);
     if (thrown)
     {
@@ -150,7 +160,7 @@ Scene sliding_scene(int number, Draw& draw)
         incline.height = std::min(incline.height, 0.7 * incline.base / (incline.factor * std::tan(incline.beta())));
     }
     Scene scene = build(incline, number, draw);
-    const double limit = stable_limit(scene);
+    const double limit = (ground == Ground::tiles ? 0.8 : 1.0) * stable_limit(scene);  // short contacts are stiffer
     draw_step(scene, draw, limit);
     if (thrown)
         set_thrown(scene, incline, draw);
@@ -162,12 +172,51 @@ Scene sliding_scene(int number, Draw& draw)
         set_wall(scene, incline, draw, least_step(scene, limit));
     return scene;
 }
+/// Cut the plane below and in front of the block into tiles. In a third of the scenes the block's lower corner lies above a joint.
+void lay_tiles(Scene& scene, const Incline& incline, Draw& draw)
+{
+    constexpr double reach = 12.0;  // of the bases below which the plane is of tiles
+    const Vec2 down = incline.down();
+    const bool has_steps = incline.by_cohesion == 0.0 && draw.chance(0.5);
+    const double length = draw.scale(0.3, 3.0), depth = draw.scale(0.3, 3.0), base = incline.base;
+    const double first = draw.chance(1.0 / 3.0) ? 1.0 : draw.between(0.0, length);
+    double from = -50.0;
+    const double begin = first - length * std::ceil((first + reach) / length);
+    for (int tile = 0; from < 400.0; ++tile)
+    {
+        const double joint_at = begin + length * tile, until = joint_at > reach ? 400.0 : joint_at;
+        const bool is_below = from < 1.0 && until > 0.0;  // the block, which must not overlap it as drawn
+        const double step = has_steps ? draw.scale(1e-12 * base, 0.1 * scene.settle) * (draw.chance(0.5) && !is_below ? 1.0 : -1.0)
+                                      : 0.0;
+        const Polygon polygon = rectangle_along(from * base * down - (depth * base - step) * turned_left(down), down,
+                                                (until - from) * base, depth * base);
+        if (tile == 0)
+            scene.def.blocks[0].polygon = polygon;
+        else
+            add_fixed(scene, fmt::format("tile{}", tile), polygon);
+        from = until;
+    }
+    scene.what += fmt::format(", tiles of {:.3g} x {:.3g} m{}", length * base, depth * base, has_steps ? " with steps" : "");
+}
 }  // namespace
+
+Scene tiles_scene(int number)
+{
+    Draw draw("tiles", number);
+    Incline incline;
+    Scene scene = sliding_scene(number, draw, Ground::tiles, incline);
+    scene.family = "tiles";
+    scene.same_settle = 0.4;  // more joints than one
+    lay_tiles(scene, incline, draw);
+    draw_placements(scene, draw);
+    return scene;
+}
 
 Scene incline_scene(int number)
 {
     Draw draw("incline", number);
-    Scene scene = draw.chance(0.15) ? toppling_scene(number, draw) : sliding_scene(number, draw);
+    Incline incline;
+    Scene scene = draw.chance(0.15) ? toppling_scene(number, draw) : sliding_scene(number, draw, Ground::plane, incline);
     draw_placements(scene, draw);
     return scene;
 }

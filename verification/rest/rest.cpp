@@ -226,17 +226,19 @@ std::vector<Check> rest_checks()
     constexpr auto length = Check::Length::is_long;
     using namespace rest;
     // The long ones first: the program starts them in this order.
-    return {{"rest.heap", "many blocks that fall", [](Report& r) { check_family(r, "heap", heap_scene, 60); }, length},
-            {"rest.known", "scenes that came to a wrong rest, in 36 orientations",
-             [](Report& r) { check_family(r, "known", known_scene, known_scenes); }, length},
-            {"rest.rubble", "a jointed rock face", [](Report& r) { check_family(r, "rubble", rubble_scene, 120); }, length},
-            {"rest.arch", "arches with one heavy block", [](Report& r) { check_family(r, "arch", arch_scene, 90); }, length},
-            {"rest.incline", "a block on a slope", [](Report& r) { check_family(r, "incline", incline_scene, 240); }, length},
-            {"rest.stack", "blocks on each other", [](Report& r) { check_family(r, "stack", stack_scene, 180); }, length},
-            {"rest.notch", "a block between two planes", [](Report& r) { check_family(r, "notch", notch_scene, 120); }, length},
-            {"rest.wedge", "plane failure of a slope", [](Report& r) { check_family(r, "wedge", wedge_scene, 150); }, length},
-            {"rest.drop", "a block that falls beside or on another", [](Report& r) { check_family(r, "drop", drop_scene, 240); },
-             length},
-            {"rest.threads", "the same bits on 1, 2 and 3 threads", check_threads, length}};
+    return {
+        {"rest.heap", "many blocks that fall", [](Report& r) { check_family(r, "heap", heap_scene, 60); }, length},
+        {"rest.known", "scenes that came to a wrong rest, in 36 orientations",
+         [](Report& r) { check_family(r, "known", known_scene, known_scenes); }, length},
+        {"rest.rubble", "a jointed rock face", [](Report& r) { check_family(r, "rubble", rubble_scene, 120); }, length},
+        {"rest.arch", "arches with one heavy block", [](Report& r) { check_family(r, "arch", arch_scene, 90); }, length},
+        {"rest.incline", "a block on a slope", [](Report& r) { check_family(r, "incline", incline_scene, 240); }, length},
+        {"rest.tiles", "a block on a slope of many blocks", [](Report& r) { check_family(r, "tiles", tiles_scene, 240); }, length},
+        {"rest.stack", "blocks on each other", [](Report& r) { check_family(r, "stack", stack_scene, 180); }, length},
+        {"rest.notch", "a block between two planes", [](Report& r) { check_family(r, "notch", notch_scene, 120); }, length},
+        {"rest.wedge", "plane failure of a slope", [](Report& r) { check_family(r, "wedge", wedge_scene, 150); }, length},
+        {"rest.drop", "a block that falls beside or on another", [](Report& r) { check_family(r, "drop", drop_scene, 240); },
+         length},
+        {"rest.threads", "the same bits on 1, 2 and 3 threads", check_threads, length}};
 }
 }  // namespace hdem::verification

@@ -106,8 +106,8 @@ class PairSearch
         if (apart > gap_ || apart < -depth_)
             return false;
         const Stretch near = near_stretch(edge, other, std::max(apart, 0.0) + gap_);
-        if (near.to < near.from - gap_)
-            return false;
+        if (near.to < near.from - gap_ || near.to < gap_ || near.from > edge.length - gap_)
+            return false;  // or only at the end of the edge: a corner on a corner bears nothing
         const double length = std::max(near.to - near.from, 0.0);
         for (const double at : {near.from, near.to})
             points.push_back({first, second, edge.start + at * edge.along, edge.outward, 0.5 * length});

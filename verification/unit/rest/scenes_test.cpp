@@ -99,10 +99,10 @@ TEST_P(RestScenes, AreReadBackFromTheirCaseFilesToTheLastBit)
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, RestScenes,
-                         testing::Values(Family{"incline", incline_scene}, Family{"stack", stack_scene},
-                                         Family{"notch", notch_scene}, Family{"wedge", wedge_scene}, Family{"arch", arch_scene},
-                                         Family{"drop", drop_scene}, Family{"heap", heap_scene}, Family{"rubble", rubble_scene},
-                                         Family{"known", known_scene}),
+                         testing::Values(Family{"incline", incline_scene}, Family{"tiles", tiles_scene},
+                                         Family{"stack", stack_scene}, Family{"notch", notch_scene}, Family{"wedge", wedge_scene},
+                                         Family{"arch", arch_scene}, Family{"drop", drop_scene}, Family{"heap", heap_scene},
+                                         Family{"rubble", rubble_scene}, Family{"known", known_scene}),
                          [](const testing::TestParamInfo<Family>& family) { return family.param.name; });
 
 TEST(RestDraw, GivesTheSameNumbersOnEveryMachine)

@@ -505,6 +505,32 @@ def test_stiffness_set_later_keeps_what_contacts_bear():
     assert simulation.is_done and len(simulation.case["stage"]) == 2
 
 
+@pytest.mark.parametrize("key, value", [("material.rock.density", 600.0), ("joint.default.normal_stiffness", 4e9)])
+def test_a_change_before_the_first_cycle_has_the_programs_bits(tmp_path, key, value):
+    """Either one makes the step smaller, from the first half step on."""
+    simulation = hdem.Simulation(hdem.Case(pile()), threads=1)
+    step = simulation.time_step
+    simulation.set(key, value)
+    simulation.run()
+    file = tmp_path / "changed.toml"
+    file.write_text(simulation.case_text)
+    sets = [word for text in simulation.case_overrides for word in ("--set", text)]
+    assert simulation.time_step < step
+    assert program_hash(tmp_path, file, *sets, "--threads", 1)["state_hash"] == simulation.state_hash
+
+
+@pytest.mark.parametrize("seconds", [
+    {"load": [{"blocks": ["high"], "force": [100.0, 0.0], "from_time": 0.05}]},
+    {"load": [{"blocks": ["high"], "force": [100.0, 0.0], "table": [[0.0, 0.0], [0.05, 1.0]], "table_by": "time"}]},
+    {"stage": [{"name": "first", "duration": 0.05}, {"name": "second", "cycles": 300}]}])
+def test_a_smaller_step_is_refused_where_seconds_are_counted(seconds):
+    simulation = hdem.Simulation(hdem.Case(pile(**seconds)), threads=1)
+    simulation.run(cycles=20)
+    with pytest.raises(hdem.CaseError, match="time.step = "):
+        simulation.set("material.rock.density", 600.0)
+    simulation.set("material.rock.density", 2600.0)    # the step stays as it is
+
+
 def test_ended_stage_is_a_case_for_the_program(tmp_path):
     simulation = hdem.Simulation(hdem.Case(pile(), set={"stage[0].cycles": 5000}), threads=1)
     simulation.run(cycles=77)

@@ -3,6 +3,7 @@
 
     restart_test.py HDEM FAULTS    the program, and verification/faults
 """
+import json
 import signal
 import subprocess
 import sys
@@ -142,6 +143,21 @@ class Restart(unittest.TestCase):
         self.assertIn("checkpoint.previous.h5", refused.stderr)
         self.expect_the_whole_run(folder)
 
+    def test_frames_of_before_stay_named_when_contacts_are_written_no_more(self):
+        folder = self.root / "fewer"
+        run_folder.run(HDEM, self.case, "-o", folder, "--set", "output.frame_every=300", "--set", "stage[1].cycles=100")
+        before = {file.name for file in (folder / "frames").iterdir()}
+        done = run_folder.run(HDEM, "--restart", folder, "--set", "output.contacts=false", "--set", "stage[1].cycles=900")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        there = {file.name for file in (folder / "frames").iterdir()}
+        named = {kind: {Path(each["name"]).name for each in json.loads((folder / f"{kind}.hdf.series").read_text(encoding="utf-8"))["files"]}
+                 for kind in ("blocks", "contacts")}
+        for kind, names in named.items():
+            self.assertEqual(names, {name for name in there if name.startswith(kind)})
+        self.assertTrue(named["contacts"] & before)
+        self.assertGreater(len(named["blocks"]), len(named["contacts"]))
+        self.assertEqual(run_folder.broken_files(folder), [])
+
     def test_only_the_same_physics_goes_on(self):
         folder = self.root / "other"
         run_folder.run(HDEM, self.case, "-o", folder, "--max-wall", "0.1s")
@@ -157,6 +173,10 @@ class Restart(unittest.TestCase):
         done = run_folder.run(HDEM, self.case, "--restart", folder, "--set", "stage[1].cycles=2300", "--set", "output.row_every=100")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(run_folder.summary(folder)["cycles"], 3100)
+        for setting, words in (("stage[0].cycles=900", " is over: the run is in stage "), ("stage[1].cycles=2000", " has lasted 2300 cycles already")):
+            refused = run_folder.run(HDEM, "--restart", folder, "--set", setting)
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn(words, refused.stderr)
         self.assertIn("holds no checkpoint", run_folder.run(HDEM, "--restart", self.root).stderr)
         self.assertIn("does not exist", run_folder.run(HDEM, "--restart", self.root / "nowhere").stderr)
 

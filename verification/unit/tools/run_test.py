@@ -13,6 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import small_case
 
 HDEM = Path(sys.argv[1]).resolve()
@@ -112,6 +113,17 @@ class TheStart(unittest.TestCase):
             self.assertRegex(done.stderr, r"--help [a-z ]+\.\n\Z")
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
+    def test_method_does_not_pass_over_that_of_a_stage(self):
+        case = CASE.replace('[[stage]]', '[[stage]]\nmethod = "impulse"', 1)
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "small.toml").write_text(case, encoding="utf-8")
+            run = [HDEM, "run", "small.toml", "-o", "out", "--method", "force"]
+            done = subprocess.run(run, cwd=folder, check=False, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, r'--method force: \(stage "[^"]+" has method = "impulse" of its own\)\..* --set stage\.[^.]+\.method=force as well')
+            done = subprocess.run([*run, "--set", "stage[0].method=force", "--quiet"], cwd=folder, check=False, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_a_number_of_threads_is_a_number_or_auto(self):
         for wrong in ("0", "4097", "2.5", "all", "-1", "2x"):
             done = subprocess.run([HDEM, "run", "small.toml", f"--threads={wrong}"], check=False, capture_output=True, text=True)
@@ -149,6 +161,21 @@ class ManyOfAKind(unittest.TestCase):
         done = subprocess.run([HDEM, "run", f"{name}.toml", "-o", name], cwd=folder, check=False, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((Path(folder) / name / "summary.json").read_text(encoding="utf-8"))
+
+    def test_energies_of_results_balance_where_motion_is_prescribed(self):
+        """As summary.json does: the energy of a block that is driven is in a column of its own."""
+        text = small_case.CASE.replace("[[stage]]", '[[load]]\nblocks = ["ground"]\nvelocity_x = 0.5\nuntil_cycle = 5000\n[[stage]]', 1)
+        with tempfile.TemporaryDirectory() as folder:
+            summary = self.run_in(folder, "driven", text)
+            with h5py.File(Path(folder) / "driven/results.h5") as results:
+                last = {name: float(column[-1]) for name, column in results["energy"].items()}
+        taken = ("friction", "bond_breaking", "local_damping", "global_damping", "impulse_loss", "contact_changes", "property_changes", "removed",
+                 "kinetic_energy", "driven_kinetic", "elastic_normal", "elastic_shear")
+        given = ("initial", "insitu", "gravity_work", "load_work", "boundary", "water", "support", "position_correction", "dilation")
+        self.assertGreater(last["driven_kinetic"], 1e3)
+        self.assertAlmostEqual(last["driven_kinetic"] + last["kinetic_energy"], summary["energy"]["kinetic"], delta=1e-9 * summary["energy"]["kinetic"])
+        balance = sum(last[name] for name in given) - sum(last[name] for name in taken)
+        self.assertAlmostEqual(balance, last["residual"], delta=1e-6 * last["load_work"])
 
     def test_stages_of_one_cycle_do_not_each_have_a_frame(self):
         """A frame takes as long as fifty cycles of this model, and a stage is to cost no more than one or two."""

@@ -165,9 +165,9 @@ TEST(CornersKeepSprings, OfBlocksThatLieWhereTheyWere)
         EXPECT_EQ(pair.state.contacts.size(), 1);
         return static_cast<Regime>(pair.state.contacts.regime[0][0]);
     };
-    EXPECT_EQ(regime(1e-5, 0.0, true), Regime::stick);
-    EXPECT_EQ(regime(1e-5, 0.0, false), Regime::impulse);
-    EXPECT_EQ(regime(1e-5, 0.1, true), Regime::impulse) << "one has come from elsewhere";
+    EXPECT_EQ(regime(4e-4, 0.0, true), Regime::stick);
+    EXPECT_EQ(regime(4e-4, 0.0, false), Regime::impulse);
+    EXPECT_EQ(regime(4e-4, 0.1, true), Regime::impulse) << "one has come from elsewhere";
     EXPECT_EQ(regime(0.5, 0.0, true), Regime::impulse) << "a face";
 }
 

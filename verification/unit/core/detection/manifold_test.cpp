@@ -68,14 +68,19 @@ TEST(Manifold, CarriesAPairInTheSkinOnly)
 /// A corner on a corner has next to no length; the floor keeps it from being without force.
 TEST(Manifold, OfACornerOnACornerStillCarries)
 {
-    BlockPair pair(test::pair_scene(unit_square, unit_square));
-    pair.place(pair.a, {0, 0}, radians(45.0));
-    pair.place(pair.b, {1e-6, 2.0 * std::sqrt(0.5) - 1e-5}, radians(45.0));
-    pair.search();
-    ASSERT_EQ(pair.state.contacts.size(), 1);
-    pair.evaluate();
-    const double least = 0.5 * 7e9 * 1e-3 * 0.5e-5;  // one point of half the floor, some of the overlap
-    EXPECT_GT(pair.force(pair.b).norm(), least);
+    const auto force = [&](double overlap)
+    {
+        BlockPair pair(test::pair_scene(unit_square, unit_square));
+        pair.place(pair.a, {0, 0}, radians(45.0));
+        pair.place(pair.b, {1e-6, 2.0 * std::sqrt(0.5) - overlap}, radians(45.0));
+        pair.search();
+        EXPECT_EQ(pair.state.contacts.size(), 1);
+        pair.evaluate();
+        return pair.force(pair.b).norm();
+    };
+    EXPECT_EQ(force(1e-5), 0.0) << "narrower than a corner";
+    const double least = 0.5 * 7e9 * 1e-3 * 1e-4;  // one point of half the floor, some of the overlap
+    EXPECT_GT(force(1e-3), least);
 }
 
 /// Greatest overlap of a pair's contact; 0 when its edges are beside each other.

@@ -146,7 +146,7 @@ cycles = 3000
     run.simulation.begin_stage(0);
     run.advance(3000);
     const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
-    EXPECT_GT(whole.factor, 1.7);
+    EXPECT_NEAR(whole.factor, 1.25673, 1e-3);
     const StrengthBound crushed = strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole);
     EXPECT_EQ(crushed.end, StrengthBound::End::found);
     EXPECT_NEAR(crushed.factor, 1.25673, 1e-3);
@@ -169,7 +169,7 @@ name = "ground"
 polygon = [[-12, -12], [29.1377760809, -12], [29.1377760809, 12], [17.1377760809, 12], [0, 0], [-12, 0]]
 fixed = true
 [[block]]
-polygon = [[0, 0], [17.1377760809, 12], [5.5956918979, 12]]
+polygon = [[0, 0], [17.1377760809, 12], [5.5956918979, 12], [-0.004, 0]]
 [[stage]]
 cycles = 3000
 )";
@@ -177,8 +177,7 @@ cycles = 3000
     run.simulation.begin_stage(0);
     run.advance(3000);
     const StrengthBound whole = strength_bound(run.model(), run.state(), {}, 1.0 / 128.0, 64.0);
-    EXPECT_EQ(whole.end, StrengthBound::End::none);
-    EXPECT_EQ(whole.factor, 64.0);
+    EXPECT_GT(whole.factor, 2.0);
     const StrengthBound crushed = strength_bound_without_corners(run.model(), run.state(), {}, 1.0 / 128.0, whole);
     EXPECT_EQ(crushed.end, StrengthBound::End::found);
     EXPECT_NEAR(crushed.factor, 1.2145, 1e-3);

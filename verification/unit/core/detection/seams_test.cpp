@@ -1,0 +1,110 @@
+/// Blocks that slide over the joints between others: a joint that ends in a plane does not hold, hit or lift what slides along the plane.
+
+#include "verification/scenes/scenes.h"
+#include "verification/unit/case_run.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace hdem
+{
+namespace
+{
+using test::CaseRun;
+constexpr double g = 9.81;
+
+class Seam : public testing::TestWithParam<Method>
+{
+};
+
+/// Tiles in a row, their upper faces at y = 0 but for the steps; they end at x = 0, 1, ... times the length.
+CaseDef tiles(int n, double length, double depth, double step = 0.0)
+{
+    CaseDef scene = scenes::empty_scene();
+    for (int i = 0; i < n; ++i)
+    {
+        const double top = i % 2 == 0 ? 0.0 : step;
+        scenes::add_fixed_block(scene, fmt::format("tile{}", i),
+                                scenes::rectangle({i * length, top - depth}, {(i + 1) * length, top}));
+    }
+    return scene;
+}
+
+/// Way of a block that is thrown along level tiles, over the way until friction alone has stopped it.
+double stopping_way(Method method, double from, double length, double step, double angle_deg)
+{
+    constexpr double way = 1.3, friction = 0.5;
+    CaseDef scene = tiles(14, length, 1.0, step);
+    scene.contact.method = method;
+    scene.damping.preset = DampingPreset::automatic;
+    scene.joints[0].friction_angle_deg = std::atan(friction) * 180.0 / std::numbers::pi;
+    scenes::add_block(scene, "block", scenes::rectangle({from, 0.0}, {from + 0.6, 0.4})).velocity = {
+        std::sqrt(2.0 * friction * g * way), 0.0};
+    scene = scenes::turned(scene, angle_deg);
+    CaseRun run(scene);
+    while (run.velocity("block").norm() > 0.01 && run.state().time < 2.0)
+        run.advance(20);
+    return run.displacement("block").dot(scene.blocks.back().velocity.normalized()) / way;
+}
+
+TEST_P(Seam, IsNoObstacleForWhatSlidesOnALevelFloor)
+{
+    for (const double from : {0.3, 0.41234, 0.5, 0.77})
+        for (const double length : {0.5, 1.0})
+            EXPECT_NEAR(stopping_way(GetParam(), from, length, 0.0, 0.0), 1.0, 0.01) << from << ' ' << length;
+}
+
+TEST_P(Seam, WithAStepFarBelowASizeIsNoObstacle)
+{
+    for (const double step : {1e-10, -1e-9, 1e-8, 1e-7, -1e-6})
+        for (const double angle : {0.0, 37.3})
+            EXPECT_NEAR(stopping_way(GetParam(), 0.3, 0.5, step, angle), 1.0, 0.03) << step << ' ' << angle;
+}
+
+/// Way down a plane of so many tiles in 0.4 s of a block whose lower corner lies above a joint, or beside it.
+double sliding_way(Method method, int n, double factor, double stiffness, double past)
+{
+    constexpr double slope = std::numbers::pi / 6.0;
+    CaseDef scene = tiles(n, 6.0 / n, 3.0);
+    scene.contact.method = method;
+    scene.damping.preset = DampingPreset::dynamic;
+    scene.joints[0].normal_stiffness = stiffness;
+    scene.joints[0].shear_stiffness = 0.1 * stiffness;
+    scene.joints[0].friction_angle_deg = std::atan(factor * std::tan(slope)) * 180.0 / std::numbers::pi;
+    scenes::add_block(scene, "block", scenes::rectangle({1.0 + past, 0.0}, {2.0 + past, 0.5}));
+    scene.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+    CaseRun run(scene);
+    while (run.state().time < 0.4)
+        run.advance(20);
+    return run.displacement("block").norm();
+}
+
+TEST_P(Seam, DoesNotHoldABlockThatMustSlide)
+{
+    for (const double factor : {0.3, 0.9, 0.97})
+        for (const double stiffness : {7e9, 1e11})
+            for (const double past : {-1e-5, 0.0, 1e-6})
+            {
+                const double way = sliding_way(GetParam(), 1, factor, stiffness, past);
+                EXPECT_GT(way, 0.01);
+                EXPECT_NEAR(sliding_way(GetParam(), 3, factor, stiffness, past), way, 0.01 * way)
+                    << factor << ' ' << stiffness << ' ' << past;
+            }
+}
+
+/// A side that stands out by more than a corner is met.
+TEST_P(Seam, WithAStepOfATenthOfASizeStopsABlock)
+{
+    EXPECT_LT(stopping_way(GetParam(), 0.3, 1.0, 0.05, 0.0), 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Seam, testing::Values(Method::force, Method::hybrid, Method::impulse),
+                         [](const auto& method) {
+                             return method.param == Method::force ? "force"
+                                                                  : (method.param == Method::hybrid ? "hybrid" : "impulse");
+                         });
+}  // namespace
+}  // namespace hdem
