@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""All runs of a sweep have the values that the plan says, and the same input otherwise.
+
+    sweep_input_test.py HDEM TOOLS    the program, and the folder of its scripts
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import small_case
+
+HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(TOOLS))
+from sweep_parts import keys    # noqa: E402
+
+# Two loads, one of which has a name, and a file that the case names.
+CASE = small_case.CASE.replace("[output]", """[[load]]
+blocks = ["l"]
+force = [1, 0]
+[[load]]
+name = "push"
+blocks = ["l"]
+force = [300, -400]
+table_file = "table.csv"
+[output]""")
+TABLE = "cycle,factor\n0,0\n100,1\n"
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="hdem_sweep_input_test_")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        (self.folder / "case.toml").write_text(CASE, encoding="utf-8")
+        (self.folder / "table.csv").write_text(TABLE, encoding="utf-8")
+        # In place of hdem: a run is done at once, or refused as one with an unknown key.
+        self.program = self.folder / "stand_in"
+        self.program.write_text('#!/bin/bash\necho "$*" >> calls\n[[ "$*" == *unknown* ]] && exit 2\nmkdir -p "$4" && echo "{}" > "$4/summary.json"\n')
+        self.program.chmod(0o755)
+
+    def sweep(self, *arguments, code=0):
+        """What was said."""
+        done = subprocess.run([TOOLS / "sweep", *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        return done.stdout + done.stderr
+
+    def plan(self, *varied, **more):
+        return self.sweep("plan", "case.toml", "-o", "s", "--program", HDEM, *[word for text in varied for word in ("--vary", text)], **more)
+
+    def run_one(self, number, *words, **more):
+        return self.sweep("run", "s", number, "--program", self.program, "--", *words, **more)
+
+    def work(self, *words, **more):
+        return self.sweep("work", "s", "--jobs", "1", "--program", self.program, "--", *words, **more)
+
+    def calls(self):
+        file = self.folder / "calls"
+        return len(file.read_text().splitlines()) if file.exists() else 0
+
+
+class VariedKeys(Scratch):
+    def test_have_one_place_under_all_names(self):
+        document = keys.document_of(self.folder / "case.toml")
+        for key, place in (("load.push.force", ["load", 1, "force"]), ("load[1].force", ["load", 1, "force"]), (" load[01].force", ["load", 1, "force"]),
+                           ("load.load1.force[0]", ["load", 0, "force", 0]), ("load.push[5].force", ["load", 1, "force"]), ("load.new.force", ["load", "new", "force"]),
+                           ("joint.default.cohesion", ["joint", "default", "cohesion"]), ("fault.a.dip", ["fault", "a", "dip"])):
+            self.assertEqual(keys.place_of(key, document), place, key)
+        sets = {"joint_set": [{"dip_deg": 1}, {"name": "b"}]}
+        self.assertEqual([keys.place_of(f"joint_set.{name}.dip_deg", sets)[1] for name in ("set1", "b", "set2")], [0, 1, "set2"])
+        self.assertFalse(keys.overlap("load[0].force", "load.push.force", document))
+        self.assertFalse(keys.overlap("load.push.force[0]", "load.push.force[1]", document))
+        self.assertTrue(keys.overlap("load.push.force[0]", "load[1].force", document))
+
+    def test_are_not_laid_over(self):
+        self.plan("load.push.force=1000,2000")
+        for words in (["--set", "load.push.force=50"], ["--set=load.push.force = 50"], ["--set", "load[1].force=50"], ["--set", "time.step=1e-4", "load.push.force=50"],
+                      ["--set=time.step=1e-4", "load[1].force=50"], ["--set", 'load=[{blocks=["l"],force=[50,0]}]'], ["--set", "load[1].force[0]=50"],
+                      ["--set", "load[1].name=new", "load.new.force=50"], ["--set", "[time.step=1e-4,load[01].force=50]"], ["--set", "load[1].force=1", "--quiet"]):
+            said = self.work(*words, code=2)
+            self.assertRegex(said, r"^error: sweep: --set load\S*: the plan varies (it|load.push.force), and the table would show the plan's values. Leave it away, or", words)
+            self.assertEqual(self.run_one(1, *words, code=2), said)
+        self.assertEqual(self.calls(), 0)
+        self.work("--set", "load[0].force=50")
+
+    def test_of_a_chain_are_not_laid_over(self):
+        self.sweep("plan", "case.toml", "-o", "s", "--program", HDEM, "--bisect", "load.push.force=0:9", "--tolerance", "1", "--fails", "detached_blocks>0")
+        self.assertIn("--set load[1].force: the plan varies load.push.force", self.work("--set", "load[1].force=50", code=2))
+
+    def test_may_be_laid_over_by_a_method(self):
+        self.plan("contact.method=force,hybrid")
+        for words in (["--method", "hybrid"], ["--method=hybrid"], ["--set", 'contact={method="force"}']):
+            self.assertIn("the plan varies contact.method", self.work(*words, code=2))
+
+    def test_vary_once(self):
+        for other in ("load[1].force=50,60", "load.push.force=50,60", "load.push.force[1]=50,60"):
+            said = self.plan("load.push.force=1000,2000", other, code=2)
+            self.assertIn("load.push.force: varies twice", said)
+            self.assertIn("Give each key once", said)
+            self.assertFalse((self.folder / "s").exists())
+        self.assertIn("varies twice, also by load.push.force", self.sweep("plan", "case.toml", "-o", "s", "--vary", "load[1].force=1,2", "--bisect", "load.push.force=0:9",
+                                                                          "--tolerance", "1", "--fails", "detached_blocks>0", code=2))
+        self.plan("load.push.force=1000,2000", "load[0].force=50,60")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
