@@ -13,6 +13,14 @@ def document_of(case):
         return {}
 
 
+def value_of(text):
+    """Of KEY=VALUE: TOML, or a bare word."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (ValueError, KeyError, RecursionError):
+        return text.strip()
+
+
 def number_of(entries, array, name):
     """Of the entry of an array that has this name, given or by default; None where there is none."""
     standard = "set" if array == "joint_set" else array

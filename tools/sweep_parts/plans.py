@@ -8,7 +8,7 @@ from decimal import Decimal, InvalidOperation
 from . import designs, keys
 from .common import FACTOR, SweepError, runs_in
 from .criterion import Criterion
-from .same_input import digest_of
+from .same_input import digest_of, files_of_plan
 
 PLAN = "plan.json"
 MOST_RUNS = 100000
@@ -125,7 +125,7 @@ def make(options):
     options.output.mkdir(parents=True, exist_ok=True)
     runs = [dict(zip(names, row)) for row in rows]
     case = options.case.resolve()
-    plan = {"case": str(case), "case_sha256": digest_of(case), "runs": runs, **chain}
+    plan = {"case": str(case), "case_sha256": digest_of(case), "files_sha256": files_of_plan(case, document, runs), "runs": runs, **chain}
     if options.command_of_hdem != "run":
         plan["command"] = options.command_of_hdem
     if options.design:
@@ -138,7 +138,7 @@ def make(options):
 def read(folder):
     try:
         plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-        tables = [*plan["runs"], plan.get("bisect", {})]
+        tables = [*plan["runs"], plan.get("bisect", {}), plan.get("files_sha256", {})]
         if not isinstance(plan["case"], str) or not all(isinstance(table, dict) for table in tables) or command_of(plan) not in COMMANDS:
             raise ValueError("case or runs are damaged")
         return plan

@@ -1,4 +1,8 @@
 """Options of hdem behind --: what they lay over the case, and which of them shape results."""
+import shlex
+
+from .common import SweepError
+
 SHAPE_NOTHING = {"--quiet", "--live", "--overwrite", "--threads", "--max-wall"}
 METHOD = "contact.method"    # what --method lays over
 
@@ -32,3 +36,14 @@ def overlays(settings):
         yield f"--set {key}", key, value
     for value in settings.get("--method", []):
         yield "--method", METHOD, value
+
+
+def require_none_of_the_sweep(settings):
+    for option in ("-o", "--output", "--restart"):
+        if option in settings:
+            raise SweepError(f"{option}: the sweep itself gives it to each run. Leave it away.")
+
+
+def told(settings):
+    """As on the command line."""
+    return shlex.join(word for option, values in settings.items() for word in ([option] if not values else [word for value in values for word in (option, value)]))

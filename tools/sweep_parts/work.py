@@ -127,7 +127,7 @@ def work(options):
     if options.jobs < 1:
         raise SweepError(f"--jobs {options.jobs}: must be at least 1.")
     plan = plans.read(options.folder)
-    require_same_input(plan, options.for_hdem)
+    require_same_input(options.folder, plan, options.for_hdem)
     worker = Worker(options, plan)
     worker.start.listen()
     with ThreadPoolExecutor(options.jobs) as pool:

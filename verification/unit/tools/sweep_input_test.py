@@ -3,6 +3,7 @@
 
     sweep_input_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
+import json
 import subprocess
 import sys
 import tempfile
@@ -13,7 +14,7 @@ import small_case
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(TOOLS))
-from sweep_parts import keys    # noqa: E402
+from sweep_parts import keys, settings    # noqa: E402
 
 # Two loads, one of which has a name, and a file that the case names.
 CASE = small_case.CASE.replace("[output]", """[[load]]
@@ -103,6 +104,86 @@ class VariedKeys(Scratch):
         self.assertIn("varies twice, also by load.push.force", self.sweep("plan", "case.toml", "-o", "s", "--vary", "load[1].force=1,2", "--bisect", "load.push.force=0:9",
                                                                           "--tolerance", "1", "--fails", "detached_blocks>0", code=2))
         self.plan("load.push.force=1000,2000", "load[0].force=50,60")
+
+
+class SameInput(Scratch):
+    def test_named_files_stay_the_same(self):
+        for name, varied in (("table.csv", "load.push.force=1,2"), ("b.csv", "load.push.table_file=table.csv,b.csv,table.csv"), ("b.csv", "load.push.table_file=table.csv,'b.csv'")):
+            (self.folder / "b.csv").write_text(TABLE, encoding="utf-8")
+            self.plan(varied)
+            self.run_one(1)
+            (self.folder / name).write_text(TABLE + "200,2\n", encoding="utf-8")
+            before = self.calls()
+            for again in (self.work, lambda **more: self.run_one(2, **more)):
+                self.assertIn(f"{name}: has changed since the plan was made: its runs do not belong together. Put the file back, or make a new plan", again(code=2))
+            self.assertEqual(self.calls(), before)
+            (self.folder / name).write_text(TABLE, encoding="utf-8")
+            self.work()
+            subprocess.run(["rm", "-r", self.folder / "s"], check=True)
+
+    def test_files_of_options_stay_the_same(self):
+        (self.folder / "b.csv").write_text(TABLE, encoding="utf-8")
+        self.plan("load.push.force=1,2")
+        words = ("--set", "load.push.table_file=b.csv")
+        self.run_one(1, *words)
+        (self.folder / "b.csv").write_text(TABLE + "200,2\n", encoding="utf-8")
+        self.assertIn("b.csv: has changed since runs began", self.work(*words, code=2))
+
+    def test_texts_that_are_no_files_are_left_alone(self):
+        (self.folder / "Small run").write_text("a file that has the title of the case", encoding="utf-8")
+        self.plan("load.push.force=1,2")
+        self.assertEqual(list(json.loads((self.folder / "s/plan.json").read_text())["files_sha256"]), ["table.csv"])
+
+    def test_options_that_shape_results_stay_the_same(self):
+        self.plan("load.push.force=1:4")
+        self.run_one(1, "--set", "time.step = 1e-4", "gravity.vector=[0,-9]", "--method", "hybrid", "--quiet")
+        for words in ([], ["--set", "time.step=1e-4"], ["--set", "time.step=1e-4", "gravity.vector=[0,-9]", "--method", "force"], ["--method", "hybrid"], ["--new-option"]):
+            said = self.work(*words, code=2)
+            self.assertIn("s: hdem had --set time.step=1e-4 --set 'gravity.vector=[0,-9]' --method hybrid before, and now ", said)
+            self.assertIn("Give the same options, or make a new plan in another folder", said)
+        self.assertEqual(self.calls(), 1)
+        self.work("--threads", "2", "-q", "--live", "--max-wall=5", "--method=hybrid", "--overwrite", "--set=time.step=1e-4", "--set", "gravity.vector=[0,-9]")
+
+    def test_options_that_shape_nothing_may_change(self):
+        self.plan("load.push.force=1:4")
+        self.run_one(1, "--threads", "1")
+        self.run_one(2, "-qq", "--threads=auto", "--max-wall", "1h", "--live")
+        self.assertIn("now --set time.step=1e-4", self.work("--set", "time.step=1e-4", code=2))
+        self.work()
+
+    def test_options_that_hdem_refused_do_not_count(self):
+        self.plan("load.push.force=1:2")
+        self.assertIn("2 failed", self.work("--set", "time.unknown=1", code=2))
+        self.work("--set", "time.step=1e-4")
+        self.assertIn("hdem had --set time.step=1e-4 before, and now no option that shapes results", self.work(code=2))
+
+    def test_where_and_whence_is_the_sweeps_own(self):
+        self.plan("load.push.force=1:2")
+        for words in (["--restart", "elsewhere"], ["-o", "elsewhere"], ["--output=elsewhere"]):
+            self.assertIn(f"{words[0].split('=')[0]}: the sweep itself gives it to each run", self.work(*words, code=2))
+
+    def test_sweeps_of_earlier_versions_go_on(self):
+        self.plan("load.push.force=1:4")
+        self.run_one(1, "--method", "hybrid")
+        plan = json.loads((self.folder / "s/plan.json").read_text())
+        del plan["files_sha256"]
+        (self.folder / "s/plan.json").write_text(json.dumps(plan))
+        (self.folder / "s/input.json").unlink()
+        self.run_one(2, "--method", "hybrid")
+        self.assertIn("Give the same options", self.work(code=2))
+        (self.folder / "table.csv").write_text(TABLE + "200,2\n", encoding="utf-8")
+        self.assertIn("table.csv: has changed since runs began", self.work("--method", "hybrid", code=2))
+
+    def test_damaged_record_is_told(self):
+        self.plan("load.push.force=1:2")
+        for text in ("", "[]", "{}", '{"settings": [], "files_sha256": {}}'):
+            (self.folder / "s/input.json").write_text(text)
+            self.assertIn("s/input.json: damaged", self.work(code=2))
+
+    def test_words_of_options(self):
+        for words, found in (([], {}), (["-q", "--threads", "2"], {}), (["--set", "a=1", "b = 2", "--set=[c=3,d=4]"], {"--set": ["a=1", "b=2", "c=3", "d=4"]}),
+                             (["--method=force", "-qq"], {"--method": ["force"]}), (["--new"], {"--new": []}), (["word"], {"": ["word"]})):
+            self.assertEqual(settings.settings_of(words), found)
 
 
 if __name__ == "__main__":
