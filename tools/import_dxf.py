@@ -20,6 +20,8 @@ from needed_modules import need
 need("ezdxf")
 import ezdxf    # noqa: E402
 import ezdxf.path    # noqa: E402
+from ezdxf.lldxf.const import VTX_SPLINE_FRAME_CONTROL_POINT    # noqa: E402
+from ezdxf.math import Matrix44    # noqa: E402
 
 from plain_text import one_line, printable    # noqa: E402
 
@@ -29,6 +31,7 @@ METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 4: ("mm", 0.001), 5: ("cm"
 ROUND_OFF = 1e-12    # of coordinates, in the ends of arcs
 LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
 Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
+Piece = namedtuple("Piece", "entity layer place")    # `place`: from its block to the model space
 
 
 class DrawingError(Exception):
@@ -66,22 +69,34 @@ def parse(arguments):
     return options
 
 
-def entities_of(space, outer=None, depth=0):
+def entities_of(space, outer=Piece(None, None, Matrix44()), depth=0):
     """All that is drawn, block references taken apart, with its layer: on layer 0 of a block that of the reference."""
     if depth > DEEPEST:
         raise DrawingError(f"blocks refer to blocks more than {DEEPEST} deep, or to themselves. Take the references apart.")
     for entity in space:
-        layer = outer if outer is not None and entity.dxf.layer == "0" else entity.dxf.layer
-        if entity.dxftype() == "INSERT":
-            for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
-                yield from entities_of(one.virtual_entities(), layer, depth + 1)
-        else:
-            yield entity, layer
+        kind, layer = entity.dxftype(), entity.dxf.layer
+        if kind == "ATTDEF" and depth > 0:    # a text that the reference has
+            continue
+        layer = outer.layer if depth > 0 and layer == "0" else layer
+        if kind != "INSERT":
+            yield Piece(entity, layer, outer.place)
+            continue
+        for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
+            block = one.block()
+            if block is None:
+                raise DrawingError(f"the block {one.dxf.name} is not there. Save the drawing anew.")
+            yield from entities_of(block, Piece(one, layer, one.matrix44() * outer.place), depth + 1)
 
 
-def points_of(entity, scale, arc):
+def path_of(piece):
+    """Its line in the model space. Of a polyline that was fitted by a spline, the vertices that shaped the spline are no part of it."""
+    if piece.entity.dxftype() == "POLYLINE":
+        piece.entity.vertices[:] = [vertex for vertex in piece.entity.vertices if not vertex.dxf.flags & VTX_SPLINE_FRAME_CONTROL_POINT]
+    return ezdxf.path.make_path(piece.entity).transform(piece.place)    # arcs are Bezier curves by now, which any scale keeps
+
+
+def points_of(path, scale, arc):
     """Corners [m], without those that repeat, and whether the line is closed."""
-    path = ezdxf.path.make_path(entity)
     drawn = [(scale * vertex.x, scale * vertex.y) for vertex in path.flattening(arc / scale)]
     farthest = max((abs(x) for point in drawn for x in point), default=0.0)
     if not math.isfinite(farthest + sum(x for point in drawn for x in point)):
@@ -110,7 +125,8 @@ def read(options):
         lines.append(Line(f"{name}_{numbers[name, lines is blocks]}", layer.lower(), points))
     drawing = ezdxf.readfile(options.drawing)
     hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()} - layers
-    for entity, layer in entities_of(drawing.modelspace()):
+    for piece in entities_of(drawing.modelspace()):
+        entity, layer = piece.entity, piece.layer
         if layer.lower() in hidden:
             left_out["on layers that are off or frozen (name them by --layer)"] += 1
             continue
@@ -121,7 +137,7 @@ def read(options):
             left_out[entity.dxftype()] += 1
             continue
         try:
-            points, closed = points_of(entity, options.scale, options.arc)
+            points, closed = points_of(path_of(piece), options.scale, options.arc)
         except (TypeError, ValueError, ArithmeticError):
             left_out[f"{entity.dxftype()} that is no line in a plane"] += 1
             continue
