@@ -2,7 +2,7 @@
 import re
 import tomllib
 
-STEP = re.compile(r"([^\[]*)(?:\[(\d+)\])?")    # load[0]
+STEP = re.compile(r"([^\[]*)(?:\[([0-9]{1,8})\])?")    # load[0]
 
 
 def document_of(case):

@@ -27,14 +27,16 @@ def digest_of(file):
 
 def texts_in(value):
     """All texts of a case or a part of it, but for names and titles."""
-    if isinstance(value, str):
-        yield value
-    elif isinstance(value, list):
-        for inner in value:
-            yield from texts_in(inner)
-    elif isinstance(value, dict):
-        for key, inner in value.items():
-            yield from texts_in(inner) if key not in ("name", "title") else ()
+    found, left = set(), [value]    # dotted keys are deeper than functions may call themselves
+    while left:
+        value = left.pop()
+        if isinstance(value, str):
+            found.add(value)
+        elif isinstance(value, list):
+            left += value
+        elif isinstance(value, dict):
+            left += [inner for key, inner in value.items() if key not in ("name", "title")]
+    return found
 
 
 def is_number(text):
@@ -48,7 +50,7 @@ def is_number(text):
 def named_files(case, document, values):
     """SHA-256 of each file that the case names, or one of these values of --set: blocks, tables, laws. Any text that is the name of a file counts as one."""
     parts = [document, *(keys.value_of(value) for value in values if not is_number(value))]
-    found = ((text, digest_of(case.parent / text)) for text in sorted({text for part in parts for text in texts_in(part)}))
+    found = ((text, digest_of(case.parent / text)) for text in sorted(texts_in(parts)))
     return {text: digest for text, digest in found if digest is not None}
 
 

@@ -71,6 +71,7 @@ class VariedKeys(Scratch):
             self.assertEqual(keys.place_of(key, document), place, key)
         sets = {"joint_set": [{"dip_deg": 1}, {"name": "b"}]}
         self.assertEqual([keys.place_of(f"joint_set.{name}.dip_deg", sets)[1] for name in ("set1", "b", "set2")], [0, 1, "set2"])
+        self.assertEqual(keys.place_of("load[" + 5000 * "9" + "].force", document)[1:], ["force"], "hdem refuses it")
         self.assertFalse(keys.overlap("load[0].force", "load.push.force", document))
         self.assertFalse(keys.overlap("load.push.force[0]", "load.push.force[1]", document))
         self.assertTrue(keys.overlap("load.push.force[0]", "load[1].force", document))
@@ -133,6 +134,14 @@ class SameInput(Scratch):
         (self.folder / "Small run").write_text("a file that has the title of the case", encoding="utf-8")
         self.plan("load.push.force=1,2")
         self.assertEqual(list(json.loads((self.folder / "s/plan.json").read_text())["files_sha256"]), ["table.csv"])
+
+    def test_a_case_that_is_no_case_is_left_to_hdem(self):
+        for text in ("a" + 3000 * ".a" + " = 1", "a = " + 3000 * "[", "title = ", "\xff"):
+            (self.folder / "case.toml").write_text(text, encoding="latin-1")
+            self.assertIn("hdem refuses run 1", self.plan("load.push.force=1:2", code=2))
+            self.sweep("plan", "case.toml", "-o", "s", "--vary", "load.push.force=1:2", "--program", "nowhere")
+            self.work("--set", "time.step=1e-4")
+            subprocess.run(["rm", "-r", self.folder / "s"], check=True)
 
     def test_options_that_shape_results_stay_the_same(self):
         self.plan("load.push.force=1:4")
