@@ -8,7 +8,8 @@ The ending of a file says what is written: .wkt or .csv, both are read by hdem. 
 --material gives the blocks of a layer a material of the case, --fixed fixes them. Traces carry no properties in hdem.
 
 Reads LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and SPLINE in the model space, also inside block references, whose layer counts for
-what lies on layer 0 in them; curves become straight stretches. What is left out is counted. hdem wants metres: --scale is what one unit of the drawing is in metres.
+what lies on layer 0 in them; curves become straight stretches. What the drawing does not show is left out, as are other entities; both are counted. hdem wants metres:
+--scale is what one unit of the drawing is in metres.
 """
 import argparse
 import math
@@ -20,15 +21,26 @@ from needed_modules import need
 need("ezdxf")
 import ezdxf    # noqa: E402
 import ezdxf.path    # noqa: E402
+from ezdxf.lldxf.const import VTX_SPLINE_FRAME_CONTROL_POINT    # noqa: E402
+from ezdxf.math import Matrix44    # noqa: E402
 
 from plain_text import one_line, printable    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 DEEPEST = 50    # references of blocks in blocks
-METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 4: ("mm", 0.001), 5: ("cm", 0.01), 7: ("km", 1000.0), 14: ("dm", 0.1)}    # of $INSUNITS
+SURVEY = 1200 / 3937    # foot of the US survey [m]
+# Name and metres of the units of $INSUNITS; 0 is none. ezdxf.units has neither those of the US survey nor all digits.
+METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 3: ("miles", 1609.344), 4: ("mm", 0.001), 5: ("cm", 0.01), 6: ("metres", 1.0), 7: ("km", 1000.0),
+          8: ("microinches", 2.54e-8), 9: ("mils", 2.54e-5), 10: ("yards", 0.9144), 11: ("angstroms", 1e-10), 12: ("nanometres", 1e-9), 13: ("micrometres", 1e-6),
+          14: ("dm", 0.1), 15: ("decametres", 10.0), 16: ("hectometres", 100.0), 17: ("gigametres", 1e9), 18: ("astronomical units", 149597870700.0),
+          19: ("light years", 9460730472580800.0), 20: ("parsecs", 3.0856775814913673e16), 21: ("US survey feet", SURVEY), 22: ("US survey inches", SURVEY / 12),
+          23: ("US survey yards", 3 * SURVEY), 24: ("US survey miles", 5280 * SURVEY)}
+SAME_SCALE = 1e-6    # a foot of the US survey is 2e-6 longer than others
 ROUND_OFF = 1e-12    # of coordinates, in the ends of arcs
 LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
+HIDDEN, IN_FROZEN, INVISIBLE = "on layers that are off or frozen (name them by --layer)", "in block references on frozen layers (name these by --layer)", "invisible"
 Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
+Piece = namedtuple("Piece", "entity layer place unseen")    # `place`: from its block to the model space; `unseen`: why the drawing does not show it, or ""
 
 
 class DrawingError(Exception):
@@ -66,22 +78,36 @@ def parse(arguments):
     return options
 
 
-def entities_of(space, outer=None, depth=0):
-    """All that is drawn, block references taken apart, with its layer: on layer 0 of a block that of the reference."""
+def entities_of(space, hidden, outer=Piece(None, None, Matrix44(), ""), depth=0):
+    """All that is drawn, block references taken apart. `hidden`: of each layer that is not shown, whether it is frozen."""
     if depth > DEEPEST:
         raise DrawingError(f"blocks refer to blocks more than {DEEPEST} deep, or to themselves. Take the references apart.")
     for entity in space:
-        layer = outer if outer is not None and entity.dxf.layer == "0" else entity.dxf.layer
-        if entity.dxftype() == "INSERT":
-            for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
-                yield from entities_of(one.virtual_entities(), layer, depth + 1)
-        else:
-            yield entity, layer
+        kind, layer = entity.dxftype(), entity.dxf.layer
+        if kind == "ATTDEF" and depth > 0:    # a text that the reference has
+            continue
+        layer = outer.layer if depth > 0 and layer == "0" else layer
+        unseen = outer.unseen or (INVISIBLE if entity.dxf.get("invisible", 0) else "")
+        if kind != "INSERT":
+            yield Piece(entity, layer, outer.place, unseen or (HIDDEN if layer.lower() in hidden else ""))
+            continue
+        unseen = unseen or (IN_FROZEN if hidden.get(layer.lower()) else "")    # where its layer is off, a reference still shows what lies on others
+        for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
+            block = one.block()
+            if block is None:
+                raise DrawingError(f"the block {one.dxf.name} is not there. Save the drawing anew.")
+            yield from entities_of(block, hidden, Piece(one, layer, one.matrix44() * outer.place, unseen), depth + 1)
 
 
-def points_of(entity, scale, arc):
+def path_of(piece):
+    """Its line in the model space. Of a polyline that was fitted by a spline, the vertices that shaped the spline are no part of it."""
+    if piece.entity.dxftype() == "POLYLINE":
+        piece.entity.vertices[:] = [vertex for vertex in piece.entity.vertices if not vertex.dxf.flags & VTX_SPLINE_FRAME_CONTROL_POINT]
+    return ezdxf.path.make_path(piece.entity).transform(piece.place)    # arcs are Bezier curves by now, which any scale keeps
+
+
+def points_of(path, scale, arc):
     """Corners [m], without those that repeat, and whether the line is closed."""
-    path = ezdxf.path.make_path(entity)
     drawn = [(scale * vertex.x, scale * vertex.y) for vertex in path.flattening(arc / scale)]
     farthest = max((abs(x) for point in drawn for x in point), default=0.0)
     if not math.isfinite(farthest + sum(x for point in drawn for x in point)):
@@ -109,10 +135,11 @@ def read(options):
         numbers[name, lines is blocks] += 1
         lines.append(Line(f"{name}_{numbers[name, lines is blocks]}", layer.lower(), points))
     drawing = ezdxf.readfile(options.drawing)
-    hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()} - layers
-    for entity, layer in entities_of(drawing.modelspace()):
-        if layer.lower() in hidden:
-            left_out["on layers that are off or frozen (name them by --layer)"] += 1
+    unshown = {layer.dxf.name.lower(): layer.is_frozen() for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
+    for piece in entities_of(drawing.modelspace(), {name: frozen for name, frozen in unshown.items() if name not in layers}):
+        entity, layer = piece.entity, piece.layer
+        if piece.unseen:
+            left_out[piece.unseen] += 1
             continue
         if layers and layer.lower() not in layers:
             left_out["on other layers"] += 1
@@ -121,7 +148,7 @@ def read(options):
             left_out[entity.dxftype()] += 1
             continue
         try:
-            points, closed = points_of(entity, options.scale, options.arc)
+            points, closed = points_of(path_of(piece), options.scale, options.arc)
         except (TypeError, ValueError, ArithmeticError):
             left_out[f"{entity.dxftype()} that is no line in a plane"] += 1
             continue
@@ -133,9 +160,9 @@ def read(options):
             add(traces, layer, points + points[:1] if closed else points)
         else:
             left_out["open lines"] += 1
-    unit, metres = METRES.get(drawing.header.get("$INSUNITS", 0), ("", 1.0))
-    if unit and options.scale != metres:
-        print(f"note: the drawing says that its unit is {unit}: --scale {metres:g}", file=sys.stderr)
+    unit, metres = METRES.get(drawing.header.get("$INSUNITS", 0), ("", options.scale))
+    if not math.isclose(options.scale, metres, rel_tol=SAME_SCALE):
+        print(f"note: the drawing says that its unit is {unit}: --scale {metres:.10g}, not {options.scale:.10g}", file=sys.stderr)
     return blocks, traces, left_out
 
 

@@ -6,9 +6,9 @@ from collections import Counter
 from run_lock import LOCK, is_running
 
 from . import estimates, plans
-from .common import SweepError, flat, folder_of, read_summary
+from .common import CLAIMS, SweepError, flat, folder_of, read_summary
 from .criterion import Criterion
-from .work import CLAIMS, told
+from .work import told
 
 STATE = "state"
 

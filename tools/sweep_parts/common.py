@@ -3,6 +3,7 @@ import json
 
 DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 129, 130, 143)    # exit codes of hdem
 SUMMARY = "summary.json"
+CLAIMS = "claims"    # folder: a file for each run that a worker has
 
 
 class SweepError(Exception):

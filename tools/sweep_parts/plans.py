@@ -1,15 +1,14 @@
 """The plan of a sweep: which values each run has."""
-import hashlib
 import itertools
 import json
 import random
 import subprocess
 from decimal import Decimal, InvalidOperation
-from pathlib import Path
 
-from . import designs
+from . import designs, keys
 from .common import FACTOR, SweepError, runs_in
 from .criterion import Criterion
+from .same_input import digest_of, files_of_plan
 
 PLAN = "plan.json"
 MOST_RUNS = 100000
@@ -93,30 +92,6 @@ def try_run(options, number, values):
         raise SweepError(f"hdem refuses run {number + 1}:\n{done.stderr.strip()}")
 
 
-def digest_of(case):
-    """Of a case file; None where there is none: hdem says so."""
-    try:
-        return hashlib.sha256(case.read_bytes()).hexdigest()
-    except OSError:
-        return None
-
-
-def require_other_keys(plan, words):
-    """A value that is laid over all runs must not be one that the plan varies: the table would say another one than ran."""
-    laid = {word.partition("=")[0].strip() for flag, word in zip(words, words[1:]) if flag == "--set"}
-    laid |= {word.removeprefix("--set=").partition("=")[0].strip() for word in words if word.startswith("--set=")}
-    varied = {key for values in plan["runs"] for key in values} | ({plan["bisect"]["key"]} if "bisect" in plan else set())
-    if same := sorted(laid & varied):
-        raise SweepError(f"--set {same[0]}: the plan varies it, and the table would show the plan's values. Leave it away, or make another plan.")
-
-
-def require_same_case(plan):
-    """Runs of a case that has changed would stand in one table with those before."""
-    now = digest_of(Path(plan["case"]))
-    if now is not None and plan.get("case_sha256", now) != now:
-        raise SweepError(f"{plan['case']}: has changed since the plan was made: its runs do not belong together. Put the case back, or make a new plan in another folder.")
-
-
 def require_free(folder):
     if (folder / PLAN).exists():
         raise SweepError(f"{folder / PLAN}: there is a plan already. Give another folder.")
@@ -124,13 +99,19 @@ def require_free(folder):
         raise SweepError(f"{old}: is a run of another plan, and would count as one of this plan. Give another folder.")
 
 
+def require_different(names, document):
+    """A value that varies under two names would have the last of them alone."""
+    for one, other in itertools.combinations(names, 2):
+        if keys.overlap(one, other, document):
+            raise SweepError(f"{one}: varies twice" + (f", also by {other}" if other != one else "") + ". Give each key once.")
+
+
 def make(options):
     varied = [split_key("--vary", text) for text in options.vary]
-    keys = [key for key, _ in varied]
+    names = [key for key, _ in varied]
     chain = bisection(options)
-    twice = next((key for key in keys if keys.count(key) > 1 or key == chain.get("bisect", {}).get("key")), None)
-    if twice:
-        raise SweepError(f"{twice}: varies twice. Give each key once.")
+    document = keys.document_of(options.case)
+    require_different(names + [one["key"] for one in chain.values()], document)
     if not varied and not chain:
         raise SweepError("nothing varies. Give --vary KEY=VALUES.")
     if options.design is None and options.runs is not None:
@@ -139,10 +120,12 @@ def make(options):
     if not options.case.exists():
         raise SweepError(f"{options.case}: no such file. Give a case.")
     require_free(options.output)
-    for number in extremes(keys, rows):
-        try_run(options, number, dict(zip(keys, rows[number])) | {one["key"]: one["low"] for one in chain.values()})
+    for number in extremes(names, rows):
+        try_run(options, number, dict(zip(names, rows[number])) | {one["key"]: one["low"] for one in chain.values()})
     options.output.mkdir(parents=True, exist_ok=True)
-    plan = {"case": str(options.case.resolve()), "case_sha256": digest_of(options.case), "runs": [dict(zip(keys, row)) for row in rows], **chain}
+    runs = [dict(zip(names, row)) for row in rows]
+    case = options.case.resolve()
+    plan = {"case": str(case), "case_sha256": digest_of(case), "files_sha256": files_of_plan(case, document, runs), "runs": runs, **chain}
     if options.command_of_hdem != "run":
         plan["command"] = options.command_of_hdem
     if options.design:
@@ -155,7 +138,8 @@ def make(options):
 def read(folder):
     try:
         plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-        if not isinstance(plan["case"], str) or not all(isinstance(chosen, dict) for chosen in plan["runs"]) or not isinstance(plan.get("bisect", {}), dict) or command_of(plan) not in COMMANDS:
+        tables = [*plan["runs"], plan.get("bisect", {}), plan.get("files_sha256", {})]
+        if not isinstance(plan["case"], str) or not all(isinstance(table, dict) for table in tables) or command_of(plan) not in COMMANDS:
             raise ValueError("case or runs are damaged")
         return plan
     except (OSError, ValueError, TypeError, KeyError) as error:

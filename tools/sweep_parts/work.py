@@ -8,10 +8,9 @@ from contextlib import contextmanager
 from functools import partial
 
 from . import estimates, plans, runs
-from .common import DONE, SweepError, flat, folder_of, read_summary
+from .common import CLAIMS, DONE, SweepError, flat, folder_of, read_summary
 from .criterion import Criterion
-
-CLAIMS = "claims"
+from .same_input import require_same_input
 
 
 @contextmanager
@@ -128,8 +127,7 @@ def work(options):
     if options.jobs < 1:
         raise SweepError(f"--jobs {options.jobs}: must be at least 1.")
     plan = plans.read(options.folder)
-    plans.require_same_case(plan)
-    plans.require_other_keys(plan, options.for_hdem)
+    require_same_input(options.folder, plan, options.for_hdem)
     worker = Worker(options, plan)
     worker.start.listen()
     with ThreadPoolExecutor(options.jobs) as pool:

@@ -5,6 +5,7 @@
 
 Exit code 77 (skipped) without ezdxf or h5py.
 """
+import math
 import subprocess
 import sys
 import tempfile
@@ -89,6 +90,94 @@ class Drawing(unittest.TestCase):
         code, said = self.convert("--traces", self.folder / "t.wkt", "--layer", "joints", "--scale", "0.001")
         self.assertIn("t.wkt: 3 traces", said)
         self.assertNotIn("note:", said)
+
+    def save(self, drawing, unseen="UNSEEN"):
+        """What lies on this layer gets the mark of invisible entities, which older ezdxf does not write."""
+        drawing.saveas(self.folder / "map.dxf")
+        text = (self.folder / "map.dxf").read_text()
+        (self.folder / "map.dxf").write_text(text.replace(f"  8\n{unseen}\n", f"  8\n{unseen}\n 60\n1\n"))
+
+    def lines_of(self, *arguments):
+        """What was said, and x of the first point of each line."""
+        code, said = self.convert("--traces", self.folder / "t.wkt", *arguments)
+        self.assertEqual(code, 0, said)
+        return said, [float(line.split("(")[1].split()[0]) for line in (self.folder / "t.wkt").read_text().splitlines()[1:]]
+
+    def test_references_on_hidden_layers_show_what_a_drawing_shows(self):
+        drawing = ezdxf.new()
+        drawing.layers.add("FROZEN").freeze()
+        drawing.layers.add("OFF").off()
+        space, inner, block = drawing.modelspace(), drawing.blocks.new("INNER"), drawing.blocks.new("BLOCK")
+        inner.add_line((0, 0), (0, 1), dxfattribs={"layer": "SEEN"})
+        block.add_line((1, 0), (1, 1))
+        block.add_line((2, 0), (2, 1), dxfattribs={"layer": "SEEN"})
+        block.add_blockref("INNER", (3, 0), dxfattribs={"layer": "SEEN"})
+        for x, layer in ((0, "SEEN"), (10, "FROZEN"), (20, "OFF")):
+            space.add_blockref("BLOCK", (x, 0), dxfattribs={"layer": layer})
+        self.save(drawing)
+        said, lines = self.lines_of()
+        self.assertEqual(lines, [1, 2, 3, 22, 23], "a reference on a frozen layer is not drawn; of one whose layer is off, what lies on other layers")
+        self.assertIn("left out: 3 in block references on frozen layers (name these by --layer)\nleft out: 1 on layers that are off or frozen", said)
+        self.assertEqual(self.lines_of("--layer", "Frozen", "--layer", "Seen")[1], [1, 2, 3, 11, 12, 13, 22, 23])
+
+    def test_invisible_entities_are_left_out(self):
+        drawing = ezdxf.new()
+        space, block = drawing.modelspace(), drawing.blocks.new("BLOCK")
+        block.add_line((0, 0), (0, 1), dxfattribs={"layer": "SEEN"})
+        block.add_line((1, 0), (1, 1), dxfattribs={"layer": "UNSEEN"})
+        space.add_line((2, 0), (2, 1), dxfattribs={"layer": "UNSEEN"})
+        space.add_blockref("BLOCK", (3, 0))
+        space.add_blockref("BLOCK", (6, 0), dxfattribs={"layer": "UNSEEN"})
+        self.save(drawing)
+        said, lines = self.lines_of()
+        self.assertEqual(lines, [3])
+        self.assertIn("left out: 4 invisible", said)
+
+    def test_all_units_are_known(self):
+        for number, name, metres in ((1, "inches", "0.0254"), (3, "miles", "1609.344"), (6, "metres", "1"), (10, "yards", "0.9144"), (16, "hectometres", "100"),
+                                     (21, "US survey feet", "0.3048006096"), (22, "US survey inches", "0.0254000508"), (24, "US survey miles", "1609.347219")):
+            drawing = ezdxf.new()
+            drawing.header["$INSUNITS"] = number
+            drawing.modelspace().add_line((0, 0), (1, 1))
+            self.save(drawing)
+            self.assertIn(f"note: the drawing says that its unit is {name}: --scale {metres}, not 2\n", self.lines_of("--scale", "2")[0])
+            self.assertNotIn("note", self.lines_of("--scale", metres)[0])
+        drawing.header["$INSUNITS"] = 0
+        self.save(drawing)
+        self.assertNotIn("note", self.lines_of("--scale", "2")[0])
+
+    def test_polylines_fitted_by_a_spline_have_the_fitted_points_alone(self):
+        drawing = ezdxf.new("R12")
+        line = drawing.modelspace().add_polyline2d([(0, 1), (3, 2)])
+        line.dxf.flags |= 4
+        for vertex in line.vertices:
+            vertex.dxf.flags |= 16
+        for point in ((0, 1), (1, 5), (2, 4), (3, 2)):
+            line.append_vertex(point, dxfattribs={"flags": 8})
+        self.save(drawing)
+        self.assertEqual(self.lines_of()[1], [0])
+        self.assertEqual((self.folder / "t.wkt").read_text().splitlines()[1], "LINESTRING(0 1, 1 5, 2 4, 3 2)")
+
+    def test_arcs_in_references_of_unequal_scale_stay_one_line(self):
+        drawing = ezdxf.new()
+        space, block, outer = drawing.modelspace(), drawing.blocks.new("ARCH"), drawing.blocks.new("OUTER")
+        block.add_lwpolyline([(0, 0, 0), (4, 0, 1), (4, 2, 0), (0, 2, 0)], format="xyb", close=True)    # a square of 4 x 2 with half a circle
+        block.add_circle((-2, 1), 1)
+        outer.add_blockref("ARCH", (0, 0), dxfattribs={"rotation": 90})
+        space.add_blockref("ARCH", (20, 0), dxfattribs={"xscale": 2, "yscale": 1})
+        space.add_blockref("OUTER", (0, 0), dxfattribs={"xscale": -1, "yscale": 3, "rotation": 30})
+        self.save(drawing)
+        code, said = self.convert("--blocks", self.folder / "b.wkt", "--arc", "1e-4")
+        self.assertEqual(code, 0, said)
+        self.assertIn("4 blocks", said)
+        self.assertNotIn("left out", said)
+        areas = []
+        for line in (self.folder / "b.wkt").read_text().splitlines()[1:]:
+            points = [tuple(map(float, point.split())) for point in line.split("((")[1].split("))")[0].split(",")]
+            areas.append(abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:]))) / 2)
+        for area, expected in zip(areas, (2 * (8 + math.pi / 2), 2 * math.pi, 3 * (8 + math.pi / 2), 3 * math.pi)):
+            self.assertAlmostEqual(area, expected, delta=2e-3 * expected, msg=areas)
+        self.check('blocks_file = "b.wkt"\n')
 
     def test_blocks_that_refer_to_themselves(self):
         drawing = ezdxf.new()
