@@ -142,7 +142,8 @@ class Run:
     def blocks(self, frame="last"):
         """Arrays with one entry per block, in the order of `id`.
 
-        The frame's cell data (id, displacement, regime, ...), name, position, area, mass; polygon: list of outlines (n, 2).
+        The frame's cell data (id, displacement, regime, ...), name, position, area, mass; polygon: list of outlines (n, 2);
+        holes: for each block a list of the outlines of its holes (n, 2), most have none.
         part_polygon, part_block: convex parts and the position of their blocks in the other arrays.
         edges (n, 2, 2), edge_block: outer edges. outline (n, 2, 2): edges around excavations.
         info: dict with cycle, time, stage, title and so on.

@@ -151,6 +151,23 @@ class Surroundings(unittest.TestCase):
                 plot.plt.close(figure)
 
 
+class Holes(unittest.TestCase):
+    def test_polygon_is_the_outer_ring_and_holes_are_apart(self):
+        """Rock around two tunnels that are not excavated yet: what is inside them is a block, and the rock has holes there."""
+        tunnel = '[[excavation]]\nname = "{}"\nshape = "rectangle"\nposition = [{}, 2]\nwidth = 1.0\nheight = {}\ninside = "one_block"\n'
+        case = '[domain]\nwidth = 8\nheight = 4\n[[joint_set]]\ndip_deg = 0\nspacing = 9\norigin = [0, 9]\n' + tunnel.format("a", 2, 1.5) + tunnel.format("b", 5, 0.5)
+        with tempfile.TemporaryDirectory(prefix="hdem_plot_test_") as scratch:
+            folder = small_case.run(HDEM, Path(scratch), case + small_case.ROCK + '[[stage]]\ncycles = 1\n')
+            blocks = hdem_io.open_run(folder).blocks(0)
+        self.assertEqual(len(blocks["id"]), 3)
+        for name, polygon, holes, wanted in zip(blocks["name"], blocks["polygon"], blocks["holes"], blocks["area"]):
+            self.assertAlmostEqual(area(polygon) - sum(map(area, holes)), wanted, places=9, msg=name)
+        rock = int(np.argmax(blocks["area"]))
+        self.assertAlmostEqual(area(blocks["polygon"][rock]), 32.0, places=9)
+        self.assertEqual([round(area(hole), 9) for hole in blocks["holes"][rock]], [0.5, 1.5])
+        self.assertEqual(sorted(map(len, blocks["holes"])), [0, 0, 2])
+
+
 class InterruptedRun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
