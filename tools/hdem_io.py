@@ -152,6 +152,9 @@ class Run:
 
     def contacts(self, frame="last"):
         """Arrays with one entry per contact: the frame's cell data, and points (n, 2, 2), its two ends."""
+        if not self.has_contacts(frame):
+            raise ResultError(f"{self.folder}: holds no contacts of frame {self.frame(frame).number}: output.contacts of the case is false, or the file was removed. "
+                              "Set output.contacts = true, and run the case again.")
         return read_contacts(self._file("contacts", frame))
 
     def has_contacts(self, frame="last"):
