@@ -124,29 +124,46 @@ def _shapes(opened, points, offsets, outer, part_block, count):
     edge_block = np.repeat(part_block, np.diff(offsets))[outer]
     first_part = np.searchsorted(part_block, np.arange(count + 1))
     first_edge = np.searchsorted(edge_block, np.arange(count + 1))
-    polygons = []
+    polygons, holes = [], []
     for block in range(count):
         mine = edges[first_edge[block]:first_edge[block + 1]]
         if first_part[block + 1] - first_part[block] == 1:
             polygons.append(parts[first_part[block]])
+            holes.append([])
         elif len(mine) < 3:
             opened.fail("hdem/outer_edge", "a block without an outline")
         else:
-            polygons.append(_joined(mine))
-    return {"part_polygon": parts, "part_block": part_block, "edges": edges, "edge_block": edge_block, "polygon": polygons}
+            outer, *inner = _rings(mine)
+            polygons.append(outer)
+            holes.append(inner)
+    return {"part_polygon": parts, "part_block": part_block, "edges": edges, "edge_block": edge_block, "polygon": polygons, "holes": holes}
 
 
-def _joined(edges):
-    """Ends of edges that meet were computed from the same corner, so they differ by rounding only."""
-    left = np.ones(len(edges), bool)
-    left[0] = False
-    ring = [edges[0][0], edges[0][1]]
-    for _ in range(len(edges) - 1):
-        distance = np.where(left, np.sum((edges[:, 0] - ring[-1]) ** 2, axis=1), np.inf)
-        nearest = np.argmin(distance)
+def _rings(edges):
+    """The outline of a block from its outer edges, then its holes, which run the other way round."""
+    left, rings = np.ones(len(edges), bool), []
+    while np.any(left):
+        rings.append(_take_ring(edges, left))
+    return sorted(rings, key=_doubled_area, reverse=True)
+
+
+def _take_ring(edges, left):
+    """Each edge goes on with the one that begins where it ends. Ends that meet were computed from the same corner, so they differ by rounding only."""
+    nearest = np.argmax(left)
+    ring = []
+    while True:
         left[nearest] = False
-        ring.append(edges[nearest][1])
-    return np.array(ring[:-1])
+        ring.append(edges[nearest][0])
+        end = edges[nearest][1]
+        distance = np.where(left, np.sum((edges[:, 0] - end) ** 2, axis=1), np.inf)
+        nearest = np.argmin(distance)
+        if np.sum((ring[0] - end) ** 2) <= distance[nearest]:
+            return np.array(ring)
+
+
+def _doubled_area(ring):
+    x, y = (ring - ring[0]).T
+    return np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))
 
 
 def read_contacts(file):

@@ -142,7 +142,8 @@ class Run:
     def blocks(self, frame="last"):
         """Arrays with one entry per block, in the order of `id`.
 
-        The frame's cell data (id, displacement, regime, ...), name, position, area, mass; polygon: list of outlines (n, 2).
+        The frame's cell data (id, displacement, regime, ...), name, position, area, mass; polygon: list of outlines (n, 2);
+        holes: for each block a list of the outlines of its holes (n, 2), most have none.
         part_polygon, part_block: convex parts and the position of their blocks in the other arrays.
         edges (n, 2, 2), edge_block: outer edges. outline (n, 2, 2): edges around excavations.
         info: dict with cycle, time, stage, title and so on.
@@ -151,6 +152,9 @@ class Run:
 
     def contacts(self, frame="last"):
         """Arrays with one entry per contact: the frame's cell data, and points (n, 2, 2), its two ends."""
+        if not self.has_contacts(frame):
+            raise ResultError(f"{self.folder}: holds no contacts of frame {self.frame(frame).number}: output.contacts of the case is false, or the file was removed. "
+                              "Set output.contacts = true, and run the case again.")
         return read_contacts(self._file("contacts", frame))
 
     def has_contacts(self, frame="last"):

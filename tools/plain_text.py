@@ -1,4 +1,6 @@
 """Names and titles are texts wherever they are shown: no formula, no part of a path, no command of the screen."""
+import argparse
+
 LONGEST_FILE_NAME = 200    # bytes, of the 255 that a file system takes
 LONGEST_LINE = 250         # characters in a picture: a name has at most 200, a title as many as it likes
 
@@ -10,6 +12,13 @@ def printable(text, kept=""):
 
 def one_line(text):
     return printable(" ".join(str(text).split()))
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """Says in one line what is wrong with the words of a command, as those in C++ do."""
+
+    def error(self, message):
+        self.exit(2, f"error: {self.prog}: {one_line(message).rstrip('.')}. {self.prog} --help lists all options.\n")
 
 
 def reason_of(error):

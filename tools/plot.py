@@ -4,10 +4,8 @@
 The blocks that stay in place decide the range of the colours: one fallen block must not wash out the rest. Detached blocks are
 drawn hatched where they are.
 """
-import argparse
 import math
 import sys
-from pathlib import Path
 
 from needed_modules import need
 need("h5py", "matplotlib", "numpy")
@@ -23,8 +21,9 @@ from matplotlib.patches import Patch    # noqa: E402
 from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E402
 from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
 from plot_factor import draw_factor    # noqa: E402
-from plot_history import draw_history, moment_of, scaled_unit, state_of    # noqa: E402
-from plot_rock import JOINTS, draw_crosses, draw_joints, draw_water_table    # noqa: E402
+from plot_history import draw_history, moment_of, name_of, scaled_unit, state_of    # noqa: E402
+from plot_options import CLASSES, FIELDS, MOTION, parse    # noqa: E402, F401
+from plot_rock import draw_crosses, draw_joints, draw_water_table    # noqa: E402
 from plot_support import DIAGRAM, draw_bolts, draw_liners    # noqa: E402
 
 # Safe for the common kinds of colour blindness (Okabe and Ito; ColorBrewer).
@@ -34,54 +33,6 @@ SEQUENTIAL, DIVERGING = "YlGnBu", "RdBu_r"
 REGIMES = ["no contact", "force", "impulse"]
 STYLE = {"font.size": 8, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
          "hatch.linewidth": 0.5, "legend.fontsize": 7.5, "svg.hashsalt": "hdem", "svg.fonttype": "none"}
-
-# name -> label, unit, value per block, whether both signs occur
-FIELDS = {
-    "displacement": ("displacement", "m", lambda b: np.linalg.norm(b["displacement"], axis=1), False),
-    "displacement_x": ("displacement in x", "m", lambda b: b["displacement"][:, 0], True),
-    "displacement_y": ("displacement in y", "m", lambda b: b["displacement"][:, 1], True),
-    "rotation": ("rotation", "deg", lambda b: np.degrees(b["rotation"]), True),
-    "velocity": ("speed", "m/s", lambda b: b["speed"], False),
-    "stress": ("mean stress, magnitude", "Pa", lambda b: b["stress_magnitude"], False),
-    "stress_xx": ("mean stress $\\sigma_{xx}$, compression positive", "Pa", lambda b: b["stress_xx"], True),
-    "stress_yy": ("mean stress $\\sigma_{yy}$, compression positive", "Pa", lambda b: b["stress_yy"], True),
-    "stress_xy": ("mean stress $\\sigma_{xy}$", "Pa", lambda b: b["stress_xy"], True),
-}
-CLASSES = ("regime", "material", "none")
-MOTION = ("displacement", "displacement_x", "displacement_y", "rotation", "velocity")    # a falling block has far more of it than the others
-
-
-def parse(arguments):
-    parser = argparse.ArgumentParser(prog="hdem plot", description="Draw a frame of a run, or a history of it, as PNG, SVG or PDF.")
-    parser.add_argument("result", type=Path, help="results.h5, the run's folder, or one blocks_NNNNNN.hdf")
-    parser.add_argument("-o", "--output", type=Path, help="picture; its ending decides the format (default: COLOUR_NNNNNN.png beside the result)")
-    parser.add_argument("--colour", "--color", default="displacement", choices=[*FIELDS, *CLASSES], help="what the colours show (default: displacement)")
-    parser.add_argument("--frame", default="last", help="number of the frame, or last (default)")
-    parser.add_argument("--excavation", action="store_true", help="only the surroundings of the excavation")
-    parser.add_argument("--window", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="only this part [m]")
-    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, in SI units")
-    parser.add_argument("--contacts", action="store_true", help="draw contact forces as lines between blocks")
-    parser.add_argument("--joints", choices=JOINTS, help="draw joints as lines, as wide as this is great")
-    parser.add_argument("--bolts", action="store_true", help="draw the bolts, coloured by their axial force")
-    parser.add_argument("--liners", choices=("thrust", "moment"), help="draw the linings with this along them")
-    parser.add_argument("--numbers", action="store_true", help="with --joints: write values beside them, the greatest of each part of the picture")
-    parser.add_argument("--crosses", action="store_true", help="draw the principal stresses of blocks as crosses")
-    parser.add_argument("--history", metavar="NAME", help="draw this history over time instead; energy: kinetic energy and the like")
-    parser.add_argument("--factor", action="store_true", help="draw displacement against the factor of the trials of hdem fos instead")
-    parser.add_argument("--title", help="instead of the case's title")
-    parser.add_argument("--width", type=float, default=160.0, help="of the picture [mm] (default: 160)")
-    parser.add_argument("--dpi", type=float, default=200.0, help="of a PNG (default: 200)")
-    options = parser.parse_args(arguments)
-    if options.factor and (options.history or options.result.suffix == ".hdf"):
-        parser.error("argument --factor: needs the folder of hdem fos, and no --history")
-    if options.numbers and not options.joints:
-        parser.error("argument --numbers: needs --joints")
-    if options.frame != "last" and not options.frame.isdigit():
-        parser.error("argument --frame: a number, or last")
-    for name, low in (("width", 20.0), ("dpi", 10.0)):
-        if not low <= getattr(options, name) <= 5000.0:
-            parser.error(f"argument --{name}: {low:g} to 5000")
-    return options
 
 
 def colour_range(values, signed):
@@ -117,7 +68,7 @@ def draw_field(axes, blocks, options):
         (low, high), extend = options.range, "both"
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
             raise ResultError(f"--range {low:g} {high:g}: no range. Give two finite numbers, the lower one first.")
-    factor, unit = scaled_unit(unit, max(abs(low), abs(high)))
+    factor, unit = (math.radians(1.0), "deg") if unit == "rad" else scaled_unit(unit, max(abs(low), abs(high)))
     shown = pick(blocks["part_polygon"], ~hatched, blocks)
     faces = PolyCollection(shown, cmap=DIVERGING if signed else SEQUENTIAL, edgecolors="face", linewidths=0.1)
     faces.set_array(values[blocks["part_block"]][~hatched[blocks["part_block"]]] / factor)
@@ -222,9 +173,6 @@ def figure_for(view, options, has_bar, legend_rows):
 def draw_frame(run, options):
     single = options.result.suffix == ".hdf"
     blocks = read_blocks(options.result) if single else run.blocks(options.frame)
-    over = "--contacts" if options.contacts else "--joints" if options.joints else "--bolts" if options.bolts else "--liners" if options.liners else None
-    if over and single:
-        raise ResultError(f"{over} needs the run's folder or its results.h5, not a single frame")
     contacts = run.contacts(options.frame) if options.contacts or options.joints else None
     if options.bolts and not run.has_bolts(options.frame):
         raise ResultError("--bolts: this case has no bolts, or the run is of a program that wrote no frames of them")
@@ -284,11 +232,12 @@ def make_picture(options):
     """The file it is in."""
     single = options.result.suffix == ".hdf"
     run = None if single else open_run(options.result)
-    figure = draw_factor(run, options) if options.factor else draw_history(run, options) if options.history else draw_frame(run, options)
+    over_time = options.history or options.energy
+    figure = draw_factor(run, options) if options.factor else draw_history(run, options) if over_time else draw_frame(run, options)
     output = options.output
     if output is None:
         folder = options.result if options.result.is_dir() else options.result.parent
-        name = "factor_of_safety" if options.factor else options.history or f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
+        name = "factor_of_safety" if options.factor else name_of(options) if over_time else f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
         output = folder / f"{as_file_name(name)}.png"
     if output.is_dir():
         raise ResultError(f"{output}: a folder. Give the name of a picture with -o.")
@@ -296,7 +245,7 @@ def make_picture(options):
         output = output.with_name(f"{output.name}.png")
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
-    if run and not options.history and not options.factor and state_of(run):
+    if run and not over_time and not options.factor and state_of(run):
         print(f"the picture shows {one_line(moment_of(run, run.frame(options.frame)))}", file=sys.stderr)
     return output
 

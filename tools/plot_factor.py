@@ -8,7 +8,7 @@ from plain_text import add_legend, literal
 from plot_history import scaled_unit
 
 SEARCHES = {"as_given": ("strength as given", "#0072b2", "o"), "peak": ("peak strength throughout", "#d55e00", "s"), "stiffer": ("stiffer joints", "#009e73", "^")}
-VERDICTS = ("stable", "failed", "undecided")
+VERDICTS = {"stable": "stands", "failed": "fails", "undecided": "undecided"}
 TRIAL = {"search": str, "factor": float, "verdict": str, "reason": str, "displacement": float, "cycles": float, "failing_blocks": list}
 
 
@@ -50,11 +50,11 @@ def draw_factor(run, options):
             continue
         x, y = [t["factor"] for t in same], [max(t["displacement"], least) / scale for t in same]
         axes.plot(x, y, color=colour, linewidth=0.6, alpha=0.5)
-        for full in (True, False):
-            points = [(a, b) for a, b, t in zip(x, y, same) if (t["verdict"] == "stable") == full]
+        for verdict, word in VERDICTS.items():
+            points = [(a, b) for a, b, t in zip(x, y, same) if t["verdict"] == verdict]
             if points:
-                handles.append(axes.plot(*zip(*points), marker, color=colour, markerfacecolor=colour if full else "white", markersize=5,
-                                         label=f"{name}: {'stands' if full else 'fails'}")[0])
+                handles.append(axes.plot(*zip(*points), marker, color=colour, markerfacecolor="white" if verdict == "failed" else colour, markersize=5,
+                                         fillstyle="left" if verdict == "undecided" else "full", markerfacecoloralt="white", label=f"{name}: {word}")[0])
     if factor.get("factor") is not None:
         handles.append(axes.axvline(factor["factor"], color="#222222", linewidth=0.8, label=f"F = {factor['factor']:.4f}"))
     if factor.get("bound") is not None:

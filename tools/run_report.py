@@ -3,7 +3,6 @@
 
 The page is one file that asks the network for nothing. A run that goes on, or was killed, gives a page of what there is by then.
 """
-import argparse
 import sys
 from pathlib import Path
 
@@ -12,10 +11,11 @@ need("h5py", "matplotlib", "numpy")
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
 import run_page    # noqa: E402
 from hdem_io import open_run, tell    # noqa: E402
+from plain_text import OneLineParser    # noqa: E402
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="hdem report", description="One HTML page of a run: summary, pictures, histories, energies, timing, provenance.")
+    parser = OneLineParser(prog="hdem report", description="One HTML page of a run: summary, pictures, histories, energies, timing, provenance.")
     parser.add_argument("result", type=Path, help="the run's folder, or its results.h5")
     parser.add_argument("-o", "--output", type=Path, help="the page (default: report.html in the run's folder)")
     return parser.parse_args(arguments)

@@ -14,27 +14,38 @@ import page    # noqa: E402
 from follow import follow    # noqa: E402
 from hdem_io import ResultError, open_run, tell    # noqa: E402
 from movie import COLOURS, make_movie    # noqa: E402
-from plain_text import as_file_name    # noqa: E402
+from plain_text import OneLineParser, as_file_name    # noqa: E402
 from run_pack import RunPack    # noqa: E402
 
 
+OF_MOVIES = {"colour": "displacement", "fps": 10.0, "window": None, "width": 1280}    # and what they are when they are not given
+
+
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="hdem view", description="One HTML page that plays the frames of a run, or of two runs side by side; or a film of them.")
+    parser = OneLineParser(prog="hdem view", description="One HTML page that plays the frames of a run, or of two runs side by side; or a film of them.")
     parser.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="a run's folder, or its results.h5; two of them are shown side by side")
     parser.add_argument("-o", "--output", type=Path, help="the page (default: view.html in the first run's folder)")
-    parser.add_argument("--contacts", choices=["auto", "all", "ends", "none"], default="auto",
+    parser.add_argument("--contacts", choices=["auto", "all", "ends", "none"],
                         help="frames whose contacts are in the page: all, each stage's last one (ends), none; auto (default): all, or where these are many ends")
     parser.add_argument("--movie", type=Path, metavar="FILE", help="a film instead of a page: .mp4 or .gif, drawn as hdem plot does; needs ffmpeg")
-    parser.add_argument("--colour", "--color", default="displacement", choices=COLOURS, help="of the film: as hdem plot --colour")
-    parser.add_argument("--fps", type=float, default=10.0, help="frames of the film a second (default: 10)")
+    parser.add_argument("--colour", "--color", choices=COLOURS, help="of the film: as hdem plot --colour (default: displacement)")
+    parser.add_argument("--fps", type=float, help="frames of the film a second (default: 10)")
     parser.add_argument("--window", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="only this part in the film [m]")
-    parser.add_argument("--width", type=int, default=1280, help="of the film in pixels (default: 1280)")
+    parser.add_argument("--width", type=int, help="of the film in pixels (default: 1280)")
     parser.add_argument("--follow", action="store_true", help=argparse.SUPPRESS)    # what hdem run --live starts
     options = parser.parse_args(arguments)
     if len(options.runs) > 2:
         parser.error("one run, or two")
     if options.movie and (len(options.runs) > 1 or options.output):
         parser.error("argument --movie: of one run; the film's name stands behind it, without -o")
+    for name, without in OF_MOVIES.items():
+        if getattr(options, name) is None:
+            setattr(options, name, without)
+        elif not options.movie:
+            parser.error(f"argument --{name}: of films only. Leave it out, or give --movie FILE.")
+    if options.movie and options.contacts:
+        parser.error("argument --contacts: of pages only. Leave it out, or leave out --movie.")
+    options.contacts = options.contacts or "auto"
     if options.movie and options.movie.suffix.lower() not in (".mp4", ".gif"):
         parser.error("argument --movie: a name that ends with .mp4 or .gif")
     if not 0.1 <= options.fps <= 120.0:

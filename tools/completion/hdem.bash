@@ -10,7 +10,7 @@ _hdem_words()
         check) echo "--set --write-blocks --blocks -h --help" ;;
         info) echo "-h --help" ;;
         schema) echo "--markdown -h --help" ;;
-        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --numbers --bolts --liners --crosses --history --factor --title --width --dpi -h --help" ;;
+        plot) echo "-o --output --colour --frame --excavation --window --range --contacts --joints --numbers --bolts --liners --crosses --history --energy --factor --title --width --dpi -h --help" ;;
         report) echo "-o --output -h --help" ;;
         view) echo "-o --output --contacts --movie --colour --fps --window --width -h --help" ;;
         *) echo "run fos critical check info schema plot report view --version -h --help" ;;

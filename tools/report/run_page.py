@@ -17,6 +17,7 @@ OUTCOME = [("method", "contact method", ""), ("cycles", "cycles", ""), ("cycles_
            ("unbalanced_force_ratio", "unbalanced force ratio", ""), ("mean_displacement", "mean displacement next to the excavation", "m"),
            ("max_displacement", "greatest displacement next to the excavation", "m"), ("mean_displacement_all", "mean displacement of all free blocks", "m"),
            ("max_displacement_all", "greatest displacement of all free blocks", "m"), ("state_hash", "hash of the final state", "")]
+NEXT_TO = ("mean_displacement", "max_displacement")    # the excavation, without detached blocks; of all free blocks in a run that excavates nothing
 # term of the ledger -> what it is, +1 put in, -1 taken out, 0 stored at the end
 LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by in-situ stress at the start", 1), "gravity_work": ("work of gravity", 1),
           "load_work": ("work of loads and prescribed motions", 1), "boundary": ("work of tractions and walls at the sides", 1), "water": ("work of water pressures", 1),
@@ -31,6 +32,7 @@ LEDGER = {"initial": ("stored at the start", 1), "insitu": ("stored in joints by
 SUMMARY = {"stages": list, "warnings": list, "converged": bool, "max_displacement": float, "wall_seconds": float, "cycles": float,
            "contact_point_updates_per_second": float}
 STAGE = {"name": str, "cycles": float, "until_converged": bool, "converged": bool}
+YES_OR_NO = {True: "yes", False: "no", None: "–"}
 BALANCE = {1: "put in", -1: "taken out", 0: "stored at the end"}
 
 
@@ -73,9 +75,22 @@ def section(title, body):
 def outcome_card(summary, state):
     if state != "done" or not summary:
         return card("open", {"running": "goes on", "interrupted": "was interrupted"}.get(state, "has not ended"), "missed")
-    if not any(stage["until_converged"] for stage in summary["stages"]):
-        return card("done", "as many cycles as asked for", "met")
-    return card("converged", "every stage that should", "met") if summary["converged"] else card("not converged", "within its limit of cycles", "missed")
+    if not summary["converged"]:
+        late = [stage for stage in summary["stages"] if has_met_end(stage) is False]
+        if not late or any(stage["until_converged"] for stage in late):
+            return card("not converged", "within its limit of cycles", "missed")
+        return card("end not reached", f'stage "{escape(late[0]["name"])}" came to max_cycles first', "missed")
+    if any(stage["until_converged"] and stage["converged"] for stage in summary["stages"]):
+        return card("converged", "every stage that should", "met")
+    return card("done", "every stage reached its end" if any(map(has_met_end, summary["stages"])) else "as many cycles as asked for", "met")
+
+
+def has_met_end(stage):
+    """None for a stage that has no `until`."""
+    by = stage.get("ended_by")
+    if by is None:    # in folders of older versions
+        return stage["converged"] if stage["until_converged"] else None
+    return None if by in ("cycles", "duration") else by != "max_cycles"
 
 
 def duration(seconds):
@@ -93,7 +108,8 @@ def head(run, summary, last):
     cards = outcome_card(summary, run.state()) + card(len(last["id"]), "blocks") + card(f'{last["info"]["cycle"]:,}'.replace(",", "\u202f"), "cycles")
     cards += card(int(np.count_nonzero(last["detached"])), "detached blocks")
     if summary:
-        cards += card(metres(summary["max_displacement"]), "greatest displacement of what stands") + card(duration(summary["wall_seconds"]), "wall time")
+        cards += "".join(card(value, what) for what, value, _ in outcome(summary) if what.startswith("greatest displacement"))
+        cards += card(duration(summary["wall_seconds"]), "wall time")
     note = {"running": "The run goes on.", "interrupted": "The run was interrupted; <code>hdem run --restart</code> goes on with it."}.get(
         run.state(), "" if summary else "summary.json is missing.")
     note = f'<p class="note">{note} The page shows what there is.</p>' if note else ""
@@ -101,11 +117,19 @@ def head(run, summary, last):
             f'{escape(where["begin"])}</p>{note}<div class="cards">{cards}</div></header>')
 
 
+def outcome(summary):
+    """Rows of what the summary has; of a run without excavation nothing is next to one."""
+    rows = [(key, what, summary[key], unit) for key, what, unit in OUTCOME if summary.get(key) is not None]
+    if summary.get("cycles_after_excavation") is None:
+        rows = [row for row in rows if row[0] not in NEXT_TO]
+    return [(what, metres(value) if unit == "m" else value, "" if unit == "m" else unit) for _, what, value, unit in rows]
+
+
 def stages(summary):
     rows = "".join(f'<tr><td>{escape(stage["name"])}</td><td class="n">{number(stage["cycles"])}</td>'
                    f'<td>{escape(str(stage.get("ended_by", "")))}</td>'
-                   f'<td>{("yes" if stage["converged"] else "no") if stage["until_converged"] else "–"}</td></tr>' for stage in summary["stages"])
-    return f'<div class="wide"><table><thead><tr><th>stage</th><th class="n">cycles</th><th>ended by</th><th>converged</th></tr></thead><tbody>{rows}</tbody></table></div>'
+                   f'<td>{YES_OR_NO[has_met_end(stage)]}</td></tr>' for stage in summary["stages"])
+    return f'<div class="wide"><table><thead><tr><th>stage</th><th class="n">cycles</th><th>ended by</th><th>reached its end</th></tr></thead><tbody>{rows}</tbody></table></div>'
 
 
 def summary_section(summary, last):
@@ -114,9 +138,7 @@ def summary_section(summary, last):
     if not summary:
         return facts(detached)
     warnings = "".join(f'<p class="missed">{escape(str(text))}</p>' for text in summary["warnings"])
-    rows = [(what, metres(summary[key]) if unit == "m" else summary[key], "" if unit == "m" else unit)
-            for key, what, unit in OUTCOME if summary.get(key) is not None]
-    return warnings + stages(summary) + facts(rows + detached)
+    return warnings + stages(summary) + facts(outcome(summary) + detached)
 
 
 def bracket_text(bracket):

@@ -2,8 +2,8 @@
 
 A chunk is some arrays one after the other, packed by zlib. Its layout names them: [name, coding, count, scale].
 
-    f8, f4    as they are; f4 of displacements keep 12 binary digits, more where a smaller step than `finest` needs them
-    f2        half floats times a power of two: 11 binary digits, so 0.05 % at most, and 0 below 1e-12 of the greatest
+    f8, f4    as they are; f4 of displacements keep 12 binary digits, so 0.025 % at most, more where a smaller step than `finest` needs them
+    f2        half floats times a power of two: 11 binary digits, so 0.05 % at most; fewer below 4e-9 of the greatest, in steps of 4e-12 of it
     i2, u1    whole numbers, i2 times `scale`
     u4        differences of whole numbers to the one before
     text      UTF-8, one a line

@@ -32,8 +32,7 @@ def colour_ranges(run, colour):
 
 
 def scaled(low, high, colour):
-    turn = np.degrees(1.0) if colour == "rotation" else 1.0
-    most = max(-low, high) * turn
+    most = max(-low, high)
     if not most > 0.0:
         return None
     signed = colour in ("displacement_x", "displacement_y", "rotation", "stress_xx", "stress_yy", "stress_xy")

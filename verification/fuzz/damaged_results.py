@@ -55,9 +55,10 @@ class Reader:
     def __init__(self, folder, draw_every):
         import hdem_io
         import plot
+        import plot_rock
         import run_pack
         import run_page
-        self.io, self.plot, self.page, self.pack = hdem_io, plot, run_page, run_pack
+        self.io, self.plot, self.joints, self.page, self.pack = hdem_io, plot, plot_rock.JOINTS, run_page, run_pack
         self.folder, self.draw_every, self.read = folder, draw_every, 0
         self.files = {kind: file_of(folder, kind) for kind in KINDS}
         self.whole = {kind: file.read_bytes() for kind, file in self.files.items()}
@@ -100,7 +101,7 @@ class Reader:
 
     def draw(self, run, chance):
         colour = chance.choice([*self.plot.FIELDS, *self.plot.CLASSES])
-        over = chance.choice([["--contacts"], ["--crosses"], ["--joints", chance.choice([*self.plot.JOINTS])], ["--bolts"],
+        over = chance.choice([["--contacts"], ["--crosses"], ["--joints", chance.choice([*self.joints])], ["--bolts"],
                               ["--liners", chance.choice(["thrust", "moment"])]])
         for words in (["--colour", colour, *over], ["--history", chance.choice(["energy", *run.histories])]):
             self.plot.make_picture(self.plot.parse([*words, "--dpi", "40", "-o", str(self.folder / "a.png"), "--", str(self.folder)]))

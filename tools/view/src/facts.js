@@ -11,7 +11,7 @@ export function tipOf(pane, block) {
     const { run, frame, contacts, view } = pane, dx = frame.get("displacement_x")[block], dy = frame.get("displacement_y")[block];
     const lines = [["Displacement", `${withUnit(Math.hypot(dx, dy), "m", 3)}`], ["in x, y", `${withUnit(dx, "m", 3)}, ${withUnit(dy, "m", 3)}`]];
     if (FIELDS[view.field] && !view.field.startsWith("displacement")) lines.push([FIELDS[view.field].label, withUnit(frame.field(view.field)[block], FIELDS[view.field].unit, 3)]);
-    else if (CLASSES[view.field] && view.field !== "none") lines.push([CLASSES[view.field].label, CLASSES[view.field].classes(run)[CLASSES[view.field].numbers(frame)[block]]?.[0] ?? "–"]);
+    else if (CLASSES[view.field] && view.field !== "none") lines.push([CLASSES[view.field].label, CLASSES[view.field].classes(view.runs)[CLASSES[view.field].numbers(frame, view.runs)[block]]?.[0] ?? "–"]);
     if (contacts) {
         const mine = contactsOf(contacts, block), net = mine.reduce((sum, one) => sum + one.normal, 0);
         lines.push(["Contacts", `${mine.length}`], ["Sum of normal forces", withUnit(net, "N", 3)]);

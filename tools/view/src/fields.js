@@ -52,13 +52,21 @@ function stateOf(flags) {
     return flags & FLAG.detached ? 3 : flags & FLAG.fixed ? 1 : flags & FLAG.next ? 2 : 0;
 }
 
-// Classes: a number for each block, and the name and colour of each number.
+// Of all runs of the page, each name once: numbers of a run are its own.
+const materialNames = (runs) => [...new Set(runs.flatMap((run) => run.facts.materials))];
+
+function materialNumbers(frame, runs) {
+    const names = materialNames(runs), { material, facts } = frame.run, numbers = facts.materials.map((name) => names.indexOf(name));
+    return filled(Uint32Array, material.length, (i) => numbers[material[i]]);
+}
+
+// Classes: a number for each block, and the name and colour of each number, the same in all runs of the page.
 export const CLASSES = {
     regime: { label: "Contact regime", classes: () => REGIMES, numbers: (frame) => filled(Uint8Array, frame.flags.length, (i) => frame.flags[i] & FLAG.regime) },
     state: { label: "State", classes: () => STATES, numbers: (frame) => filled(Uint8Array, frame.flags.length, (i) => stateOf(frame.flags[i])) },
     material: {
-        label: "Material", classes: (run) => run.facts.materials.map((name, i) => [name, MATERIALS[i % MATERIALS.length]]),
-        numbers: (frame) => frame.run.material,
+        label: "Material", classes: (runs) => materialNames(runs).map((name, i) => [name, MATERIALS[i % MATERIALS.length]]),
+        numbers: materialNumbers,
     },
     none: { label: "None", classes: () => [["Blocks", "#e3d8bd"]], numbers: (frame) => new Uint8Array(frame.run.count) },
 };

@@ -13,8 +13,9 @@ function bar(view) {
     context.putImageData(image, 0, 0);
     const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => element("span", { textContent: digits((low + t * (high - low)) / factor, 3) }));
     const detached = motion && view.panes.some((pane) => pane.shown >= 0 && pane.entry.detached > 0);
+    const distances = [...new Set(view.runs.map((run) => withUnit(run.facts.detached_distance, "m", 3)))].join(" | ");
     return [element("b", { textContent: name ? `${label} [${name}]` : label }), canvas, element("div", { className: "ticks" }, ...ticks),
-            detached ? swatch("hatched", `Detached: moved more than ${withUnit(view.panes[0].run.facts.detached_distance, "m", 3)}`) : null];
+            detached ? swatch("hatched", `Detached: moved more than ${distances}`) : null];
 }
 
 function swatch(kind, text, colour) {
@@ -24,9 +25,9 @@ function swatch(kind, text, colour) {
 }
 
 function classes(view) {
-    const kind = CLASSES[view.field], pane = view.panes[0];
+    const kind = CLASSES[view.field];
     if (view.field === "none") return [];
-    return [element("b", { textContent: kind.label }), ...kind.classes(pane.run).map(([name, colour]) => swatch("", name, colour))];
+    return [element("b", { textContent: kind.label }), ...kind.classes(view.runs).map(([name, colour]) => swatch("", name, colour))];
 }
 
 // Lines are as wide as their reference says, each pane has its own.

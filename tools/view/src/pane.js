@@ -86,7 +86,7 @@ export class Pane {
 
     paint() {
         const { view, frame } = this, name = view.field;
-        if (CLASSES[name]) colourByClass(this.scene.colour, frame, CLASSES[name].numbers(frame), CLASSES[name].classes(this.run));
+        if (CLASSES[name]) colourByClass(this.scene.colour, frame, CLASSES[name].numbers(frame, view.runs), CLASSES[name].classes(view.runs));
         else colourByValue(this.scene.colour, frame, frame.field(name), view.range, table(view.map, FIELDS[name].signed), FIELDS[name].motion);
     }
 

@@ -25,10 +25,10 @@ except ImportError as missing:
     sys.exit(77)
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-sys.path.insert(0, str(TOOLS))
+sys.path[:0] = [str(TOOLS), str(TOOLS / "view")]
 import hdem_io    # noqa: E402
+import movie      # noqa: E402
 import plot       # noqa: E402
-import plot_history    # noqa: E402
 import small_case    # noqa: E402
 
 
@@ -109,8 +109,27 @@ class SmallRun(unittest.TestCase):
             self.assertEqual((code, said.strip()), (0, str(picture)))
             self.assertGreater(matplotlib.image.imread(picture)[..., :3].std(), 0.01, "not a blank page")
 
+    def test_range_of_rotations_is_in_rad_as_that_of_a_film(self):
+        for low, high, arguments in ((-0.01, 0.02, ["--range", "-0.01", "0.02"]), (-0.02, 0.02, [])):
+            options = plot.parse([str(self.folder), "--colour", "rotation", *arguments])
+            options.range = options.range or movie.scaled(-0.01, 0.02, "rotation")
+            figure = plot.draw_frame(self.run_, options)
+            np.testing.assert_allclose(figure.axes[0].collections[0].get_clim(), np.degrees([low, high]), rtol=1e-12)
+            self.assertEqual(figure.axes[1].get_ylabel(), "rotation [deg]")
+            plot.plt.close(figure)
+
+    def test_contacts_that_were_not_written_are_told_with_their_key(self):
+        folder = Path(self.scratch.name) / "without_contacts"
+        shutil.copytree(self.folder, folder)
+        for file in (folder / "frames").glob("contacts_*"):
+            file.unlink()
+        for arguments in (["--contacts"], ["--joints", "slip"]):
+            code, said = self.plot(folder, *arguments)
+            self.assertEqual((code, said), (2, f"error: hdem plot: {folder}: holds no contacts of frame 2: output.contacts of the case is false, or the file was removed. Set "
+                                               "output.contacts = true, and run the case again.\n"))
+
     def test_other_pictures(self):
-        for arguments in (["--contacts"], ["--excavation"], ["--frame", "0"], ["--window", "0", "0", "2", "2"], ["--history", "energy"],
+        for arguments in (["--contacts"], ["--excavation"], ["--frame", "0"], ["--window", "0", "0", "2", "2"], ["--history", "energy"], ["--energy"],
                           ["--history", "ball"], ["--range", "0", "1e-3"]):
             picture = self.folder / "other.png"
             code, said = self.plot(self.folder / "results.h5", "-o", picture, "--dpi", "80", *arguments)
@@ -149,6 +168,23 @@ class Surroundings(unittest.TestCase):
                 for path in sum(diagrams, []):
                     self.assertTrue(np.all((path.vertices > (x0, y0)) & (path.vertices < (x1, y1))), "the diagram of the lining is cut off")
                 plot.plt.close(figure)
+
+
+class Holes(unittest.TestCase):
+    def test_polygon_is_the_outer_ring_and_holes_are_apart(self):
+        """Rock around two tunnels that are not excavated yet: what is inside them is a block, and the rock has holes there."""
+        tunnel = '[[excavation]]\nname = "{}"\nshape = "rectangle"\nposition = [{}, 2]\nwidth = 1.0\nheight = {}\ninside = "one_block"\n'
+        case = '[domain]\nwidth = 8\nheight = 4\n[[joint_set]]\ndip_deg = 0\nspacing = 9\norigin = [0, 9]\n' + tunnel.format("a", 2, 1.5) + tunnel.format("b", 5, 0.5)
+        with tempfile.TemporaryDirectory(prefix="hdem_plot_test_") as scratch:
+            folder = small_case.run(HDEM, Path(scratch), case + small_case.ROCK + '[[stage]]\ncycles = 1\n')
+            blocks = hdem_io.open_run(folder).blocks(0)
+        self.assertEqual(len(blocks["id"]), 3)
+        for name, polygon, holes, wanted in zip(blocks["name"], blocks["polygon"], blocks["holes"], blocks["area"]):
+            self.assertAlmostEqual(area(polygon) - sum(map(area, holes)), wanted, places=9, msg=name)
+        rock = int(np.argmax(blocks["area"]))
+        self.assertAlmostEqual(area(blocks["polygon"][rock]), 32.0, places=9)
+        self.assertEqual([round(area(hole), 9) for hole in blocks["holes"][rock]], [0.5, 1.5])
+        self.assertEqual(sorted(map(len, blocks["holes"])), [0, 0, 2])
 
 
 class InterruptedRun(unittest.TestCase):
@@ -211,37 +247,6 @@ class InterruptedRun(unittest.TestCase):
         last = folder / f"frames/blocks_{frames[-1].number:06d}.hdf"
         last.write_bytes(last.read_bytes()[:1000])    # the power failed
         self.assertEqual(hdem_io.open_run(folder).frames, frames[:-1])
-
-
-class Positions(unittest.TestCase):
-    """A block at 20.5 m that moves by a millimetre: an axis from 20.5 to 20.501 cannot be read."""
-
-    def test_that_change_little_are_drawn_from_their_first_value(self):
-        self.assertEqual(plot_history.start_of("position_x", np.array([20.5, 20.501, np.nan])), 20.5)
-        self.assertEqual(plot_history.start_of("position_x", np.array([20.5, 23.0])), 0.0)
-        self.assertEqual(plot_history.start_of("position_x", np.array([0.0, 1e-3])), 0.0)
-        self.assertEqual(plot_history.start_of("force_x", np.array([20.5, 20.501])), 0.0)
-        self.assertEqual(plot_history.start_of("position_x", np.array([np.nan])), 0.0)
-
-
-class ColourRange(unittest.TestCase):
-    def test_greatest_value_is_the_end(self):
-        self.assertEqual(plot.colour_range(np.array([0.0, 1.0, 2.0]), False), (0.0, 2.0, "neither"))
-        self.assertEqual(plot.colour_range(np.array([-3.0, 1.0]), True), (-3.0, 3.0, "neither"))
-
-    def test_few_far_values_do_not_wash_out_the_rest(self):
-        low, high, extend = plot.colour_range(np.append(np.linspace(0.0, 1e-3, 500), 0.09), False)
-        self.assertLess(high, 1.1e-3)
-        self.assertEqual((low, extend), (0.0, "max"))
-
-    def test_nothing_moves(self):
-        self.assertEqual(plot.colour_range(np.zeros(4), False), (0.0, 1.0, "neither"))
-
-    def test_units_read_well(self):
-        self.assertEqual(plot.scaled_unit("m", 0.02), (1e-3, "mm"))
-        self.assertEqual(plot.scaled_unit("Pa", 2e6), (1e6, "MPa"))
-        self.assertEqual(plot.scaled_unit("deg", 0.1), (1, "deg"))
-        self.assertEqual(plot.scaled_unit("m", 0.0), (1e-6, "µm"))
 
 
 if __name__ == "__main__":

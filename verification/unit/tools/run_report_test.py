@@ -127,6 +127,22 @@ class PageOfARun(unittest.TestCase):
         self.assertIn("goes on", page)
         self.assertNotIn("was interrupted", page)
 
+    def test_cards_show_the_displacements_that_they_name(self):
+        """The ball moves 0.14 m in the last stage; next to the excavation is the fixed ground alone."""
+        near, all_ = (self.summary[key] for key in ("max_displacement", "max_displacement_all"))
+        self.assertGreater(all_, near + 0.1)
+        self.assertEqual(dict(reversed(found) for found in re.findall(r'<div class="card "><b>([^<]*)</b>(greatest displacement [^<]*)</div>', self.page)),
+                         {"greatest displacement next to the excavation": run_page.metres(near), "greatest displacement of all free blocks": run_page.metres(all_)})
+
+    def test_run_that_missed_its_end_is_not_done(self):
+        case, folder = Path(self.scratch.name) / "missed.toml", Path(self.scratch.name) / "missed"
+        case.write_text(small_case.CASE.replace("cycles = 1500\nexcavate = [\"prop\"]", 'until = ["speed < 1e-9"]\nmax_cycles = 50'), encoding="utf-8")
+        self.assertEqual(subprocess.run([HDEM, "run", case, "-o", folder, "--quiet"], check=False).returncode, 4)
+        page = self.page_of(folder)
+        self.assertIn('<div class="card missed"><b>end not reached</b>stage "fall" came to max_cycles first</div>', html.unescape(page))
+        self.assertIn("<td>max_cycles</td><td>no</td>", page)
+        self.assertNotIn("next to the excavation", page, "nothing was excavated")
+
     def test_run_without_contact_frames_has_a_page(self):
         folder = self.copy("no_contacts")
         for file in (folder / "frames").glob("contacts_*"):
@@ -144,6 +160,24 @@ class PageOfARun(unittest.TestCase):
             self.assertEqual(code, expected, said)
             self.assertIn(words, said)
             self.assertNotIn("Traceback", said)
+
+
+class OutcomeCard(unittest.TestCase):
+    def card(self, converged, *stages):
+        keys = ("name", "ended_by", "until_converged", "converged")
+        return run_page.outcome_card({"converged": converged, "stages": [dict(zip(keys, stage)) for stage in stages]}, "done")
+
+    def test_says_how_the_stages_ended(self):
+        settled = ("settle", "cycles", False, False)
+        for converged, stages, kind, words in (
+                (True, [settled], "met", "done as many cycles as asked for"),
+                (True, [settled, ("fall", "speed < 1e-9", False, False)], "met", "done every stage reached its end"),
+                (True, [settled, ("rest", "converged", True, True)], "met", "converged every stage that should"),
+                (False, [settled, ("rest", "max_cycles", True, False)], "missed", "not converged within its limit of cycles"),
+                (False, [("rest", "converged", True, True), ("fall", "max_cycles", False, False)], "missed", 'end not reached stage "fall" came to max_cycles first')):
+            found = self.card(converged, *stages)
+            self.assertIn(f'class="card {kind}"', found)
+            self.assertEqual(html.unescape(re.sub("<[^>]*>", " ", found)).strip().replace("  ", " "), words)
 
 
 class Thinned(unittest.TestCase):

@@ -204,6 +204,19 @@ const steps = {
         said.cameras = await page.evaluate(() => window.hdem.view.panes.map(({ camera, run }) => [camera.x + run.facts.origin[0], camera.y + run.facts.origin[1], camera.scale]));
         said.series = await page.locator(".u-legend .u-label").allTextContents();
     },
+    async materials(browser, said) {
+        const page = await open(browser, said);
+        await settled(page);
+        said.first = await state(page);
+        await page.selectOption("#field", "material");
+        await press(page, "e", "o");
+        said.entries = await page.evaluate(() => [...document.querySelectorAll("#legend .entry")].map((entry) => [entry.textContent, entry.querySelector("i").style.background]));
+        said.scales = await page.evaluate(() => window.hdem.view.panes.map((pane) => pane.camera.scale));
+        await picture(page, "materials0", 0);
+        await picture(page, "materials1", 1);
+        await page.mouse.move(...(await placeOf(page, "m")));
+        said.tip = await page.locator(".tip:not([hidden])").textContent();
+    },
     async many(browser, said) {
         const page = await open(browser, said);
         await settled(page);

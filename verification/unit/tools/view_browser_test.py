@@ -262,6 +262,23 @@ class SmallPages(Browser):
         np.testing.assert_allclose(said["cameras"][0], said["cameras"][1], rtol=1e-9)
         self.assertTrue(any("moon" in name for name in said["series"]) and any("out" in name for name in said["series"]), said["series"])
 
+    def test_materials_of_two_runs_are_told_by_their_names(self):
+        """The second case has one more, before the others: the numbers of clay and rock differ between the runs, their colours do not."""
+        case = ('[[block]]\nname = "f"\npolygon = [[-5, -1], [5, -1], [5, 0], [-5, 0]]\nfixed = true\n[[block]]\nname = "m"\npolygon = [[0, 0], [2, 0], [2, 1], [0, 1]]\n'
+                'material = "clay"\n[material.clay]\ndensity = 1000\n[stage_]' + small_case.ROCK + '[convergence]\ndetached_distance = {}\n[[stage]]\ncycles = 10\n'
+                '[[block]]\nname = "falls"\npolygon = [[-4, 1], [-3, 1], [-3, 2], [-4, 2]]\nmaterial = "rock"\nvelocity = [0, -100]\n')
+        one, two = self.run_of("clay", case.replace("[stage_]", "").format(0.01)), self.run_of("more", case.replace("[stage_]", "[material.aaa]\ndensity = 1\n").format(0.02))
+        said = self.browse("materials", self.page_of(one, two, name="materials"))
+        colours = {"clay": "rgb(232, 217, 181)", "rock": "rgb(86, 180, 233)", "aaa": "rgb(0, 158, 115)"}
+        self.assertEqual(dict(said["entries"]), colours)
+        self.assertIn("Detached: moved more than 10 mm | 20 mm", said["first"]["legend"])
+        self.assertIn("Materialclay", said["tip"])
+        for i, scale in enumerate(said["scales"]):
+            clay, rock, aaa = (count(self.picture(f"materials{i}"), tuple(map(int, re.findall(r"\d+", colour)))) / scale**2 for colour in colours.values())
+            self.assertAlmostEqual(clay, 2.0, delta=0.2)
+            self.assertAlmostEqual(rock, 11.0, delta=0.6)    # without its edges, which are smoothed
+            self.assertEqual(aaa, 0.0)
+
     def test_live_page_loads_itself_and_stays_as_it_was(self):
         page = ViewPage(self.file)
         live = self.root / "live.html"

@@ -228,9 +228,13 @@ class PageOfASmallRun(unittest.TestCase):
         self.assertEqual(list(cut.glob("*.tmp")), [])
 
     def test_wrong_words_are_told(self):
-        for words, said in ((("--fps", "0"), "0.1 to 120"), (("--movie", "film.avi"), ".mp4 or .gif"), (("a", "b"), "one run, or two"), (("--contacts", "some"), "invalid choice")):
+        for words, said in ((("--movie", "film.mp4", "--fps", "0"), "0.1 to 120"), (("--movie", "film.avi"), ".mp4 or .gif"), (("a", "b"), "one run, or two"),
+                            (("--contacts", "some"), "invalid choice"), (("--colour", "stress"), "argument --colour: of films only. Leave it out, or give --movie FILE."),
+                            (("--fps", "5"), "argument --fps: of films only"), (("--width", "400"), "argument --width: of films only"),
+                            (("--window", "0", "0", "1", "1"), "argument --window: of films only"),
+                            (("--movie", "film.mp4", "--contacts", "all"), "argument --contacts: of pages only. Leave it out, or leave out --movie.")):
             code, _, errors = view(self.folder, *words)
-            self.assertEqual(code, 2)
+            self.assertEqual((code, errors.count("\n")), (2, 0), errors)
             self.assertIn(said, errors)
 
     def test_without_the_viewer_says_how_to_get_it(self):
