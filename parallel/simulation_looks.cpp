@@ -113,7 +113,8 @@ void Simulation::find_calm(const Equilibrium& now)
                              now.unbalanced.value < convergence.block_unbalanced_ratio;
     const auto all_stopped = [&] { return all_rest(model_, rest, bolted_blocks(model_, state_), state_.blocks); };
     state_.is_calm = was_calm ? now.fastest.value <= stirs * convergence.mean_speed : blocks_hold || all_stopped();
-    if (state_.is_calm && !was_calm && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
+    // Later, too, if all have stopped: where loads are far below weights, what wakes no block is more than the criterion allows.
+    if (state_.is_calm && (!was_calm || all_stopped()) && wake_unbalanced(model_, rest.quiet_at_end, state_.blocks))
         state_.rest_changed = true;
 }
 

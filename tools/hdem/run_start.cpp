@@ -182,8 +182,8 @@ std::optional<std::size_t> stage_of(const std::string& key, const std::vector<St
     return it != stages.end() ? std::optional(static_cast<std::size_t>(it - stages.begin())) : std::nullopt;
 }
 
-/// A stage that is over cannot last longer, and the one that runs cannot be shorter than it is.
-void check_stages_to_come(std::span<const std::string> overrides, const Setup& setup)
+/// A stage that is over cannot last longer, and the last one of a finished run cannot be shorter than it was. (A smaller number ends a stage that runs.)
+void check_stages_to_come(std::span<const std::string> overrides, const Setup& setup, bool is_finished)
 {
     const Model& model = setup.model;
     const State& state = setup.state;
@@ -197,7 +197,8 @@ void check_stages_to_come(std::span<const std::string> overrides, const Setup& s
         if (*stage < running)
             refuse(fmt::format("{}: (stage \"{}\" is over: the run is in stage \"{}\"). Leave it away, or begin a new run.",
                                printable(text, 60), printable(def.name, 60), printable(model.stages[running].name, 60)));
-        if (*stage == running && state.stage_begun && last_cycle(def, state.stage_begin_cycle, model.time_step) < state.cycle)
+        if (is_finished && *stage == running && state.stage_begun &&
+            last_cycle(def, state.stage_begin_cycle, model.time_step) < state.cycle)
             refuse(fmt::format("{}: (stage \"{}\" has lasted {} cycles already). Give more, or begin a new run.",
                                printable(text, 60), printable(def.name, 60), state.cycle - state.stage_begin_cycle));
     }
@@ -233,7 +234,7 @@ RunStart start_again(const RunOptions& options)
     record.overrides = merged_overrides(options, record.overrides);
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
-    check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup);
+    check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup, record.finished);
     record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
     start.notes.push_back(
         fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));

@@ -215,6 +215,19 @@ TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
     EXPECT_EQ(error_of(scene), "none");
 }
 
+/// One block is pushed, without gravity. What wakes no block that has stopped is more than the criterion allows, which goes by the load.
+TEST(Stages, ComeToRestWhereLoadsAreFarBelowWeights)
+{
+    CaseDef scene = scenes::joints(10.0, 10.0, 0.9);
+    scene.gravity = {0.0, 0.0};
+    scene.domain.fixed = {"left", "right", "bottom", "top"};
+    scene.insitu = {.given = true, .stress = StressDef{-1e6, -1e6, 0.0}};
+    scene.loads.push_back({.blocks = {"b60"}, .force = {3e4, 1e4}});
+    scene.contact.method = Method::force;
+    scene.stages = {{.name = "push", .until_converged = true, .max_cycles = 50'000}};
+    EXPECT_TRUE(run_all(scene)[0].at_rest);
+}
+
 /// Edges that are beside each other have an overlap too, of any size.
 TEST(RunChecks, DoNotNameBlocksThatDoNotTouch)
 {

@@ -52,7 +52,7 @@ class Info(unittest.TestCase):
             self.assertIn("small.toml (SHA-256 ", rows["case"])
             self.assertRegex(rows["frames"], r"^\d+, the last at cycle 1700, 0\.17 s$")
             self.assertIn("kinetic_energy", rows["energy"])
-            self.assertRegex(rows["history"], r"^171 rows: cycle, normal_force, overlap, time$")
+            self.assertRegex(rows["history rest"], r"^171 rows: cycle, normal_force, overlap, time$")
             self.assertRegex(rows["end"], r"^\d{4}-")
 
     def test_of_frames_says_what_they_show(self):
