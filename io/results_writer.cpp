@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hdem
 {
@@ -58,10 +59,10 @@ void write_frame_links(Hdf5Writer& file, std::span<const Frame> frames, std::spa
     file.write_texts("/frames/stage", stage);
 }
 
-bool has_columns(const Hdf5Reader& file, const Table& table)
+/// Not known where an older hdem has written the file, and did not have this column.
+std::vector<double> read_column(const Hdf5Reader& file, const std::string& path, std::uint64_t rows)
 {
-    return file.has(table.path) && std::all_of(table.columns.begin(), table.columns.end(),
-                                               [&](const Column& column) { return file.has(table.path + "/" + column.name); });
+    return file.has(path) ? file.read<double>(path, {rows}) : std::vector<double>(rows, std::nan(""));
 }
 }  // namespace
 
@@ -102,7 +103,7 @@ void ResultsWriter::take_over_rows(std::int64_t cycle)
     const Hdf5Reader file(file_);
     for (Table& table : tables_)
     {
-        if (!has_columns(file, table))
+        if (!file.has(table.path))
             continue;
         table.cycle = file.read<std::int64_t>(table.path + "/cycle", {any_extent});
         const std::uint64_t rows = table.cycle.size();
@@ -110,7 +111,7 @@ void ResultsWriter::take_over_rows(std::int64_t cycle)
         table.time = file.read<double>(table.path + "/time", {rows});
         for (std::size_t i = 0; i < table.columns.size(); ++i)
         {
-            table.values[i] = file.read<double>(table.path + "/" + table.columns[i].name, {rows});
+            table.values[i] = read_column(file, table.path + "/" + table.columns[i].name, rows);
             table.values[i].resize(static_cast<std::size_t>(keep));
         }
         table.cycle.resize(static_cast<std::size_t>(keep));

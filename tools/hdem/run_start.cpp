@@ -235,6 +235,9 @@ RunStart start_again(const RunOptions& options)
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
     check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup, record.finished);
+    if (!start.moved && !fs::exists(start.folder / "results.h5"))
+        start.notes.push_back(fmt::format("warning: {} is not there: histories and energies begin at cycle {}",
+                                          (start.folder / "results.h5").string(), found.reader.cycle()));
     record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
     start.notes.push_back(
         fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <csignal>
 #include <limits>
 #include <memory>
@@ -221,6 +222,28 @@ TEST(RunRecorder, RefusesHistoriesThatCannotBeGroups)
         run.model.histories[0].name = name;
         EXPECT_THROW(RunRecorder(folder.path(), run.model, some_provenance()), InputError) << name;
     }
+}
+
+/// An older hdem did not know a column: its rows stay, without that number.
+TEST(ResultsWriter, TakesOverRowsThatLackAColumn)
+{
+    const ScratchFolder folder("results_columns");
+    {
+        ResultsWriter older(folder / "results.h5", some_provenance());
+        const std::size_t table = older.add_table("/energy", {{"old", "J"}});
+        for (const std::int64_t cycle : {0, 10, 20})
+            older.add_row(table, cycle, 0.1 * static_cast<double>(cycle), std::vector<double>{static_cast<double>(cycle)});
+        older.write({}, {});
+    }
+    ResultsWriter now(folder / "results.h5", some_provenance());
+    now.add_table("/energy", {{"new", "J"}, {"old", "J"}});
+    now.take_over_rows(10);
+    const Table& rows = now.tables().front();
+    EXPECT_EQ(rows.cycle, (std::vector<std::int64_t>{0, 10}));
+    ASSERT_EQ(rows.values[1].size(), 2U);
+    EXPECT_EQ(rows.values[1], (std::vector<double>{0.0, 10.0}));
+    ASSERT_EQ(rows.values[0].size(), 2U);
+    EXPECT_TRUE(std::isnan(rows.values[0][0]) && std::isnan(rows.values[0][1]));
 }
 
 /// Another process writes without pause and is killed at any moment: what is on the disk is whole each time.

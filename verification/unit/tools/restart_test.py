@@ -143,6 +143,15 @@ class Restart(unittest.TestCase):
         self.assertIn("checkpoint.previous.h5", refused.stderr)
         self.expect_the_whole_run(folder)
 
+    def test_results_that_are_not_there_are_told(self):
+        folder = self.root / "without"
+        run_folder.run(HDEM, self.case, "-o", folder, "--set", "stage[1].cycles=100")
+        self.assertNotIn("is not there", run_folder.run(HDEM, "--restart", folder, "--set", "stage[1].cycles=150").stdout)
+        (folder / "results.h5").unlink()
+        again = run_folder.run(HDEM, "--restart", folder, "--set", "stage[1].cycles=200")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertRegex(again.stdout, r"warning: .*results\.h5 is not there: histories and energies begin at cycle \d+")
+
     def test_frames_of_before_stay_named_when_contacts_are_written_no_more(self):
         folder = self.root / "fewer"
         run_folder.run(HDEM, self.case, "-o", folder, "--set", "output.frame_every=300", "--set", "stage[1].cycles=100")
