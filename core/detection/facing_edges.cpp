@@ -86,6 +86,9 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     const EdgeTouch touch = touch_edges(f.edges, view, ref, inc);
     f.length = touch.length;
     f.middle = 0.5 * (touch.point[0].ref_t + touch.point[1].ref_t) - f.edges.start_t;
+    f.deepest = touch.point[touch.point[1].overlap > touch.point[0].overlap ? 1 : 0].ref_t - f.edges.start_t;
+    f.slope = touch.slope;
+    f.is_deep_at_end = view.m1 > view.m0;
     f.full = std::min(f.edges.length, std::abs(view.t1 - view.t0));
     f.overlap = touch.length > pair.round_off ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
     return f;

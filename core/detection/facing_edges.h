@@ -12,10 +12,13 @@ struct Facing
     bool ref_is_a;
     Index ref_edge, inc_edge;
     EdgePair edges;
-    double overlap;  ///< greatest where they face each other; -infinity: beside each other [m]
-    double length;   ///< over which they lie over each other; < 0: beside each other [m]
-    double middle;   ///< of that stretch, from the start of the reference edge [m]
-    double full;     ///< of the shorter one along the reference edge: the most that could lie over the other [m]
+    double overlap;       ///< greatest where they face each other; -infinity: beside each other [m]
+    double length;        ///< over which they lie over each other; < 0: beside each other [m]
+    double middle;        ///< of that stretch, from the start of the reference edge [m]
+    double deepest;       ///< where they overlap most, from there [m]
+    double slope;         ///< of the incident edge, d overlap / d t [-]
+    bool is_deep_at_end;  ///< of the incident edge: its end reaches deeper than its start
+    double full;          ///< of the shorter one along the reference edge: the most that could lie over the other [m]
 };
 
 /// The external edge of least overlap, and the one of the other part that faces it.

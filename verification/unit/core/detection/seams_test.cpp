@@ -34,15 +34,17 @@ CaseDef tiles(int n, double length, double depth, double step = 0.0)
 }
 
 /// Way of a block that is thrown along level tiles, over the way until friction alone has stopped it.
-double stopping_way(Method method, double from, double length, double step, double angle_deg)
+double stopping_way(Method method, double from, double length, double step, double angle_deg, double bevel = 0.0)
 {
     constexpr double way = 1.3, friction = 0.5;
     CaseDef scene = tiles(14, length, 1.0, step);
     scene.contact.method = method;
     scene.damping.preset = DampingPreset::automatic;
     scene.joints[0].friction_angle_deg = std::atan(friction) * 180.0 / std::numbers::pi;
-    scenes::add_block(scene, "block", scenes::rectangle({from, 0.0}, {from + 0.6, 0.4})).velocity = {
-        std::sqrt(2.0 * friction * g * way), 0.0};
+    Polygon block = scenes::rectangle({from, 0.0}, {from + 0.6, 0.4});
+    if (bevel > 0.0)
+        block = {block[0], {from + 0.6 - bevel, 0.0}, {from + 0.6, bevel}, block[2], block[3]};
+    scenes::add_block(scene, "block", block).velocity = {std::sqrt(2.0 * friction * g * way), 0.0};
     scene = scenes::turned(scene, angle_deg);
     CaseRun run(scene);
     while (run.velocity("block").norm() > 0.01 && run.state().time < 2.0)
@@ -62,6 +64,49 @@ TEST_P(Seam, WithAStepFarBelowASizeIsNoObstacle)
     for (const double step : {1e-10, -1e-9, 1e-8, 1e-7, -1e-6})
         for (const double angle : {0.0, 37.3})
             EXPECT_NEAR(stopping_way(GetParam(), 0.3, 0.5, step, angle), 1.0, 0.03) << step << ' ' << angle;
+}
+
+TEST_P(Seam, IsNoObstacleForABevelAtTheFront)
+{
+    for (const double bevel : {1.2e-4, 1e-3, 5e-2})
+        for (const double angle : {0.0, 37.3})
+            EXPECT_NEAR(stopping_way(GetParam(), 0.3, 0.5, 0.0, angle, bevel), 1.0, 0.03) << bevel << ' ' << angle;
+}
+
+/// Way down in half a second of a block of so many m that lies on ledges of this width at both sides of a slot.
+double way_into_slot(Method method, double size, double ledge, double stiffness, bool walls_are_free)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = method;
+    scene.joints[0].normal_stiffness = scene.joints[0].shear_stiffness = stiffness;
+    const double wide = 1000.0 * size, slot = 0.5 * size - ledge;
+    scenes::add_fixed_block(scene, "ground", scenes::rectangle({-2.0 * wide, -2.0 * wide}, {2.0 * wide, -wide}));
+    for (const double side : {-1.0, 1.0})
+    {
+        const Vec2 low(side > 0.0 ? slot : -slot - wide, -wide), high(side > 0.0 ? slot + wide : -slot, 0.0);
+        if (walls_are_free)
+            scenes::add_block(scene, side > 0.0 ? "right" : "left", scenes::rectangle(low, high));
+        else
+            scenes::add_fixed_block(scene, side > 0.0 ? "right" : "left", scenes::rectangle(low, high));
+    }
+    scenes::add_block(scene, "block", scenes::rectangle({-0.5 * size, 0.0}, {0.5 * size, 0.8 * size}));
+    CaseRun run(scene);
+    while (run.state().time < 0.5 && run.state().cycle < 30'000)
+        run.advance(100);
+    return run.displacement("block").norm();
+}
+
+/// Settlement of the heavy blocks is none of the pebble's: it lies on ledges of 3e-3 and 8e-3 of its size.
+TEST_P(Seam, OfHeavyBlocksBearsAPebbleOnNarrowLedges)
+{
+    for (const double ledge : {3e-5, 8e-5})
+        EXPECT_LT(way_into_slot(GetParam(), 0.01, ledge, 7e9, true), 2e-4) << ledge;
+}
+
+TEST(NarrowLedge, BearsByImpulsesWhateverTheStiffness)
+{
+    for (const double stiffness : {1e7, 1e8, 7e9})
+        EXPECT_LT(way_into_slot(Method::impulse, 1.0, 1e-3, stiffness, false), 1e-6) << stiffness;
 }
 
 /// Way down a plane of so many tiles in 0.4 s of a block whose lower corner lies above a joint, or beside it.
@@ -93,6 +138,26 @@ TEST_P(Seam, DoesNotHoldABlockThatMustSlide)
                 EXPECT_NEAR(sliding_way(GetParam(), 3, factor, stiffness, past), way, 0.01 * way)
                     << factor << ' ' << stiffness << ' ' << past;
             }
+}
+
+/// A slab between two walls that touch it over a ten-thousandth of its size. Without the bond it falls.
+TEST_P(Seam, ThatIsGluedBearsHoweverShort)
+{
+    const auto way = [&](double tension)
+    {
+        CaseDef scene = scenes::empty_scene();
+        scene.contact.method = GetParam();
+        scene.joints[0].cohesion = tension;
+        scene.joints[0].tension = tension;
+        scenes::add_fixed_block(scene, "left", scenes::rectangle({-1.0, -1.0}, {0.0, 1e-4}));
+        scenes::add_fixed_block(scene, "right", scenes::rectangle({1.0, -1.0}, {2.0, 1e-4}));
+        scenes::add_block(scene, "slab", scenes::rectangle({0.0, 0.0}, {1.0, 0.3}));
+        CaseRun run(scene);
+        run.advance(5000);
+        return run.displacement("slab").norm();
+    };
+    EXPECT_LT(way(5e8), 0.01);
+    EXPECT_GT(way(0.0), 0.01);
 }
 
 /// A side that stands out by more than a corner is met.

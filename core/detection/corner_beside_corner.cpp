@@ -1,0 +1,94 @@
+#include "core/detection/corner_beside_corner.h"
+
+#include "core/detection/edge_neighbour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hdem
+{
+namespace
+{
+constexpr double corner_width = 0.1;    // of the length floor
+constexpr double settlements = 8.0;     // the front edge may be pressed in four times as far, and the block may carry another one
+constexpr double widest_corner = 1e-2;  // of the size
+constexpr double drawn_length = 1e-3;   // of the length floor: shorter joints are round-off
+constexpr double steep = 0.36;          // tangent of the angle between two edges: blocks that rock are less inclined
+constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
+
+/// How far the weight of a block presses it into what it lies on [m].
+double settlement(const Model& model, Index block, Index law)
+{
+    return model.mass[block] * model.gravity.norm() / (model.joints.laws[law].normal_stiffness * model.size(block));
+}
+
+double least_width(const Model& model, double size)
+{
+    return (corner_width * model.contact.length_floor + model.contact.recycling_distance) * size;
+}
+
+double greatest_width(const Model& model, double size)
+{
+    return std::max(least_width(model, size), widest_corner * size);
+}
+
+double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Index law)
+{
+    const double size = std::min(model.size(a), model.size(b));
+    if (model.contact.method == Method::impulse)
+        return least_width(model, size);
+    const double of_a = settlement(model, a, law), of_b = settlement(model, b, law);
+    const double settled = blocks.is_free(a) && blocks.is_free(b) ? std::min(of_a, of_b) : (blocks.is_free(a) ? of_a : of_b);
+    return std::clamp(settlements * settled, least_width(model, size), greatest_width(model, size));
+}
+
+bool is_narrow(const Facing& facing, double width)
+{
+    return facing.length < std::min(width, 0.5 * facing.full);
+}
+
+bool is_entered(const Facing& facing, double width)
+{
+    return std::abs(facing.slope) > steep && facing.overlap < width &&
+           std::min(facing.deepest, facing.edges.length - facing.deepest) < width;
+}
+
+/// Does the edge that meets the reference edge at an end lie flat on one of the two that meet in the corner of the other block?
+bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& facing, Index next)
+{
+    const RelativePose& pose = facing.ref_is_a ? pair.b_from_a : pair.a_from_b;
+    const Index inc_part = facing.ref_is_a ? pair.b : pair.a;
+    const Index other = neighbour_of(shapes, inc_part, facing.inc_edge, facing.is_deep_at_end).edge;
+    return std::ranges::any_of(std::array{facing.inc_edge, other},
+                               [&](Index e) { return shapes.edge_tangent[next].dot(pose.turned(shapes.edge_tangent[e])) < flat; });
+}
+}  // namespace
+
+bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
+                             const Contact& contact)
+{
+    const Shapes& shapes = model.shapes;
+    const JointTable& joints = model.joints;
+    const Index a = shapes.part_block[pair.a], b = shapes.part_block[pair.b];
+    const double size = std::min(model.size(a), model.size(b));
+    if (const double most = greatest_width(model, size); !is_narrow(facing, most) && !is_entered(facing, most))
+        return false;
+    const std::vector<std::int32_t>& source = shapes.edge_source;
+    const Index law = joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
+                                  model.material[facing.ref_is_a ? b : a]);
+    const bool may_be_drawn = contact.ref_edge == no_index || joints.unbonded_of(contact.law) != contact.law;
+    if (may_be_drawn && joints.unbonded_of(law) != law && facing.length > drawn_length * model.contact.length_floor * size)
+        return false;
+    const double width = width_of(model, blocks, a, b, law);
+    const bool narrow = is_narrow(facing, width);
+    if (!narrow && !is_entered(facing, width))
+        return false;
+    const double place = narrow ? facing.middle : facing.deepest;
+    const bool at_end = place > 0.5 * facing.edges.length;
+    const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
+    if (shapes.edge_tangent[next].dot(shapes.edge_tangent[facing.ref_edge]) > in_line)
+        return false;  // a side goes on there
+    return narrow || lies_flat_beside(shapes, pair, facing, next);
+}
+}  // namespace hdem
