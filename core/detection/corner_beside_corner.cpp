@@ -1,6 +1,7 @@
 #include "core/detection/corner_beside_corner.h"
 
 #include "core/detection/edge_neighbour.h"
+#include "core/stage/rules.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,8 @@ namespace
 constexpr double corner_width = 0.1;    // of the length floor
 constexpr double settlements = 8.0;     // the front edge may be pressed in four times as far, and the block may carry another one
 constexpr double widest_corner = 1e-2;  // of the size
-constexpr double drawn_length = 1e-3;   // of the length floor: shorter joints are round-off
 constexpr double steep = 0.36;          // tangent of the angle between two edges: blocks that rock are less inclined
+constexpr double least_fall = 1e-4;     // of the size
 constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
 
 /// How far the weight of a block presses it into what it lies on [m].
@@ -36,7 +37,7 @@ double greatest_width(const Model& model, double size)
 double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Index law)
 {
     const double size = std::min(model.size(a), model.size(b));
-    if (model.contact.method == Method::impulse)
+    if (is_by_impulses(model.contact.method))
         return least_width(model, size);
     const double of_a = settlement(model, a, law), of_b = settlement(model, b, law);
     const double settled = blocks.is_free(a) && blocks.is_free(b) ? std::min(of_a, of_b) : (blocks.is_free(a) ? of_a : of_b);
@@ -46,6 +47,14 @@ double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Inde
 bool is_narrow(const Facing& facing, double width)
 {
     return facing.length < std::min(width, 0.5 * facing.full);
+}
+
+/// Faster than by a fall of so little: rock that settles is slower.
+bool slides(const Model& model, const PartPair& pair, double size)
+{
+    const BlockMotion &a = pair.motion_a, &b = pair.motion_b;
+    const double vx = b.vx - a.vx, vy = b.vy - a.vy;
+    return vx * vx + vy * vy > least_fall * size * model.gravity.norm();
 }
 
 bool is_entered(const Facing& facing, double width)
@@ -65,21 +74,16 @@ bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& 
 }
 }  // namespace
 
-bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
-                             const Contact& contact)
+bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing)
 {
     const Shapes& shapes = model.shapes;
-    const JointTable& joints = model.joints;
     const Index a = shapes.part_block[pair.a], b = shapes.part_block[pair.b];
     const double size = std::min(model.size(a), model.size(b));
     if (const double most = greatest_width(model, size); !is_narrow(facing, most) && !is_entered(facing, most))
         return false;
     const std::vector<std::int32_t>& source = shapes.edge_source;
-    const Index law = joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
-                                  model.material[facing.ref_is_a ? b : a]);
-    const bool may_be_drawn = contact.ref_edge == no_index || joints.unbonded_of(contact.law) != contact.law;
-    if (may_be_drawn && joints.unbonded_of(law) != law && facing.length > drawn_length * model.contact.length_floor * size)
-        return false;
+    const Index law = model.joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
+                                        model.material[facing.ref_is_a ? b : a]);
     const double width = width_of(model, blocks, a, b, law);
     const bool narrow = is_narrow(facing, width);
     if (!narrow && !is_entered(facing, width))
@@ -89,6 +93,6 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
     if (shapes.edge_tangent[next].dot(shapes.edge_tangent[facing.ref_edge]) > in_line)
         return false;  // a side goes on there
-    return narrow || lies_flat_beside(shapes, pair, facing, next);
+    return narrow || (slides(model, pair, size) && lies_flat_beside(shapes, pair, facing, next));
 }
 }  // namespace hdem

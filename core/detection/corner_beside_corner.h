@@ -13,12 +13,10 @@ namespace hdem
 /// throw it back; so would a bevel at the front of the block. So two things bear nothing:
 ///
 ///   edges that lie over each other by less than the width (of a shorter edge, by less than half: a tip may be as narrow as it likes)
-///   a steep edge that a corner has entered at its end by less than the width, if the edge that meets it there lies flat on the other block
+///   a steep edge that a corner has entered at its end by less than the width, if the edge that meets it there lies flat on the other block and one slides on the other
 ///
 /// The width is a tenth of the length floor and what blocks may move until the next search, or some settlements of the lighter block, at most a hundredth of the smaller
-/// one's size. Impulses leave no settlement. Bonded joints bear, however short they are.
-/// @param contact  of the pair, before this search
+/// one's size. Impulses leave no settlement.
 /// @see verification/unit/core/detection/seams_test.cpp
-[[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
-                                           const Contact& contact);
+[[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing);
 }  // namespace hdem

@@ -140,26 +140,6 @@ TEST_P(Seam, DoesNotHoldABlockThatMustSlide)
             }
 }
 
-/// A slab between two walls that touch it over a ten-thousandth of its size. Without the bond it falls.
-TEST_P(Seam, ThatIsGluedBearsHoweverShort)
-{
-    const auto way = [&](double tension)
-    {
-        CaseDef scene = scenes::empty_scene();
-        scene.contact.method = GetParam();
-        scene.joints[0].cohesion = tension;
-        scene.joints[0].tension = tension;
-        scenes::add_fixed_block(scene, "left", scenes::rectangle({-1.0, -1.0}, {0.0, 1e-4}));
-        scenes::add_fixed_block(scene, "right", scenes::rectangle({1.0, -1.0}, {2.0, 1e-4}));
-        scenes::add_block(scene, "slab", scenes::rectangle({0.0, 0.0}, {1.0, 0.3}));
-        CaseRun run(scene);
-        run.advance(5000);
-        return run.displacement("slab").norm();
-    };
-    EXPECT_LT(way(5e8), 0.01);
-    EXPECT_GT(way(0.0), 0.01);
-}
-
 /// A side that stands out by more than a corner is met.
 TEST_P(Seam, WithAStepOfATenthOfASizeStopsABlock)
 {
