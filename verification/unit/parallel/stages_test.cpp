@@ -3,6 +3,7 @@
 #include "parallel/state_check.h"
 #include "verification/unit/case_run.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -218,11 +219,17 @@ TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
 /// One block is pushed, without gravity. What wakes no block that has stopped is more than the criterion allows, which goes by the load.
 TEST(Stages, ComeToRestWhereLoadsAreFarBelowWeights)
 {
-    CaseDef scene = scenes::joints(10.0, 10.0, 0.9);
-    scene.gravity = {0.0, 0.0};
+    CaseDef scene = scenes::joints(10.0, 8.66025403784, 0.866025403784);
+    scene.joint_sets.clear();
     scene.domain.fixed = {"left", "right", "bottom", "top"};
+    for (const double dip : {0.0, 60.0, -60.0})
+        scene.joint_sets.push_back({.name = fmt::format("set {}", dip), .dip_deg = dip, .spacing = 0.866025403784});
+    scene.joints[0].normal_stiffness = 5e9;
+    scene.joints[0].shear_stiffness = 2e9;
+    scene.joints[0].friction_angle_deg = 35.0;
+    scene.gravity = {0.0, 0.0};
     scene.insitu = {.given = true, .stress = StressDef{-1e6, -1e6, 0.0}};
-    scene.loads.push_back({.blocks = {"b60"}, .force = {3e4, 1e4}});
+    scene.loads.push_back({.blocks = {"b100"}, .force = {3e4, 1e4}});
     scene.contact.method = Method::force;
     scene.stages = {{.name = "push", .until_converged = true, .max_cycles = 50'000}};
     EXPECT_TRUE(run_all(scene)[0].at_rest);
