@@ -49,18 +49,23 @@ bool is_narrow(const Facing& facing, double width)
     return facing.length < std::min(width, 0.5 * facing.full);
 }
 
-/// Faster than by a fall of so little: rock that settles is slower.
-bool slides(const Model& model, const PartPair& pair, double size)
+double relative_speed(const PartPair& pair)
 {
-    const BlockMotion &a = pair.motion_a, &b = pair.motion_b;
-    const double vx = b.vx - a.vx, vy = b.vy - a.vy;
-    return vx * vx + vy * vy > least_fall * size * model.gravity.norm();
+    const double vx = pair.motion_b.vx - pair.motion_a.vx, vy = pair.motion_b.vy - pair.motion_a.vy;
+    return std::sqrt(vx * vx + vy * vy);
 }
 
-bool is_entered(const Facing& facing, double width)
+/// Faster than by a fall of so little: rock that settles is slower.
+bool slides(const Model& model, double speed, double size)
 {
-    return std::abs(facing.slope) > steep && facing.overlap < width &&
-           std::min(facing.deepest, facing.edges.length - facing.deepest) < width;
+    return speed * speed > least_fall * size * model.gravity.norm();
+}
+
+/// @param way  that the blocks go until features are searched again, at least: a corner that is so far away may be there by then [m]
+bool is_entered(const Facing& facing, double width, double way)
+{
+    return std::abs(facing.slope) > steep && facing.overlap < width + way &&
+           std::min(facing.deepest, facing.edges.length - facing.deepest) < width + way;
 }
 
 /// Does the edge that meets the reference edge at an end lie flat on one of the two that meet in the corner of the other block?
@@ -79,20 +84,21 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const Shapes& shapes = model.shapes;
     const Index a = shapes.part_block[pair.a], b = shapes.part_block[pair.b];
     const double size = std::min(model.size(a), model.size(b));
-    if (const double most = greatest_width(model, size); !is_narrow(facing, most) && !is_entered(facing, most))
+    const double speed = relative_speed(pair), way = 2.0 * speed * blocks.step.next;
+    if (const double most = greatest_width(model, size); !is_narrow(facing, most) && !is_entered(facing, most, way))
         return false;
     const std::vector<std::int32_t>& source = shapes.edge_source;
     const Index law = model.joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
                                         model.material[facing.ref_is_a ? b : a]);
     const double width = width_of(model, blocks, a, b, law);
     const bool narrow = is_narrow(facing, width);
-    if (!narrow && !is_entered(facing, width))
+    if (!narrow && !is_entered(facing, width, way))
         return false;
     const double place = narrow ? facing.middle : facing.deepest;
     const bool at_end = place > 0.5 * facing.edges.length;
     const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
     if (shapes.edge_tangent[next].dot(shapes.edge_tangent[facing.ref_edge]) > in_line)
         return false;  // a side goes on there
-    return narrow || (slides(model, pair, size) && lies_flat_beside(shapes, pair, facing, next));
+    return narrow || (slides(model, speed, size) && lies_flat_beside(shapes, pair, facing, next));
 }
 }  // namespace hdem

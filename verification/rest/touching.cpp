@@ -105,7 +105,7 @@ class PairSearch
         const double apart = separation(edge, other);
         if (apart > gap_ || apart < -depth_)
             return false;
-        const double corner = std::min(gap_, 2e-4 * edge.length);
+        const double corner = std::min(gap_, 1e-6 * edge.length);
         const Stretch near = near_stretch(edge, other, std::max(apart, 0.0) + gap_);
         if (near.to < near.from - gap_ || near.to < corner || near.from > edge.length - corner)
             return false;  // or only at the end of the edge: a corner on a corner bears nothing
