@@ -194,7 +194,9 @@ SectionSpec contact_section()
               .range = share}),
          field<&ContactDef::skin>({.name = "skin",
                                    .effect = "Pairs closer than this share of the mean block size are tracked. Larger: fewer "
-                                             "searches, more pairs. The result does not depend on it.",
+                                             "searches, more pairs. The result does not depend on it, but for joints that open "
+                                             "with water.ponded = false: "
+                                             "water presses on their faces until they are farther apart than this.",
                                    .range = {.low = 0, .high = 10, .low_included = false}})},
         part<&CaseDef::contact>};
 }

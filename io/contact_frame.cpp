@@ -1,5 +1,5 @@
 #include "core/contact/contact_report.h"
-#include "core/water/water_forces.h"
+#include "core/water/wet_faces.h"
 #include "io/contact_slip.h"
 #include "io/frame_writer.h"
 #include "io/vtkhdf.h"
@@ -74,10 +74,11 @@ void write_contact_frame(const std::filesystem::path& name, const Model& model, 
     { return std::atan2(std::abs(contacts[i].shear_force), std::max(contacts[i].normal_force, 0.0)) * 180.0 / std::numbers::pi; };
     write_cell_data<float>(file, "mobilised_friction", n, mobilised);
     if (model.water.given)
+    {
+        const JointPressure water(model, state);
         write_cell_data<float>(file, "pore_pressure", n,
-                               [&](std::size_t i) {
-                                   return mean_joint_pressure(model, state, numbers[i], contacts[i].point[0], contacts[i].point[1]);
-                               });
+                               [&](std::size_t i) { return water.mean(numbers[i], contacts[i].point[0], contacts[i].point[1]); });
+    }
     if (model.joints.has_memory())
         write_memories(file, model, state, numbers, contacts);
     write_frame_header(file, "hdem-contacts", model, state);

@@ -27,7 +27,7 @@ struct Known
 constexpr Known all_known[] = {
     {"displacement", EndQuantity::displacement, ">w", "blocks", "displacement:block1 > 0.1"},
     {"speed", EndQuantity::speed, "><w", "blocks", "speed < 1e-4 for 0.1 s"},
-    {"unbalanced_force_ratio", EndQuantity::unbalanced_force_ratio, "><", "", "unbalanced_force_ratio < 1e-5"},
+    {"unbalanced_force_ratio", EndQuantity::unbalanced_force_ratio, "<", "", "unbalanced_force_ratio < 1e-5"},
     {"history", EndQuantity::history, "><w", "column", "history:NAME.normal_force > 1e6"},
     {"time", EndQuantity::time, ">", "", "time > 2.5"},
     {"cycles", EndQuantity::cycles, ">", "", "cycles > 5000"},
@@ -122,8 +122,12 @@ std::string read_test(const Parts& parts, const Known& known, StageEndDef& end)
     const char sign = parts.test[0];
     end.test = sign == '>' ? EndTest::above : (sign == '<' ? EndTest::below : EndTest::within);
     if (allowed.find(sign) == std::string::npos)
+    {
+        if (known.quantity == EndQuantity::unbalanced_force_ratio)
+            return "it is great when the stage begins, and falls as the rock settles";
         return sign == '<' && known.quantity == EndQuantity::displacement ? "it is 0 when the stage begins"
                                                                           : fmt::format("{} only grows", known.name);
+    }
     end.limit = std::strtod(parts.limit.c_str(), nullptr);
     if (!std::isfinite(end.limit))
         return "its limit is no finite number";

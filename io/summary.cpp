@@ -234,6 +234,7 @@ std::string summary_text(const RunSummary& s)
         {"cycles", s.cycles},
         {"time", s.time},
         {"converged", s.converged},
+        {"met_ends", s.met_ends},
         {"cycles_after_excavation", s.cycles_after_excavation ? Json(*s.cycles_after_excavation) : Json()},
         {"stages", stages},
         {"kinetic_energy", s.kinetic_energy},

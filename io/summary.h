@@ -118,7 +118,8 @@ struct RunSummary
     double smallest_block_mass = 0.0;  ///< of the free blocks [kg per m]
     std::int64_t cycles = 0;
     double time = 0.0;                                    ///< simulated [s]
-    bool converged = false;                               ///< every stage that was to converge did
+    bool converged = false;                               ///< every stage that was to come to rest did
+    bool met_ends = false;                                ///< every stage met an end of its `until`: not max_cycles first
     std::optional<std::int64_t> cycles_after_excavation;  ///< null without an excavation
     std::vector<StageSummary> stages;
     double kinetic_energy = 0.0;        ///< [J]

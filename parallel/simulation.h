@@ -101,6 +101,8 @@ class Simulation
     void end_released_forces();
     void renew_contacts();
     void renew_water();  ///< its forces, and how long they hold
+    [[nodiscard]] bool holds_rest();
+    bool has_other_water();
     void solve_statics();
 
     Model model_;

@@ -120,6 +120,33 @@ void Simulation::find_calm(const Equilibrium& now)
 
 bool Simulation::check_rest()
 {
+    return holds_rest() && !has_other_water();
+}
+
+/// Forces of water hold for some cycles. Those of the poses at rest may be others, and the blocks move on: the span of rest begins anew.
+bool Simulation::has_other_water()
+{
+    if (!model_.water.given)
+        return false;
+    const std::vector<Triple> before = state_.water;
+    renew_water();
+    runner_.take_contacts();
+    for (Index b = 0; b < model_.blocks(); ++b)
+    {
+        const Triple &now = state_.water[b], &last = before[b];
+        const double change = Vec2(now.x - last.x, now.y - last.y).norm() + std::abs(now.w - last.w) / model_.radius[b];
+        const double acts = model_.mass[b] * model_.gravity.norm() + Vec2(last.x, last.y).norm();
+        if (change > model_.convergence.block_unbalanced_ratio * acts)
+        {
+            state_.quiet_since = -1.0;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool Simulation::holds_rest()
+{
     const ConvergenceDef& convergence = model_.convergence;
     const Equilibrium now = equilibrium();
     if (!holds(convergence, now))

@@ -232,7 +232,8 @@ int verify(int argc, char** argv)
     RestOptions& rest = rest_options();
     CLI::Option* const scene = app.add_option("--scene", rest.scene, "Of rest.NAME: only this scene, and all that was found")
                                    ->check(CLI::NonNegativeNumber);
-    app.add_option("--scenes", rest.scenes, "Of rest.*: only the first so many scenes of each")->check(CLI::PositiveNumber);
+    app.add_option("--scenes", rest.scenes, "Of rest.*: so many scenes of each, fewer or more than by default")
+        ->check(CLI::PositiveNumber);
     app.add_option("--write-case", rest.write_case, "Write the case files of --scene into this folder")->needs(scene);
     app.add_flag("--list", options.list, "Only list the checks");
     app.add_flag("--commands", options.commands, "Show the hdem commands that repeat the runs");

@@ -26,12 +26,12 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
     return weight;
 }
 
-/// Square of the load from which on a joint of a block counts as in use: a millionth of the block's weight [N2].
-/// Before rock has settled, many joints bear only round-off. Round-off may use up the whole of a tiny strength; it would then choose the joint along which
-/// the block is damped.
+/// Square of the load from which on a joint of a block counts as in use: a thousandth of the block's weight [N2].
+/// Before rock has settled, many joints bear only round-off, 100 km from the origin up to a ten-thousandth of a weight. Round-off may use up the whole of a tiny
+/// strength; it would then choose the joint along which the block is damped, and whether it is.
 [[nodiscard, gnu::always_inline]] inline double least_joint_load(const Triple& weight)
 {
-    return 1e-12 * (weight.x * weight.x + weight.y * weight.y);
+    return 1e-6 * (weight.x * weight.x + weight.y * weight.y);
 }
 
 /// What acts on each block of `range`: its weight, `external` forces (none: empty), then the loads of its contacts in their order, Eqs. (7), (8).

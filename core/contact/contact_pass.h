@@ -29,8 +29,10 @@ template <ContactLaw law, Joints joints, typename P>
                 reach += reach_of(rows, contacts.memory_lane[i / lanes], k) +
                          climb_of<P>(contacts.memory_lane[i / lanes], k, did_slip(&contacts.regime[k][i], MaskOf<P>{}),
                                      g.touch.point[k].v_t * rule.blocks.step.last);
-        g.closed[k] = is_closed(g.touch.length, reach, floor);
         g.was_impulse[k] = were_impulses(&contacts.regime[k][i], MaskOf<P>{});
+        if constexpr (law == ContactLaw::impulses)
+            reach += select(g.was_impulse[k], rule.lifted, P(0.0));
+        g.closed[k] = is_closed(g.touch.length, reach, floor);
         g.last_normal[k] = load_lane<P>(l, l.normal_force[k]);
         g.last_shear[k] = load_lane<P>(l, l.shear_force[k]);
         sums.closed.add(g.closed[k]);

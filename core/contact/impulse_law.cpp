@@ -79,8 +79,10 @@ ImpulsePoint make_point(Index contact, int end, const Model& model, const Blocks
     const double parting = opened(model, contacts, contact, end, at.v_t * blocks.step.last);
     const double most = std::max(at.v_m, 0.0) * blocks.step.last + std::max(parting, 0.0) +
                         model.contact.correction_rate * size * blocks.step.next;
-    // Blocks follow a joint that closes, and stay in touch.
-    p.target = parting < 0.0 ? std::max(0.5 * model.contact.allowed_overlap - p.pressed, 0.0) / blocks.step.next : 0.0;
+    // Blocks follow a joint that closes, and stay in touch. A point that was lifted may close, but for a gap as small as the allowed overlap: round-off would move
+    // blocks. One that bears tension is open because it is pulled.
+    const double open = (parting < 0.0 ? 0.5 : -1.0) * model.contact.allowed_overlap - p.pressed;
+    p.target = parting < 0.0 || p.pull == 0.0 ? std::max(open, 0.0) / blocks.step.next : 0.0;
     p.excess_overlap = std::min(rest - std::max(preload, 0.0) - model.contact.allowed_overlap,
                                 most);  // what is pulled is not pushed apart
     p.impulse_normal = std::max(contacts.normal_force(end, contact) * dt + p.pull, 0.0);

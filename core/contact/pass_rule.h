@@ -24,6 +24,7 @@ struct PassRule
           closing_speed(rule.closing_speed),
           dt(of.step.last),
           ways(closing_ways(of.step)),
+          lifted(rule.lifted_stay_closed ? model.gravity.norm() * of.step.kick() * of.step.kick() : 0.0),
           floors_deep(model.contact.overlap_limit / model.contact.length_floor),
           recovery(model.contact.correction_rate * dt / model.contact.length_floor)
     {
@@ -35,6 +36,7 @@ struct PassRule
     Closing closing;
     double closing_speed;
     P dt, ways;
+    P lifted;       ///< opening at which a point that has borne an impulse is still closed [m]
     P floors_deep;  ///< contact.overlap_limit; it and the length floor are shares of the smaller block's size
     P recovery;     ///< of a rest overlap in a cycle, in length floors
 };

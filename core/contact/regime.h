@@ -39,6 +39,9 @@ struct RegimeRule
     /// length. It stores nothing, and its threshold is 0. An impulse there would be a rigid prop in rock that gives way elastically beside it, and
     /// rock around a hole would move too little.
     bool corners_keep_springs = false;
+    /// A point that has borne an impulse stays closed while it is open by less than blocks fall in a cycle: its blocks may close that way, and no more. Differs
+    /// from the paper: where the correction of one corner lifts the other one of a face, the block would hop from corner to corner for ever.
+    bool lifted_stay_closed = false;
     Closing closing = Closing::fast_points;
     double closing_speed =
         0.0;  ///< slower contacts give whole forces in each cycle [m/s]; else rock would take a third more time to come to rest

@@ -99,6 +99,7 @@ StageRules resolve_rules(const StageSetting& s)
     return {.contact = {.law = law_of(s.method),
                         .rock_keeps_springs = looks_for_rest,
                         .corners_keep_springs = s.preset == DampingPreset::automatic,
+                        .lifted_stay_closed = looks_for_rest,
                         .closing = whole_cycles ? Closing::whole_cycles : Closing::fast_points,
                         .closing_speed = settling},
             .islands = islands_of(s.preset, looks_for_rest),

@@ -4,6 +4,7 @@
 #include "core/geometry/convex_part.h"
 #include "core/water/pore_pressure.h"
 #include "core/water/water_motion.h"
+#include "core/water/wet_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ namespace hdem
 namespace
 {
 constexpr double steepest = 0.5;  ///< of an edge against the one it faces [-]
-constexpr double
-    faces_follow = 0.25;  ///< way of a block over its size up to which cracks, and joints without ponded water, press on it [-]
-
 /// Part of an edge, from its first vertex.
 struct Stretch
 {
@@ -27,36 +25,8 @@ struct Stretch
     bool is_wet = false;
 };
 
-Vec2 to_world(const BlockMotion& motion, const Vec2& body)
-{
-    return {motion.x + motion.c * body.x() - motion.s * body.y(), motion.y + motion.s * body.x() + motion.c * body.y()};
-}
-
-Vec2 to_body(const BlockMotion& motion, const Vec2& world)
-{
-    const Vec2 d(world.x() - motion.x, world.y() - motion.y);
-    return {motion.c * d.x() + motion.s * d.y(), -motion.s * d.x() + motion.c * d.y()};
-}
-
-/// How far a block has moved from where it is drawn [m].
-Vec2 way_of(const Model& model, const State& state, Index block)
-{
-    const BlockMotion& motion = state.blocks.motion[block];
-    return Vec2(motion.x, motion.y) - model.water.drawn[model.user_number[block]];
-}
-
-/// Is there water between two blocks? Without ponded water, in joints that were drawn alone: what has fallen and lies on a floor below the water table would be pressed off it,
-/// fall again without a pressure on it, and be thrown about.
-bool has_joint_water(const Model& model, const State& state, Index contact)
-{
-    const Index ref = state.contacts.ref[contact], inc = state.contacts.inc[contact];
-    const double apart = (way_of(model, state, ref) - way_of(model, state, inc)).norm();
-    return model.water.wet_law[state.contacts.law[contact]] != 0 &&
-           (model.water.ponded || apart <= faces_follow * std::min(model.size(ref), model.size(inc)));
-}
-
 /// Stretches of edges that face another block.
-void add_facing(const Model& model, const State& state, Index i, std::vector<Stretch>& faces)
+void add_facing(const Model& model, const State& state, const DryOpenings& openings, Index i, std::vector<Stretch>& faces)
 {
     const Contacts& contacts = state.contacts;
     const Index ref = contacts.ref[i], inc = contacts.inc[i];
@@ -67,92 +37,22 @@ void add_facing(const Model& model, const State& state, Index i, std::vector<Str
     const EdgeTouch touch = touch_edges(edges, on_ref, on_inc);
     if (!(touch.length > contacts.length_floor(i)) || std::abs(touch.slope) > steepest)
         return;
-    const bool wet = has_joint_water(model, state, i);
-    const auto add = [&](Index edge, double a, double b)
+    bool wet = has_joint_water(model, state, i);
+    const auto add = [&](Index block, Index edge, double a, double b)
     {
         const double length = model.shapes.edge_length[edge];
-        faces.push_back({edge, std::clamp(std::min(a, b), 0.0, length), std::clamp(std::max(a, b), 0.0, length), wet});
+        const Stretch face{edge, std::clamp(std::min(a, b), 0.0, length), std::clamp(std::max(a, b), 0.0, length)};
+        wet = wet && !was_beside_opening(model, state, openings, block, edge, face.from, face.to);
+        faces.push_back(face);
     };
-    add(contacts.ref_edge[i], touch.point[0].ref_t - edges.start_t, touch.point[1].ref_t - edges.start_t);
+    add(ref, contacts.ref_edge[i], touch.point[0].ref_t - edges.start_t, touch.point[1].ref_t - edges.start_t);
     const Vec2 t(touch.ex, touch.ey), m = turned_left(t), first(edges.p0x, edges.p0y);
     const Vec2 along = (Vec2(edges.p1x, edges.p1y) - first).normalized();
     const auto way = [&](const TouchPoint& p)
     { return (to_body(on_inc, Vec2(on_inc.x, on_inc.y) + p.inc_t * t + p.inc_m * m) - first).dot(along); };
-    add(contacts.inc_edge[i], way(touch.point[0]), way(touch.point[1]));
-}
-
-/// Blocks that are gone, whose place is an opening without water.
-class DryOpenings
-{
-  public:
-    DryOpenings(const Model& model, const State& state) : model_(model), state_(state)
-    {
-        for (Index part = 0; part < model.shapes.parts(); ++part)
-        {
-            const Index block = model.shapes.part_block[part], excavation = model.excavation[block];
-            const bool flooded = excavation != no_index && model.water.wet_opening[excavation] != 0;
-            if (state.blocks.present[block] == 0 && model.mass[block] > 0.0 && !flooded)
-                add_part(part);
-        }
-    }
-
-    /// Shares of the way from `a` to `b` that lie in them, joined and ascending.
-    [[nodiscard]] std::vector<std::array<double, 2>> inside(const Vec2& a, const Vec2& b) const
-    {
-        std::vector<std::array<double, 2>> found;
-        if ((a.cwiseMin(b) - high_).maxCoeff() > 0.0 || (low_ - a.cwiseMax(b)).maxCoeff() > 0.0)
-            return found;
-        for (const Index part : parts_)
-        {
-            const BlockMotion& motion = state_.blocks.motion[model_.shapes.part_block[part]];
-            const Vec2 centre = to_world(motion, model_.shapes.part_centre[part]);
-            const double reach = model_.shapes.part_radius[part] + 0.5 * (b - a).norm();
-            if ((centre - 0.5 * (a + b)).squaredNorm() <= reach * reach)
-                add(part, to_body(motion, a), to_body(motion, b), found);
-        }
-        std::ranges::sort(found);
-        return found;
-    }
-
-  private:
-    void add_part(Index part)
-    {
-        parts_.push_back(part);
-        const Vec2 centre = to_world(state_.blocks.motion[model_.shapes.part_block[part]], model_.shapes.part_centre[part]);
-        const Vec2 reach = Vec2::Constant(model_.shapes.part_radius[part]);
-        low_ = low_.cwiseMin(centre - reach);
-        high_ = high_.cwiseMax(centre + reach);
-    }
-
-    /// Cut the way by the part's edges.
-    void add(Index part, const Vec2& a, const Vec2& b, std::vector<std::array<double, 2>>& found) const
-    {
-        double low = 0.0, high = 1.0;
-        for (Index v = model_.shapes.vertex_begin[part]; v < model_.shapes.vertex_begin[part + 1]; ++v)
-        {
-            const double at_a = cross(model_.shapes.edge_tangent[v], a - model_.shapes.vertex[v]);
-            const double at_b = cross(model_.shapes.edge_tangent[v], b - model_.shapes.vertex[v]);
-            if (at_a < 0.0 && at_b < 0.0)
-                return;
-            if (at_a < 0.0)
-                low = std::max(low, at_a / (at_a - at_b));
-            else if (at_b < 0.0)
-                high = std::min(high, at_a / (at_a - at_b));
-        }
-        if (low < high)
-            found.push_back({low, high});
-    }
-
-    const Model& model_;
-    const State& state_;
-    std::vector<Index> parts_;
-    Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;  ///< of a box around all of them
-};
-
-/// Cracks press on a block until it has gone far.
-bool do_cracks_act(const Model& model, const State& state, Index block)
-{
-    return !model.water.cracks.empty() && way_of(model, state, block).norm() <= faces_follow * model.size(block);
+    add(inc, contacts.inc_edge[i], way(touch.point[0]), way(touch.point[1]));
+    faces.back().is_wet = faces[faces.size() - 2]
+                              .is_wet = wet;  // the same on both: what a joint bears on one block, it bears on the other
 }
 
 class WaterForces
@@ -166,7 +66,7 @@ class WaterForces
           openings_(model, state)
     {
         for (Index i = 0; i < state.contacts.size(); ++i)
-            add_facing(model, state, i, faces_);
+            add_facing(model, state, openings_, i, faces_);
         std::ranges::sort(faces_, [](const Stretch& a, const Stretch& b)
                           { return std::tie(a.edge, a.from, a.to, a.is_wet) < std::tie(b.edge, b.from, b.to, b.is_wet); });
     }
@@ -207,7 +107,10 @@ class WaterForces
     void add_free(Index edge, double from, double to, bool is_ponded)
     {
         const Vec2 out = model_.water.tolerance * -turned_left(direction(edge));
-        add_wet(edge, from, to, is_ponded, openings_.inside(place(edge, from) + out, place(edge, to) + out));
+        Shares dry = openings_.inside(place(edge, from) + out, place(edge, to) + out);
+        std::ranges::move(dry_as_drawn(model_, state_, openings_, block_, edge, from, to), std::back_inserter(dry));
+        std::ranges::sort(dry);
+        add_wet(edge, from, to, is_ponded, dry);
     }
 
     /// A stretch that faces another block. Where it or that one lies in a dry opening, as what has fallen on its floor, there is no water between them: it would lift a
@@ -215,14 +118,11 @@ class WaterForces
     void add_joint(Index edge, double from, double to, bool is_wet)
     {
         const Vec2 out = model_.water.tolerance * -turned_left(direction(edge)), a = place(edge, from), b = place(edge, to);
-        std::vector<std::array<double, 2>> dry = openings_.inside(a + out, b + out);
-        std::ranges::move(openings_.inside(a - out, b - out), std::back_inserter(dry));
-        std::ranges::sort(dry);
-        add_wet(edge, from, to, is_wet, dry);
+        add_wet(edge, from, to, is_wet, dry_beside(openings_, a, b, out));
     }
 
     /// @param dry  shares of the stretch without water, ascending
-    void add_wet(Index edge, double from, double to, bool table_acts, const std::vector<std::array<double, 2>>& dry)
+    void add_wet(Index edge, double from, double to, bool table_acts, const Shares& dry)
     {
         double wet_from = from;
         for (const auto& [low, high] : dry)
@@ -326,22 +226,4 @@ std::array<double, 2> water_share(const Model& model, Index stage, Index law, co
     return {p.force - p.moment / length, p.moment / length};
 }
 
-double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to)
-{
-    if (!model.water.given)
-        return 0.0;
-    const bool wet = has_joint_water(model, state, contact);
-    const Index block = state.contacts.ref[contact];
-    const Vec2 drawn = model.water.drawn[model.user_number[block]];
-    const FaceStretch face{.from = from,
-                           .to = to,
-                           .drawn_from = drawn + to_body(state.blocks.motion[block], from),
-                           .drawn_to = drawn + to_body(state.blocks.motion[block], to),
-                           .table_acts = wet,
-                           .cracks_act = do_cracks_act(model, state, block)};
-    const double length = (to - from).norm();
-    if (length == 0.0)
-        return wet ? pressure_at(model.water, state.stage, from) : 0.0;
-    return pressure_along(model.water, state.stage, face).force / length;
-}
 }  // namespace hdem

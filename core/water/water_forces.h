@@ -25,7 +25,4 @@ namespace hdem
 /// What the water takes off the normal forces of the two points of a contact: same resultant and moment as its pressure [N].
 /// @param from, to  the contact's points, local coordinates [m]
 [[nodiscard]] std::array<double, 2> water_share(const Model& model, Index stage, Index law, const Vec2& from, const Vec2& to);
-
-/// Mean pressure of the water in a joint, on the stretch from `from` to `to` on which its blocks face each other [Pa]; local coordinates [m].
-[[nodiscard]] double mean_joint_pressure(const Model& model, const State& state, Index contact, const Vec2& from, const Vec2& to);
 }  // namespace hdem

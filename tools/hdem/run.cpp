@@ -52,7 +52,7 @@ FinishedRun run_case(const RunOptions& options, Observer* also)
     }
     run.is_complete = true;
     run.summary = files.finish(start, simulation, run.stages);
-    run.exit_code = run.summary.converged ? exit_done : exit_no_convergence;
+    run.exit_code = run.summary.met_ends ? exit_done : exit_no_convergence;
     return run;
 }
 

@@ -99,10 +99,9 @@ void print_liners(Log& log, const std::vector<LinerSummary>& liners)
 std::string outcome_word(const RunSummary& s)
 {
     const auto any = [&](bool StageSummary::*is) { return std::ranges::any_of(s.stages, is); };
-    const bool rests = std::ranges::all_of(s.stages, [](const StageSummary& stage) { return !stage.sought_rest || stage.at_rest; });
-    if (!s.converged)
+    if (!s.met_ends)
         return any(&StageSummary::sought_end) ? "NOT at its ends" : "NOT converged";
-    return any(&StageSummary::sought_rest) && rests ? "converged" : "done";
+    return any(&StageSummary::sought_rest) && s.converged ? "converged" : "done";
 }
 
 /// How each stage ended. With many of them only the first and the last.
@@ -156,8 +155,9 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
     log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
                          s.kinetic_energy_limit, s.unbalanced_force_ratio));
     log.line(fmt::format("displacement {}: mean {:.4g} mm, greatest {:.4g} mm; all blocks: mean {:.4g} mm, greatest {:.4g} mm",
-                         s.cycles_after_excavation ? "next to the excavation" : "of free blocks", 1e3 * s.mean_displacement,
-                         1e3 * s.max_displacement, 1e3 * s.mean_displacement_all, 1e3 * s.max_displacement_all));
+                         s.cycles_after_excavation ? "next to the excavation, without detached blocks" : "of free blocks",
+                         1e3 * s.mean_displacement, 1e3 * s.max_displacement, 1e3 * s.mean_displacement_all,
+                         1e3 * s.max_displacement_all));
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
                          fmt::join(s.detached_blocks, ", ")));
     if (!s.detached_before.empty())
@@ -177,10 +177,14 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
         log.line(line);
     log.line(thread_line(s.thread_use));
     const double seconds = std::max(session.seconds, 1e-9);
-    log.line(fmt::format("wall time {}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
-                         "at most {:.0f} MB",
-                         duration_text(s.wall_seconds), static_cast<double>(s.cycles - session.first_cycle) / seconds,
-                         1e-6 * s.contact_point_updates_per_second, session.cpu_seconds / seconds, s.threads, peak_megabytes()));
+    const std::string since_restart = session.first_cycle > 0
+                                          ? fmt::format(" over all restarts; since the last {}", duration_text(session.seconds))
+                                          : std::string();
+    log.line(
+        fmt::format("wall time {}{}, {:.0f} cycles/s, {:.4g} million contact-point updates/s; {:.2f} of {} threads busy, memory "
+                    "at most {:.0f} MB",
+                    duration_text(s.wall_seconds), since_restart, static_cast<double>(s.cycles - session.first_cycle) / seconds,
+                    1e-6 * s.contact_point_updates_per_second, session.cpu_seconds / seconds, s.threads, peak_megabytes()));
     for (const std::string& warning : run_warnings(simulation, s))
         log.line("warning: " + warning);
     log.line(fmt::format("state hash {:016x}", s.state_hash));

@@ -48,6 +48,28 @@ void add_liner_warnings(const RunSummary& s, std::vector<std::string>& warnings)
                                            l.name, l.displacement));
     }
 }
+
+/// Is a motion prescribed in some stage?
+bool is_ever_driven(const Model& model)
+{
+    return model.is_driven || std::ranges::any_of(model.loads, &Load::prescribes) ||
+           std::ranges::any_of(model.boundaries, [](const Boundary& side) { return moves_walls(side.kind); });
+}
+
+/// Local damping opposes absolute velocities where held blocks do not move as one body: what they carry or push is then held back.
+void add_damping_warning(const Simulation& simulation, std::vector<std::string>& warnings)
+{
+    constexpr double noticed = 0.1;  // of the work
+    const EnergyLedger& ledger = simulation.state().ledger;
+    const double work = std::abs(ledger.load_work) + std::abs(ledger.boundary) + std::abs(ledger.gravity_work);
+    if (!is_ever_driven(simulation.model()) || !(ledger.local_damping > noticed * work) || !(work > 0.0))
+        return;
+    warnings.push_back(
+        fmt::format("local damping took {:.2g} % of the work of weights and prescribed motions: forces on blocks that a moving "
+                    "block carries or "
+                    "pushes may be wrong by as much. Use damping.preset = \"dynamic\" or the method impulse, or move more slowly.",
+                    100.0 * ledger.local_damping / work));
+}
 }  // namespace
 
 std::vector<std::string> run_warnings(const Simulation& simulation, const RunSummary& s)
@@ -73,6 +95,7 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
                         "a stage with until = \"converged\", which ends their way.",
                         first_of(outside)));
     add_liner_warnings(s, warnings);
+    add_damping_warning(simulation, warnings);
     if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)
         warnings.push_back(
             fmt::format("energy ledger: residual = {:.2g} of its largest term in cycle {} ({:.3g} times what it should be). "
@@ -146,7 +169,8 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
     s.smallest_block_mass = smallest_free_mass(model, state);
     s.cycles = state.cycle;
     s.time = state.time;
-    s.converged = std::ranges::all_of(stages, &StageResult::met_end);
+    s.converged = std::ranges::all_of(stages, [](const StageResult& stage) { return !stage.sought_rest || stage.at_rest; });
+    s.met_ends = std::ranges::all_of(stages, &StageResult::met_end);
     if (state.excavation_cycle >= 0)
         s.cycles_after_excavation = state.cycle - state.excavation_cycle;
     for (std::size_t i = 0; i < stages.size(); ++i)

@@ -14,8 +14,8 @@ OUTCOME = [("method", "contact method", ""), ("cycles", "cycles", ""), ("cycles_
            ("time", "simulated time", "s"), ("time_step", "time step", "s"), ("paper_time_step", "time step of Eq. (32)", "s"),
            ("blocks", "blocks at the end", ""), ("free_blocks", "of them free", ""), ("smallest_block_mass", "mass of the smallest free block", "kg/m"),
            ("contact_points", "closed contact points", ""), ("kinetic_energy", "kinetic energy", "J"), ("kinetic_energy_limit", "its limit", "J"),
-           ("unbalanced_force_ratio", "unbalanced force ratio", ""), ("mean_displacement", "mean displacement next to the excavation", "m"),
-           ("max_displacement", "greatest displacement next to the excavation", "m"), ("mean_displacement_all", "mean displacement of all free blocks", "m"),
+           ("unbalanced_force_ratio", "unbalanced force ratio", ""), ("mean_displacement", "mean displacement next to the excavation, without detached blocks", "m"),
+           ("max_displacement", "greatest displacement next to the excavation, without detached blocks", "m"), ("mean_displacement_all", "mean displacement of all free blocks", "m"),
            ("max_displacement_all", "greatest displacement of all free blocks", "m"), ("state_hash", "hash of the final state", "")]
 NEXT_TO = ("mean_displacement", "max_displacement")    # the excavation, without detached blocks; of all free blocks in a run that excavates nothing
 # term of the ledger -> what it is, +1 put in, -1 taken out, 0 stored at the end
@@ -75,14 +75,14 @@ def section(title, body):
 def outcome_card(summary, state):
     if state != "done" or not summary:
         return card("open", {"running": "goes on", "interrupted": "was interrupted"}.get(state, "has not ended"), "missed")
-    if not summary["converged"]:
+    if not summary.get("met_ends", summary["converged"]):
         late = [stage for stage in summary["stages"] if has_met_end(stage) is False]
         if not late or any(stage["until_converged"] for stage in late):
             return card("not converged", "within its limit of cycles", "missed")
         return card("end not reached", f'stage "{escape(late[0]["name"])}" came to max_cycles first', "missed")
     if any(stage["until_converged"] and stage["converged"] for stage in summary["stages"]):
         return card("converged", "every stage that should", "met")
-    return card("done", "every stage reached its end" if any(map(has_met_end, summary["stages"])) else "as many cycles as asked for", "met")
+    return card("done", "every stage reached its end" if any(map(has_met_end, summary["stages"])) else "every stage ran as long as asked for", "met")
 
 
 def has_met_end(stage):

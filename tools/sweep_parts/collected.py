@@ -138,8 +138,8 @@ def collect(options):
     states = Counter(row[STATE] for row in rows)
     done = [row for row in rows if row[STATE] == "done"]
     del states["done"]
-    not_converged = sum(row.get("converged") is False for row in done)
-    states = Counter({"of them not converged": not_converged}) + states
+    late = sum(row.get("met_ends", row.get("converged")) is False for row in done)
+    states = Counter({"of them not converged": late}) + states
     print(f"{table}: {len(done)} of {len(rows)} runs done" + (f", {told(states)}" if told(states) else ""))
     if options.fails or options.of or options.histogram or options.by:
         if not done:

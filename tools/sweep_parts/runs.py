@@ -49,10 +49,15 @@ class Starter:
             self.tell(process)
 
 
+def met_ends(summary):
+    """Did every stage meet an end of its `until`? In folders of older versions `converged` says it."""
+    return summary.get("met_ends", summary.get("converged", True))
+
+
 def exit_code_of(folder, needs=None):
     """That of a run that is done; None for all others."""
     summary = checked_summary(folder, needs)
-    return None if summary is None else DONE if summary.get("converged", True) else NOT_CONVERGED
+    return None if summary is None else DONE if met_ends(summary) else NOT_CONVERGED
 
 
 def run_in(folder, plan, values, start):

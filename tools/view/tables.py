@@ -41,5 +41,5 @@ def tables_of(run):
     chunk, tables = Chunk(), []
     for name in run.histories:
         add_table(chunk, tables, name, run.history(name), None)
-    add_table(chunk, tables, "energies", run.energy(), ENERGIES)
+    add_table(chunk, tables, "energies" if "energies" not in run.histories else "energies of the run", run.energy(), ENERGIES)
     return chunk.close(), tables

@@ -85,6 +85,13 @@ void set_endless(Scene& scene, const Incline& incline, double step)
     scene.what += ", endless plane";
 }
 
+/// A given step that bears the springs of a second face, too.
+void bear_wall(Scene& scene, double share)
+{
+    if (scene.def.time.step)
+        scene.def.time.step = std::min(*scene.def.time.step, share * stable_limit(scene, 1.0));
+}
+
 void set_wall(Scene& scene, const Incline& incline, Draw& draw, double step)
 {
     constexpr double most_cycles = 200000;
@@ -160,7 +167,8 @@ Scene sliding_scene(int number, Draw& draw, Ground ground, Incline& incline)
         incline.height = std::min(incline.height, 0.7 * incline.base / (incline.factor * std::tan(incline.beta())));
     }
     Scene scene = build(incline, number, draw);
-    const double limit = (ground == Ground::tiles ? 0.8 : 1.0) * stable_limit(scene);  // short contacts are stiffer
+    const double share = ground == Ground::tiles ? 0.8 : 1.0;  // short contacts are stiffer
+    const double limit = share * stable_limit(scene);
     draw_step(scene, draw, limit);
     if (thrown)
         set_thrown(scene, incline, draw);
@@ -169,9 +177,13 @@ Scene sliding_scene(int number, Draw& draw, Ground ground, Incline& incline)
     else if (draw.chance(0.5))
         set_endless(scene, incline, least_step(scene, limit));
     else
+    {
+        bear_wall(scene, 0.95 * share);
         set_wall(scene, incline, draw, least_step(scene, limit));
+    }
     return scene;
 }
+
 /// Cut the plane below and in front of the block into tiles. In a third of the scenes the block's lower corner lies above a joint.
 void lay_tiles(Scene& scene, const Incline& incline, Draw& draw)
 {
@@ -182,10 +194,12 @@ void lay_tiles(Scene& scene, const Incline& incline, Draw& draw)
     const double first = draw.chance(1.0 / 3.0) ? 1.0 : draw.between(0.0, length);
     double from = -50.0;
     const double begin = first - length * std::ceil((first + reach) / length);
+    const auto wall = std::ranges::find(scene.def.blocks, "wall", &BlockDef::name);
+    const double wall_at = wall == scene.def.blocks.end() ? 400.0 : wall->polygon.front().dot(down) / base;
     for (int tile = 0; from < 400.0; ++tile)
     {
         const double joint_at = begin + length * tile, until = joint_at > reach ? 400.0 : joint_at;
-        const bool is_below = from < 1.0 && until > 0.0;  // the block, which must not overlap it as drawn
+        const bool is_below = (from < 1.0 && until > 0.0) || until > wall_at;  // block or wall, which must not overlap it as drawn
         const double step = has_steps ? draw.scale(1e-12 * base, 0.1 * scene.settle) * (draw.chance(0.5) && !is_below ? 1.0 : -1.0)
                                       : 0.0;
         const Polygon polygon = rectangle_along(from * base * down - (depth * base - step) * turned_left(down), down,

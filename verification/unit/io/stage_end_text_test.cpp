@@ -75,6 +75,7 @@ TEST(StageEndText, SaysWhatIsWrong)
                  {"displacement > nan", "is no end of a stage"},
                  {"velocity > 1", "no end of a stage is called velocity"},
                  {"time < 1", "time only grows"},
+                 {"unbalanced_force_ratio > 1", "it is great when the stage begins"},
                  {"time > 1 for 2 s", "passes its limit once"},
                  {"time:a > 1", "that of the whole model"},
                  {"quiet", "for how long"},

@@ -38,6 +38,7 @@ TEST(Summary, HasAllKeysThatOthersRelyOn)
                             "kinetic_energy",
                             "mean_displacement",
                             "max_displacement",
+                            "met_ends",
                             "detached_blocks",
                             "wall_seconds",
                             "contact_point_updates_per_second",

@@ -132,7 +132,7 @@ class PageOfARun(unittest.TestCase):
         near, all_ = (self.summary[key] for key in ("max_displacement", "max_displacement_all"))
         self.assertGreater(all_, near + 0.1)
         self.assertEqual(dict(reversed(found) for found in re.findall(r'<div class="card "><b>([^<]*)</b>(greatest displacement [^<]*)</div>', self.page)),
-                         {"greatest displacement next to the excavation": run_page.metres(near), "greatest displacement of all free blocks": run_page.metres(all_)})
+                         {"greatest displacement next to the excavation, without detached blocks": run_page.metres(near), "greatest displacement of all free blocks": run_page.metres(all_)})
 
     def test_run_that_missed_its_end_is_not_done(self):
         case, folder = Path(self.scratch.name) / "missed.toml", Path(self.scratch.name) / "missed"
@@ -170,7 +170,7 @@ class OutcomeCard(unittest.TestCase):
     def test_says_how_the_stages_ended(self):
         settled = ("settle", "cycles", False, False)
         for converged, stages, kind, words in (
-                (True, [settled], "met", "done as many cycles as asked for"),
+                (True, [settled], "met", "done every stage ran as long as asked for"),
                 (True, [settled, ("fall", "speed < 1e-9", False, False)], "met", "done every stage reached its end"),
                 (True, [settled, ("rest", "converged", True, True)], "met", "converged every stage that should"),
                 (False, [settled, ("rest", "max_cycles", True, False)], "missed", "not converged within its limit of cycles"),

@@ -151,6 +151,14 @@ class PageOfASmallRun(unittest.TestCase):
             np.testing.assert_array_equal(arrays["0/time"], results["history/ball/time"])
             np.testing.assert_allclose(arrays["0/speed"], results["history/ball/speed"], rtol=1e-6)
 
+    def test_a_history_named_energies_hides_nothing(self):
+        case = self.root / "named.toml"
+        case.write_text(small_case.CASE.replace('name = "rest"', 'name = "energies"'), encoding="utf-8")
+        subprocess.run([HDEM, "run", case, "-o", self.root / "named", "--quiet"], check=True)
+        self.assertEqual(view(self.root / "named")[0], 0)
+        tables = ViewPage(self.root / "named/view.html").runs[0]["tables"]
+        self.assertEqual([table["name"] for table in tables], ["ball", "energies", "energies of the run"])
+
     def test_ranges_are_those_of_blocks_that_stay(self):
         """In the last frame the ball is detached: the ground and the L decide."""
         frame, ranges = self.frame(34), self.page.runs[0]["frames"][34]["ranges"]

@@ -290,5 +290,23 @@ TEST_F(Impact, LetsABlockFlyOnFromWhereItHit)
                 << e << ", " << share;
         }
 }
+/// Correcting the overlap of one corner lifts the other one, where the block is tall. It must not hop from corner to corner for ever.
+TEST(ImpulseLaw, BringsATallBlockThatFallsToRest)
+{
+    for (const double step : {3e-4, 5e-4, 7.18e-4, 1e-3})
+        for (const double restitution : {0.0, 0.3, 0.5})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scene.contact.method = Method::impulse;
+            scene.time.step = step;
+            scene.joints[0].restitution = restitution;
+            scenes::add_fixed_block(scene, "ground", scenes::rectangle({-5.0, -1.0}, {5.0, 0.0}));
+            scenes::add_block(scene, "tall", {{0, 0.001}, {0.755, 0.021}, {0.7176, 1.4326}, {-0.0374, 1.4126}});
+            scene.stages = {{.name = "fall", .until_converged = true, .max_cycles = 4000}};
+            hdem::Setup setup = build_model(scene);
+            Simulation simulation(std::move(setup.model), std::move(setup.state));
+            EXPECT_TRUE(run_stages(simulation, {}).back().at_rest) << step << ", " << restitution;
+        }
+}
 }  // namespace
 }  // namespace hdem
