@@ -166,7 +166,7 @@ TEST(SumsAsFound, GiveTheBitsOfSumsByLists)
         CycleRunner lists(resolve_rules, std::numeric_limits<Index>::max());
         std::array<CycleRunner, 3> sums{CycleRunner(resolve_rules, 0), CycleRunner(resolve_rules, 0),
                                         CycleRunner(resolve_rules, 0)};
-        for (int piece = 0; piece < 40; ++piece)
+        for (int piece = 0; piece < 60; ++piece)
         {
             ASSERT_EQ(lists.run(start.model(), by_lists, 100, 1), no_index);
             for (int threads = 1; threads <= 3; ++threads)

@@ -53,6 +53,16 @@ class StageEnds(unittest.TestCase):
         self.assertIn("none of its ends was met", text)
         self.assertEqual(summary["stages"][0]["ended_by"], "max_cycles")
 
+    def test_a_stage_that_ends_by_motion_has_not_converged(self):
+        """The exit code is 0 all the same: it met an end that it asked for."""
+        push = '[[load]]\nblocks = ["top"]\nforce = [1e5, 0]\n'
+        _, summary = self.run_case(push + '[[stage]]\nuntil = ["converged", "displacement:top > 0.05"]\n')
+        self.assertEqual((summary["converged"], summary["met_ends"], summary["stages"][0]["converged"]), (False, True, False))
+        _, summary = self.run_case('[[stage]]\nuntil = ["converged", "displacement:top > 0.05"]\n')
+        self.assertEqual((summary["converged"], summary["met_ends"]), (True, True))
+        _, summary = self.run_case(push + '[[stage]]\nuntil = "converged"\nmax_cycles = 50\n', code=4)
+        self.assertEqual((summary["converged"], summary["met_ends"]), (False, False))
+
     def test_rest_is_an_end_where_nothing_can_happen(self):
         text, summary = self.run_case('[[stage]]\nuntil = "displacement:top > 0.5"\n')
         self.assertEqual(summary["stages"][0]["ended_by"], "at rest")
