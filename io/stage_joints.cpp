@@ -127,7 +127,7 @@ class StageJoints
 
     void read(std::size_t stage)
     {
-        std::vector<std::string> changes;
+        std::vector<std::string> changes, keys;
         for (const std::string& text : def_.stages[stage].set)
         {
             const bool is_joint = text.starts_with("joint."), is_material = text.starts_with("material.");
@@ -148,6 +148,9 @@ class StageJoints
                 return fail(stage, text, "no joint has this name", "Name one of [joint.NAME].");
             if (is_material && std::ranges::find(def_.materials, name, &MaterialDef::name) == def_.materials.end())
                 return fail(stage, text, "no material has this name", "Name one of [material.NAME].");
+            if (std::ranges::count(keys, change.key) > 0)
+                return fail(stage, text, fmt::format("sets {} again", printable(change.key)), "Give each key once.");
+            keys.push_back(change.key);
             changes.push_back(printable(change.key) + "=" + printable(change.value));
             take_over(stage, apply_overrides(document_, {&change, 1}, source_));
         }

@@ -39,6 +39,10 @@ def split_key(option, text):
 def combinations(varied):
     """Every value with every other: the grid."""
     lists = [values_of(values) for _, values in varied]
+    for (key, _), values in zip(varied, lists):
+        for value in values:
+            if values.count(value) > 1:
+                raise SweepError(f"{key}: {value} is given twice, and would count twice. Give each value once.")
     runs = [list(chosen) for chosen in itertools.islice(itertools.product(*lists), MOST_RUNS + 1)]
     if len(runs) > MOST_RUNS:
         raise SweepError(f"more than {MOST_RUNS} runs. Give fewer values.")

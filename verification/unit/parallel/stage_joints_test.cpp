@@ -107,6 +107,8 @@ TEST(StageJoints, AreRefusedWhereContactsBearByThem)
     EXPECT_THAT(complaint(R"("material.rock.density = -5")"), HasSubstr("density"));
     EXPECT_THAT(complaint(R"("joint.default.dilation_angle_deg = 5")"), HasSubstr("no memory"));
     EXPECT_THAT(complaint(R"("joint.other.cohesion = 5")"), HasSubstr("no joint has this name"));
+    EXPECT_THAT(complaint(R"("joint.default.cohesion = 5", "joint.default.cohesion = 6")"),
+                HasSubstr("sets joint.default.cohesion again"));
     EXPECT_THAT(complaint(R"("gravity = 5")"), HasSubstr("does not say joint.NAME.KEY = VALUE or material.NAME.density = VALUE"));
     EXPECT_THAT(complaint(R"("joint.default.cohesion = -5")"), HasSubstr("cohesion"));
     EXPECT_THAT(complaint(R"("joint.default.frction = 5")"), HasSubstr("unknown key"));

@@ -109,7 +109,7 @@ class VariedKeys(Scratch):
 
 class SameInput(Scratch):
     def test_named_files_stay_the_same(self):
-        for name, varied in (("table.csv", "load.push.force=1,2"), ("b.csv", "load.push.table_file=table.csv,b.csv,table.csv"), ("b.csv", "load.push.table_file=table.csv,'b.csv'")):
+        for name, varied in (("table.csv", "load.push.force=1,2"), ("b.csv", "load.push.table_file=table.csv,b.csv"), ("b.csv", "load.push.table_file=table.csv,'b.csv'")):
             (self.folder / "b.csv").write_text(TABLE, encoding="utf-8")
             self.plan(varied)
             self.run_one(1)

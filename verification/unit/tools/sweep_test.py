@@ -211,6 +211,7 @@ class Sweep(unittest.TestCase):
         for arguments, words in ((["collect", "broken"], "cannot be read"), (["run", "s", "1"], "summary.json: damaged"), (["plan", "small.toml", "-o", "s", "--vary", "a=1"], "there is a plan already"),
                                  (["plan", "small.toml", "-o", "t"], "nothing varies"), (["plan", "none.toml", "-o", "t", "--vary", "a=1"], "no such file"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:x"], "not a range"),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=1,1,2"], "a: 1 is given twice"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:0"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=3:2.5"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:-3"], "not a range"),
