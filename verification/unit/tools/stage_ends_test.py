@@ -68,6 +68,14 @@ class StageEnds(unittest.TestCase):
         self.assertEqual(summary["stages"][0]["ended_by"], "at rest")
         self.assertIn("nothing more can happen", text)
 
+    def test_local_damping_of_what_is_carried_is_told(self):
+        """It opposes velocities against a body that holds all, or absolute ones where a second held block does not move along."""
+        lift = '[[load]]\nblocks = ["ground"]\nvelocity_y = 0.05\n[[stage]]\nduration = 1.0\n'
+        far = '[[block]]\nname = "far"\npolygon = [[20, 0], [21, 0], [21, 1], [20, 1]]\nfixed = true\n'
+        for more, told in ((far + lift, True), (lift, False), (far + '[damping]\npreset = "dynamic"\n' + lift, False), (far + "[[stage]]\ncycles = 500\n", False)):
+            _, summary = self.run_case(more)
+            self.assertEqual(any("local damping took" in warning for warning in summary["warnings"]), told, more)
+
     def test_stages_of_cycles_that_are_too_short_for_a_ramp_are_told(self):
         text, summary = self.run_case('[[load]]\nblocks = ["top"]\nforce = [1, 0]\nramp_cycles = [0, 80]\n[[stage]]\ncycles = 50\n')
         self.assertEqual(summary["stages"][0]["ended_by"], "cycles")
