@@ -59,9 +59,9 @@ bool is_ever_driven(const Model& model)
 /// Local damping opposes absolute velocities where held blocks do not move as one body: what they carry or push is then held back.
 void add_damping_warning(const Simulation& simulation, std::vector<std::string>& warnings)
 {
-    constexpr double noticed = 0.1;  // of the work
+    constexpr double noticed = 0.05;  // of the work
     const EnergyLedger& ledger = simulation.state().ledger;
-    const double work = std::abs(ledger.load_work) + std::abs(ledger.boundary) + std::abs(ledger.gravity_work);
+    const double work = std::max(std::abs(ledger.load_work + ledger.boundary), std::abs(ledger.gravity_work));
     if (!is_ever_driven(simulation.model()) || !(ledger.local_damping > noticed * work) || !(work > 0.0))
         return;
     warnings.push_back(
