@@ -80,6 +80,8 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
             model.shapes.edge_length.push_back(edge.norm());
             model.shapes.edge_source.push_back(part.source[i]);
         }
+        model.shapes.part_centre.push_back(area_moments(part.vertices).centroid - whole.centroid);
+        model.shapes.part_radius.push_back(2.0 * radius);
         model.shapes.part_block.push_back(number);
         model.shapes.vertex_begin.push_back(static_cast<Index>(model.shapes.vertex.size()));
     }
