@@ -24,6 +24,10 @@ class UnitCheck : public CaseCheck
             check_joint(joint);
         for (std::size_t i = 0; i < def_.bolts.size(); ++i)
             check_bolt(def_.bolts[i], fmt::format("bolt[{}].", i));
+        for (std::size_t i = 0; i < def_.liners.size(); ++i)
+            check_liner(def_.liners[i], fmt::format("liner[{}].", i));
+        for (std::size_t i = 0; i < def_.boundaries.size(); ++i)
+            check_boundary(def_.boundaries[i], fmt::format("boundary[{}].", i));
         if (def_.insitu.given)
             check_insitu();
         if (def_.water.given)
@@ -56,6 +60,9 @@ class UnitCheck : public CaseCheck
             problems_.warn(path + "friction_angle_deg", object,
                            fmt::format("friction_angle_deg = {:.6g}", joint.friction_angle_deg), "hardly any friction",
                            "Give it in degrees, not in radians or as a tangent.");
+        if (joint.jcs > 0.0 && joint.jcs < 1e5)
+            problems_.warn(path + "jcs", object, fmt::format("jcs = {:.6g}", joint.jcs), "walls of joints have 1e7 to 3e8 Pa",
+                           "Give it in Pa, not in MPa.");
         double unit_weight = 0.0;
         for (const MaterialDef& material : def_.materials)
             unit_weight = std::max(unit_weight, material.density * def_.gravity.norm());
@@ -81,6 +88,25 @@ class UnitCheck : public CaseCheck
             problems_.warn(path + "yield", object, fmt::format("yield = {:.6g}", *bolt.yield),
                            fmt::format("a stress of {:.2g} MPa in the bar", 1e-6 * *bolt.yield / bolt.area),
                            "Give the force in N, not in kN.");
+    }
+
+    void check_liner(const LinerDef& liner, const std::string& path)
+    {
+        if (liner.modulus > 0.0 && liner.modulus < 1e8)
+            problems_.warn(path + "modulus", fmt::format("liner \"{}\"", printable(liner.name)),
+                           fmt::format("modulus = {:.6g}", liner.modulus), "concrete has 1e10 to 4e10 Pa, steel 2e11 Pa",
+                           "Give it in Pa, not in GPa or MPa.");
+    }
+
+    /// In [insitu] compression is negative, at a boundary positive: a sign that is easily mistaken.
+    void check_boundary(const BoundaryDef& boundary, const std::string& path)
+    {
+        const bool presses = def_.insitu.stress && def_.insitu.stress->xx < 0.0 && def_.insitu.stress->yy < 0.0;
+        if (boundary.kind == BoundaryKind::stress && boundary.stress && boundary.stress->x() < 0.0 && presses)
+            problems_.warn(path + "stress", fmt::format("boundary \"{}\"", printable(boundary.name)),
+                           fmt::format("stress = [{:.4g}, {:.4g}]", boundary.stress->x(), boundary.stress->y()),
+                           "it pulls at rock that is under compression",
+                           "Compression is positive here, though it is negative in [insitu].");
     }
 
     [[nodiscard]] double lowest_rock() const

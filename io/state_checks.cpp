@@ -143,6 +143,8 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             return Damage{"/blocks/force", "not a force"};
         if (!(blocks.stable_step[i] >= 0.0))
             return Damage{"/blocks/stable_step", "not a time step"};
+        if (!(blocks.bearing_force[i] >= 0.0))
+            return Damage{"/blocks/bearing_force", "a force below 0"};
         const BlockMotion& m = blocks.motion[i];
         if (!std::isfinite(blocks.margin[i]) || blocks.margin[i] < 0.0)
             return Damage{"/blocks/margin", "not a length"};

@@ -3,6 +3,7 @@
 #include "core/boundary/mean_hold.h"
 #include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
+#include "core/detection/bearing_force.h"
 #include "core/motion/flight.h"
 #include "core/motion/integrator.h"
 #include "core/motion/rest.h"
@@ -28,6 +29,9 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
     else
         for (const Index b : part.summed)  // others have their sums
             sum_up({b, b + 1});
+    if (rules_.contact.law != ContactLaw::impulses && notes_bearing_forces(state.cycle - state.stage_begin_cycle))
+        for (const IndexRange& range : part.active)
+            note_bearing_forces(range, work_.block_contacts, state.contacts, state.blocks);
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
     if (!state.moving.empty() && std::isfinite(rules_.groups.speed))

@@ -12,16 +12,18 @@ namespace hdem
 namespace
 {
 constexpr double corner_width = 0.1;    // of the length floor
-constexpr double settlements = 8.0;     // the front edge may be pressed in four times as far, and the block may carry another one
+constexpr double settlements = 4.0;     // the front edge may be pressed in four times as far
+constexpr double least_load = 2.0;      // weights: the block may carry another one
 constexpr double widest_corner = 1e-2;  // of the size
 constexpr double steep = 0.36;          // tangent of the angle between two edges: blocks that rock are less inclined
 constexpr double least_fall = 1e-4;     // of the size
 constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
 
-/// How far the weight of a block presses it into what it lies on [m].
-double settlement(const Model& model, Index block, Index law)
+/// How far its weight, or what else it bears, presses a block into what it lies on [m].
+double settlement(const Model& model, const Blocks& blocks, Index block, Index law)
 {
-    return model.mass[block] * model.gravity.norm() / (model.joints.laws[law].normal_stiffness * model.size(block));
+    const double force = std::max(least_load * model.mass[block] * model.gravity.norm(), blocks.bearing_force[block]);
+    return force / (model.joints.laws[law].normal_stiffness * model.size(block));
 }
 
 double least_width(const Model& model, double size)
@@ -39,7 +41,7 @@ double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Inde
     const double size = std::min(model.size(a), model.size(b));
     if (is_by_impulses(model.contact.method))
         return least_width(model, size);
-    const double of_a = settlement(model, a, law), of_b = settlement(model, b, law);
+    const double of_a = settlement(model, blocks, a, law), of_b = settlement(model, blocks, b, law);
     const double settled = blocks.is_free(a) && blocks.is_free(b) ? std::min(of_a, of_b) : (blocks.is_free(a) ? of_a : of_b);
     return std::clamp(settlements * settled, least_width(model, size), greatest_width(model, size));
 }

@@ -9,14 +9,14 @@ namespace hdem
 {
 /// Do two parts touch with corners only, so that their overlap says nothing about which side of a corner the other block is on?
 ///
-/// A block that slides over the joint between two others is as deep in the second one as its weight presses it in. The side of that joint would hold it, or impulses would
+/// A block that slides over the joint between two others is as deep in the second one as its weight, or what else it bears, presses it in. The side of that joint would hold it, or impulses would
 /// throw it back; so would a bevel at the front of the block. So two things bear nothing:
 ///
 ///   edges that lie over each other by less than the width (of a shorter edge, by less than half: a tip may be as narrow as it likes)
 ///   a steep edge that a corner has entered at its end by less than the width, if the edge that meets it there lies flat on the other block and one slides on the other
 ///
-/// The width is a tenth of the length floor and what blocks may move until the next search, or some settlements of the lighter block, at most a hundredth of the smaller
-/// one's size. Impulses leave no settlement.
+/// The width is a tenth of the length floor and what blocks may move until the next search, or some settlements of the lighter block under the
+/// forces that its sides bear (detection/bearing_force.h), at most a hundredth of the smaller one's size. Impulses leave no settlement.
 /// @see verification/unit/core/detection/seams_test.cpp
 [[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing);
 }  // namespace hdem

@@ -177,6 +177,7 @@ void add_initial_state(const RockMass& rock, const PlacedRock& placed, const Mod
     blocks.force.resize(n);
     blocks.inertia.resize(n);
     blocks.stable_step.assign(n, 0.0);
+    blocks.bearing_force.assign(n, 0.0);
     blocks.rest.assign(n, 0);
     blocks.margin.assign(n, model.contact.skin * model.mean_size);
     blocks.present.assign(n, 1);

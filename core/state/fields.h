@@ -80,7 +80,7 @@ static_assert(listed<ContactLanes>(edges, lengths, search, forces) - 3 == field_
 // Blocks. The arrays that hold one row a block:
 inline constexpr auto block_arrays = [](auto& b)
 {
-    return std::tie(b.motion, b.force, b.inertia, b.stable_step, b.margin, b.rest, b.present, b.reference_position,
+    return std::tie(b.motion, b.force, b.inertia, b.stable_step, b.bearing_force, b.margin, b.rest, b.present, b.reference_position,
                     b.reference_angle);
 };
 static_assert(listed<Blocks>(block_arrays) + 1 == field_count<Blocks>(), "step is no array");

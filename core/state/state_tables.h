@@ -90,6 +90,7 @@ void for_each_of_blocks(AnyState& state, const Use& use)
     use(As<std::uint8_t>{}, "/blocks/contact_kinds", blocks.force, fields::contact_kinds);
     use(As<double>{}, "/blocks/inverse_inertia", blocks.inertia, fields::inertia);
     use(As<double>{}, "/blocks/stable_step", blocks.stable_step, fields::number);
+    use(As<double>{}, "/blocks/bearing_force", blocks.bearing_force, fields::number);
     use(As<double>{}, "/blocks/margin", blocks.margin, fields::number);
     use(As<std::uint8_t>{}, "/blocks/rest", blocks.rest, fields::number);
     use(As<std::uint8_t>{}, "/blocks/present", blocks.present, fields::number);

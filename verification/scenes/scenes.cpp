@@ -46,6 +46,8 @@ void change_vectors(CaseDef& scene, const Change& direction)
     {
         load.acceleration = direction(load.acceleration);
         load.force = direction(load.force);
+        if (load.point)
+            load.point = direction(*load.point);  // turned and mirrored about the origin
     }
 }
 }  // namespace
@@ -230,6 +232,9 @@ CaseDef moved(CaseDef scene, const Vec2& by)
     for (BlockDef& block : scene.blocks)
         for (Vec2& p : block.polygon)
             p += by;
+    for (LoadDef& load : scene.loads)
+        if (load.point)
+            *load.point += by;
     return scene;
 }
 }  // namespace hdem::scenes

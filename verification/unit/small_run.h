@@ -99,6 +99,7 @@ inline Index add_block(SmallRun& run, const std::string& name, const std::vector
     blocks.motion.push_back({.x = at.x(), .y = at.y()});
     blocks.force.emplace_back();
     blocks.stable_step.push_back(0.0);
+    blocks.bearing_force.push_back(0.0);
     blocks.rest.push_back(0);
     blocks.margin.push_back(1.0);
     blocks.inertia.push_back(

@@ -213,7 +213,7 @@ TEST(CheckpointReader, RefusesAnotherVersionAndAnotherModel)
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 2.77 (this hdem"));
     change("version", {3, 0});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 3.0 (this hdem"));
-    change("version", {2, 6});
+    change("version", {2, 7});
     EXPECT_EQ(refusal_of(file), "accepted");
     change("model_hash", {5});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("Go on with the hdem that wrote it"));

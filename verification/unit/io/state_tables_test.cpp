@@ -205,7 +205,7 @@ TEST_F(StateTables, HoldEachFieldOnce)
     Contact one = state.contacts.get(0);
     tables::for_each_of_contact(
         true, true, [&](auto, const char*, const auto& list) { fields::for_each(list, one, [&](auto&) { ++contact; }); });
-    const std::size_t other_arrays = 4 + 2 + 1;  // steps, margins, rest, presence; reference place and angle
+    const std::size_t other_arrays = 5 + 2 + 1;  // steps, bearing forces, margins, rest, presence; reference place and angle
     EXPECT_EQ(blocks, 2 * field_count<BlockMotion>() + field_count<BlockForce>() - 2 + field_count<BlockInertia>() - 1 +
                           other_arrays + field_count<Triple>());
     EXPECT_EQ(support, field_count<BoltRecord>() + field_count<LinerRecord>() + 1);

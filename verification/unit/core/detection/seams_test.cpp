@@ -144,6 +144,36 @@ TEST_P(Seam, DoesNotHoldABlockThatMustSlide)
             }
 }
 
+/// Way in 0.3 s of a block on level tiles, over that by Newton's law. It bears so many weights, and is pushed at its foot by 1.3 times what friction holds.
+double pushed_way(Method method, double weights, double past, double angle_deg)
+{
+    CaseDef scene = tiles(9, 0.67, 3.0);
+    scene.contact.method = method;
+    scene.joints[0].normal_stiffness = scene.joints[0].shear_stiffness = 4e9;
+    scene.joints[0].friction_angle_deg = 25.0;
+    scenes::add_block(scene, "block", scenes::rectangle({1.0 + past, 0.0}, {2.0 + past, 1.0}));
+    const double weight = 2700.0 * g, friction = std::tan(25.0 * std::numbers::pi / 180.0);
+    LoadDef press{.name = "press", .blocks = {"block"}}, push = press;
+    press.force = {0.0, -weights * weight};
+    push.name = "push";
+    push.force = {1.3 * (1.0 + weights) * weight * friction, 0.0};
+    push.point = Vec2(1.5 + past, 0.02);
+    scene.loads = {press, push};
+    CaseRun run(scenes::turned(scene, angle_deg));
+    while (run.state().time < 0.3)
+        run.advance(20);
+    return run.displacement("block").norm() / (0.15 * (1.0 + weights) * friction * g * run.state().time * run.state().time);
+}
+
+/// Its load presses a block into what it lies on, many times as deep as its weight.
+TEST_P(Seam, DoesNotHoldABlockThatBearsALoad)
+{
+    for (const double weights : {2.0, 10.0, 40.0})
+        for (const double past : {-1e-5, 0.0, 1e-6, 0.1, 0.33})
+            for (const double angle : {0.0, 37.3})
+                EXPECT_NEAR(pushed_way(GetParam(), weights, past, angle), 1.0, 0.02) << weights << ' ' << past << ' ' << angle;
+}
+
 /// A side that stands out by more than a corner is met.
 TEST_P(Seam, WithAStepOfATenthOfASizeStopsABlock)
 {
