@@ -3,10 +3,14 @@
 
 #include "core/geometry/unit_direction.h"
 #include "core/rock/fault_lines.h"
+#include "core/rock/rock_mass.h"
 #include "io/traces.h"
 #include "verification/unit/io/case_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 namespace hdem::test
 {
@@ -107,5 +111,16 @@ inline CaseDef case_of(const std::string& text, double turn_deg = 0.0)
     }
     def.trace_cells = cut_into_cells(def.domain.polygon, {}, 0.0, source_lines(def));
     return def;
+}
+
+/// Areas of the blocks of a material, in increasing order [m²].
+inline std::vector<double> areas(const RockMass& rock, const std::string& material)
+{
+    std::vector<double> found;
+    for (const RockBlock& block : rock.blocks)
+        if (block.material == material)
+            found.push_back(std::round(area(block) * 1e6) * 1e-6);
+    std::sort(found.begin(), found.end());
+    return found;
 }
 }  // namespace hdem::test
