@@ -4,19 +4,26 @@ namespace hdem
 {
 bool notes_bearing_forces(std::int64_t cycles_of_stage)
 {
-    constexpr std::int64_t always = 64, seldom = 64;
-    return cycles_of_stage < always || cycles_of_stage % seldom == 0;
+    constexpr std::int64_t first = 64, often = 8, seldom = 256;
+    return cycles_of_stage % (cycles_of_stage < first ? often : seldom) == 0;
 }
 
 void note_bearing_forces(IndexRange range, const BlockContacts& list, const Contacts& contacts, Blocks& blocks)
 {
+    const std::uint8_t* const regime[2] = {contacts.regime[0].data(), contacts.regime[1].data()};
+    const ContactLanes* const groups = contacts.lane.data();
     for (Index b = range.begin; b < range.end; ++b)
     {
         double sum = 0.0;
         for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
-            for (int end = 0; end < 2; ++end)
-                if (const Index contact = list.entry[e] / 2; is_spring(contacts.regime[end][contact]))
-                    sum += contacts.normal_force(end, contact);
+        {
+            const auto contact = static_cast<std::uint32_t>(list.entry[e]) / 2;
+            const std::array<ContactLanes::Lane, 2>& force = groups[contact / lanes].normal_force;
+            if (is_spring(regime[0][contact]))
+                sum += force[0][contact % lanes];
+            if (is_spring(regime[1][contact]))
+                sum += force[1][contact % lanes];
+        }
         blocks.bearing_force[b] = sum;
     }
 }

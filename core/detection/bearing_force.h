@@ -7,8 +7,8 @@
 
 namespace hdem
 {
-/// Are forces noted in the cycle that follows so many cycles of the stage? In each of the first ones, in which blocks give way to new loads, later now and then: a note costs a good
-/// part of a cycle's time.
+/// Are forces noted in the cycle that follows so many cycles of the stage? Often at first, when blocks give way to new loads, later now and then: a note costs half of a cycle's
+/// time.
 [[nodiscard]] bool notes_bearing_forces(std::int64_t cycles_of_stage);
 
 /// Note for each block of `range` the sum of the normal forces that springs bear on it. It says how far the block is pressed into what bears it

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace hdem
@@ -38,9 +39,9 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
     return around;
 }
 
-/// Does a pair touch with a corner whose other edge lies flatter on what it touches, and is of a part beside this one? The two edges at a corner are then no choice of
-/// this part alone: the one that it has may even stand at right angles to what the corner lies on, or be off it all along but for that corner.
-bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Facing& facing)
+/// The part beside this one that a corner belongs to, or none: where a pair touches with a corner whose other edge lies flatter on what it touches, and is of that part. The two edges at
+/// a corner are then no choice of this part alone: the one that it has may even stand at right angles to what the corner lies on, or be off it all along but for that corner.
+std::optional<EdgeNeighbour> owner_of_corner(const Shapes& shapes, const PartPair& pair, const Facing& facing)
 {
     constexpr double steep = -0.7, clearly = 0.05;  // cosines
     const Index part = facing.ref_is_a ? pair.b : pair.a;
@@ -53,14 +54,40 @@ bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Faci
     const double depth = cross(t, seen(facing.inc_edge)), depth_at_end = cross(t, seen(end));
     const EdgeNeighbour other = neighbour_of(shapes, part, facing.inc_edge, depth_at_end > depth);
     if (other.part == part || !is_external(shapes, other.edge))
-        return false;
+        return std::nullopt;
     if (along(facing.inc_edge) >= steep)
-        return along(other.edge) < along(facing.inc_edge) - clearly;
+        return along(other.edge) < along(facing.inc_edge) - clearly ? std::optional(other) : std::nullopt;
     const double from = t.dot(seen(other.edge)), to = t.dot(seen(shapes.next_vertex(other.part, other.edge)));
     const bool is_over = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0) >
                          pair.margin;
-    return std::min(depth, depth_at_end) < -pair.margin && is_over && along(other.edge) < steep &&
-           across(other.edge) < 0.5 * across(facing.inc_edge);
+    const bool is_flatter = std::min(depth, depth_at_end) < -pair.margin && is_over && along(other.edge) < steep &&
+                            across(other.edge) < 0.5 * across(facing.inc_edge);
+    return is_flatter ? std::optional(other) : std::nullopt;
+}
+
+/// Does a corner of this pair belong to another part, which overlaps as much with its edge there? Where a spike has entered a block beside a corner at which a seam ends, that part
+/// may lie beside the spike, or see the corner as this one's.
+bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Facing& facing)
+{
+    const std::optional<EdgeNeighbour> owner = owner_of_corner(shapes, pair, facing);
+    if (!owner)
+        return false;
+    const PartPair other{.a = facing.ref_is_a ? pair.a : owner->part,
+                         .b = facing.ref_is_a ? owner->part : pair.b,
+                         .motion_a = pair.motion_a,
+                         .motion_b = pair.motion_b,
+                         .margin = pair.margin,
+                         .round_off = pair.round_off};
+    const PairScan found = scan_pair(shapes, other);
+    if (!found.has_external())
+        return false;
+    const Facing its_own = choose_facing(shapes, other, found);
+    if (std::abs(its_own.overlap - facing.overlap) > pair.margin)
+        return its_own.overlap > facing.overlap;
+    const Index part = facing.ref_is_a ? pair.b : pair.a;
+    const std::optional<EdgeNeighbour> back = its_own.ref_is_a == facing.ref_is_a ? owner_of_corner(shapes, other, its_own)
+                                                                                  : std::nullopt;
+    return !back || back->part != part || owner->part < part;
 }
 
 /// Would the parts of `pair` be apart if the parts around them that `facing` is of were drawn apart? By the least way, out of the edge that faces.

@@ -1,5 +1,7 @@
 #include "core/detection/edge_scan.h"
 
+#include "core/detection/edge_neighbour.h"
+
 #include <algorithm>
 
 namespace hdem
@@ -15,22 +17,38 @@ bool is_hollow(const Shapes& shapes, Index part)
     return shapes.part_begin[block + 1] - shapes.part_begin[block] > 1;
 }
 
+/// Does the block of a part go on deeper than a vertex of that part, along a side that meets there? Only where a seam ends: a part by itself is convex.
+/// @param outwards  normal of a line, as seen from the block
+bool goes_on_deeper(const Shapes& shapes, Index part, Index v, const Vec2& outwards)
+{
+    constexpr double flat = 0.02;  // sine
+    const Index before = v > shapes.vertex_begin[part] ? v - 1 : shapes.vertex_begin[part + 1] - 1;
+    if (shapes.is_reflex[v] != 0)
+        return true;
+    if (is_external(shapes, v) && is_external(shapes, before))
+        return false;
+    const Index next = is_external(shapes, v) ? v : neighbour_of(shapes, part, before, true).edge;
+    const Index last = is_external(shapes, before) ? before : neighbour_of(shapes, part, v, false).edge;
+    return outwards.dot(shapes.edge_tangent[next]) < -flat || outwards.dot(shapes.edge_tangent[last]) > flat;
+}
+
 template <bool hollow>
 Distance distance_of(const Shapes& shapes, Index edge, Index other, const RelativePose& pose)
 {
     const Vec2 normal = -turned_left(shapes.edge_tangent[edge]);
     // Least of n.(R v + d - p): turn the normal once rather than each vertex.
     const Vec2 seen(pose.c * normal.x() + pose.s * normal.y(), pose.c * normal.y() - pose.s * normal.x());
-    double least = infinity, plain = infinity;
-    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
-    {
-        const double d = seen.dot(shapes.vertex[v]);
-        least = std::min(least, d);
-        if (hollow && shapes.is_reflex[v] == 0)
-            plain = std::min(plain, d);
-    }
     const double origin = normal.dot(Vec2(pose.x, pose.y) - shapes.vertex[edge]);
-    return {least + origin, (hollow ? plain : least) + origin};
+    double least = infinity;
+    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+        least = std::min(least, seen.dot(shapes.vertex[v]));
+    if (!hollow || least + origin >= 0.0)
+        return {least + origin, least + origin};
+    double plain = infinity;
+    for (Index v = shapes.vertex_begin[other]; v < shapes.vertex_begin[other + 1]; ++v)
+        if (const double d = seen.dot(shapes.vertex[v]); d < plain && !goes_on_deeper(shapes, other, v, seen))
+            plain = d;
+    return {least + origin, plain + origin};
 }
 
 template <bool hollow>

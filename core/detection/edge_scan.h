@@ -42,9 +42,10 @@ inline constexpr double in_line = 0.999;
 struct Distance
 {
     double least = std::numeric_limits<double>::infinity();  ///< < 0 when it reaches behind it [m]
-    double plain = std::numeric_limits<double>::infinity();  ///< of its vertices that are no reflex corners of its block
+    double plain = std::numeric_limits<double>::infinity();  ///< of its vertices at which its block does not go on deeper
 
-    /// Does only a reflex corner reach behind the line? The block continues in the next part there, so nothing lies against the line in that corner.
+    /// Do only corners reach behind the line where the block goes on deeper in the next part? Then nothing lies against the line there: such are reflex corners, and corners at which a
+    /// seam ends that runs along the line.
     [[nodiscard]] bool is_at_seam(double margin) const { return least < -margin && plain > least + margin; }
 };
 
@@ -85,7 +86,7 @@ struct PairScan
     [[nodiscard]] double external_distance() const { return std::max(on[0].external_distance, on[1].external_distance); }
 };
 
-/// External edges at a seam do not count, unless there are no others.
+/// External edges that are at a seam do not count, unless there are no others.
 /// @param kept    an edge whose distance is asked for
 [[nodiscard]] PairScan scan_pair(const Shapes& shapes, const PartPair& pair, Index kept = no_index);
 }  // namespace hdem

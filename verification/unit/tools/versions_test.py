@@ -63,7 +63,7 @@ class OlderVersions(unittest.TestCase):
             before = {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}
             refused = subprocess.run([HDEM, "run", "--restart", folder], capture_output=True, text=True, check=False)
             self.assertEqual(refused.returncode, 2)
-            self.assertRegex(refused.stderr, rf"checkpoint.h5: version = {version[0]}\.{version[1]} \(this hdem \S+ reads version 2\.6\)\. "
+            self.assertRegex(refused.stderr, rf"checkpoint.h5: version = {version[0]}\.{version[1]} \(this hdem \S+ reads version 2\.7\)\. "
                                              r"Go on with the hdem that wrote it: \S+, commit \w+\.\n$")
             self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}, before)
             again = subprocess.run([HDEM, "run", self.root / "small.toml", "-o", folder, "--quiet"], capture_output=True, text=True, check=False)
