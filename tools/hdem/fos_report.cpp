@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/printable.h"
 #include "io/text_file.h"
+#include "tools/hdem/run_figures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,14 +34,6 @@ const char* title_of(FactorSearch search)
         break;
     }
     return "strength";
-}
-
-std::string some_of(const std::vector<std::string>& names)
-{
-    constexpr std::size_t most = 10;
-    const auto shown = static_cast<std::ptrdiff_t>(std::min(most, names.size()));
-    return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + shown, ", "),
-                       names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
 }
 
 /// Blocks that were let fall in trials that count.
@@ -137,10 +130,10 @@ std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& m
         const std::vector<std::string> names = names_of_blocks(model, first->failing);
         lines.push_back(
             fmt::format("at F = {:.4f} {}{}", first->factor, first->reason,
-                        names.size() > 1 ? fmt::format("; with it move {}", some_of({names.begin() + 1, names.end()})) : ""));
+                        names.size() > 1 ? fmt::format("; with it move {}", first_of({names.begin() + 1, names.end()})) : ""));
     }
     if (const std::vector<Index> fell = all_let_fall(f); !fell.empty())
-        lines.push_back(fmt::format("smaller than least_size, fell without counting: {}", some_of(names_of_blocks(model, fell))));
+        lines.push_back(fmt::format("smaller than least_size, fell without counting: {}", first_of(names_of_blocks(model, fell))));
     return lines;
 }
 
@@ -156,7 +149,7 @@ std::string factor_of_what(const FosOutcome& outcome)
     return fmt::format(
         "It was run anew with a thousand times the strength, and these fell again: {}. No strength holds them, so that there is no "
         "factor. Support them, let small ones fall (least_size), or take the rock as it lies (begin = \"last_state\").",
-        some_of(outcome.falls_anyway));
+        first_of(outcome.falls_anyway));
 }
 
 /// Contacts of rock that was whole at first and has broken.
@@ -194,19 +187,19 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
         warnings.emplace_back("forces of excavated rock that are left (relax_to, relax_cycles) act until the last stage ends, and "
                               "not in the trials. Take them off in a stage of its own.");
     if (!outcome.gave_way.empty())
-        warnings.push_back(fmt::format("these blocks did not stand in the last stage: {}. {}", some_of(outcome.gave_way),
+        warnings.push_back(fmt::format("these blocks did not stand in the last stage: {}. {}", first_of(outcome.gave_way),
                                        factor_of_what(outcome)));
     if (!outcome.gave_way_before.empty())
         warnings.push_back(fmt::format(
             "these blocks moved far (convergence.detached_distance) in stages before the last one: {}. The factor is that of the "
             "rock as it lies now. For theirs, let the run end with the stage in which they move.",
-            some_of(outcome.gave_way_before)));
+            first_of(outcome.gave_way_before)));
     if (!outcome.falls_anyway.empty() && outcome.gave_way.empty())
         warnings.push_back(
             fmt::format("these blocks stood in the last stage, and fall by springs even with a thousand times their "
                         "strength: {}. Impulses find a balance that springs do not. Begin with method = \"force\" or "
                         "\"hybrid\".",
-                        some_of(outcome.falls_anyway)));
+                        first_of(outcome.falls_anyway)));
     if (const Index broken = count_broken(reference); broken > 0)
         warnings.push_back(fmt::format("joints had broken at {} contacts before the trials began. The factor is that of the rock "
                                        "with them. A weight that acts at "
@@ -249,7 +242,7 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
     if (!endless.empty())
         warnings.push_back(fmt::format("no strength is given for these bolts: {}. Trials and bound count on any force of them. "
                                        "Give yield (and shear_strength).",
-                                       some_of(endless)));
+                                       first_of(endless)));
     const double most = greatest_factor_for_dilation(reference.model.joints, weakened_joints(reference.model.joints, outcome.def));
     if (f.as_given.is_closed() && f.as_given.middle() > most)
         warnings.push_back(fmt::format(

@@ -159,9 +159,9 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
                          1e3 * s.mean_displacement, 1e3 * s.max_displacement, 1e3 * s.mean_displacement_all,
                          1e3 * s.max_displacement_all));
     log.line(fmt::format("detached blocks: {}{}{}", s.detached_blocks.size(), s.detached_blocks.empty() ? "" : ": ",
-                         fmt::join(s.detached_blocks, ", ")));
+                         first_of(s.detached_blocks)));
     if (!s.detached_before.empty())
-        log.line(fmt::format("detached in earlier stages: {}: {}", s.detached_before.size(), fmt::join(s.detached_before, ", ")));
+        log.line(fmt::format("detached in earlier stages: {}: {}", s.detached_before.size(), first_of(s.detached_before)));
     print_bolts(log, s.bolts);
     print_liners(log, s.liners);
     log.line(energy_line(s));
