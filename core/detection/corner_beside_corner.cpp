@@ -20,9 +20,10 @@ constexpr double least_fall = 1e-4;     // of the size
 constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
 
 /// How far its weight, or what else it bears, presses a block into what it lies on [m].
-double settlement(const Model& model, const Blocks& blocks, Index block, Index law)
+double settlement(const Model& model, const Blocks& blocks, Index block, Index law, bool by_weight)
 {
-    const double force = std::max(least_load * model.mass[block] * model.gravity.norm(), blocks.bearing_force[block]);
+    const double force = std::max(least_load * model.mass[block] * model.gravity.norm(),
+                                  by_weight ? 0.0 : blocks.bearing_force[block]);
     return force / (model.joints.laws[law].normal_stiffness * model.size(block));
 }
 
@@ -36,12 +37,12 @@ double greatest_width(const Model& model, double size)
     return std::max(least_width(model, size), widest_corner * size);
 }
 
-double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Index law)
+double width_of(const Model& model, const Blocks& blocks, Index a, Index b, Index law, bool by_weight)
 {
     const double size = std::min(model.size(a), model.size(b));
     if (is_by_impulses(model.contact.method))
         return least_width(model, size);
-    const double of_a = settlement(model, blocks, a, law), of_b = settlement(model, blocks, b, law);
+    const double of_a = settlement(model, blocks, a, law, by_weight), of_b = settlement(model, blocks, b, law, by_weight);
     const double settled = blocks.is_free(a) && blocks.is_free(b) ? std::min(of_a, of_b) : (blocks.is_free(a) ? of_a : of_b);
     return std::clamp(settlements * settled, least_width(model, size), greatest_width(model, size));
 }
@@ -58,7 +59,7 @@ double relative_speed(const PartPair& pair)
 }
 
 /// Faster than by a fall of so little: rock that settles is slower.
-bool slides(const Model& model, double speed, double size)
+bool is_sliding(const Model& model, double speed, double size)
 {
     return speed * speed > least_fall * size * model.gravity.norm();
 }
@@ -81,7 +82,7 @@ bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& 
 }
 }  // namespace
 
-bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing)
+bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing, bool has_borne)
 {
     const Shapes& shapes = model.shapes;
     const Index a = shapes.part_block[pair.a], b = shapes.part_block[pair.b];
@@ -92,7 +93,8 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const std::vector<std::int32_t>& source = shapes.edge_source;
     const Index law = model.joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
                                         model.material[facing.ref_is_a ? b : a]);
-    const double width = width_of(model, blocks, a, b, law);
+    const bool slides = is_sliding(model, speed, size);
+    const double width = width_of(model, blocks, a, b, law, has_borne && !slides);
     const bool narrow = is_narrow(facing, width);
     if (!narrow && !is_entered(facing, width, way))
         return false;
@@ -101,6 +103,6 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
     if (shapes.edge_tangent[next].dot(shapes.edge_tangent[facing.ref_edge]) > in_line)
         return false;  // a side goes on there
-    return narrow || (slides(model, speed, size) && lies_flat_beside(shapes, pair, facing, next));
+    return narrow || (slides && lies_flat_beside(shapes, pair, facing, next));
 }
 }  // namespace hdem

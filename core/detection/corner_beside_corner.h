@@ -17,6 +17,9 @@ namespace hdem
 ///
 /// The width is a tenth of the length floor and what blocks may move until the next search, or some settlements of the lighter block under the
 /// forces that its sides bear (detection/bearing_force.h), at most a hundredth of the smaller one's size. Impulses leave no settlement.
+/// Where rock settles, corners that bear go on bearing: there the width goes by the block's weight alone.
+/// @param has_borne  the pair bore before this search
 /// @see verification/unit/core/detection/seams_test.cpp
-[[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing);
+[[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
+                                           bool has_borne);
 }  // namespace hdem

@@ -51,10 +51,10 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
     const Facing facing = choose_facing(shapes, pair, scan, contact.ref_edge);
-    const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing) &&
+    const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
+    const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
                          bears(shapes, pair, scan, facing,
                                4.0 * model.contact.recycling_distance * size);  // holds until the next search
-    const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
     if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
     {
         const Contact old = contact;
