@@ -57,7 +57,7 @@ struct StepBound
 
 /// The least over all blocks of `range` that take part, or are beside one that does, of
 ///
-///   stable_share stable_step_of      found anew if `look_at_all`, else from Blocks::stable_step
+///   stable_share stable_step_of      found anew if `look_at_all`, else from Blocks::stable_step; half of it, and always found anew, where only narrow contacts hold a block
 ///   1.5e-3 size / speed              of what moves and touches something; 0.02 with something near it
 ///   (1e-7 size / falls_by)^1/2       by impulses alone: a stack that falls by more between two of them would walk on its joints
 ///   0.1 margin / speed               of what moves with nothing near it: what it is about to hit is found in time

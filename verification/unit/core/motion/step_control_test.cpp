@@ -225,6 +225,44 @@ TEST(StepControl, AddsNoEnergyAtTheLargestStep)
     EXPECT_LT(residual_share(run), 1e-8);
 }
 
+/// A spike settles beside a corner. There its contact grows from nothing to 7 mm: the step must follow, though the spike gives way by less than a hundredth of its size.
+TEST(StepControl, FollowsNarrowContactsThatGrow)
+{
+    for (const double stiffness : {1e9, 1e11})
+    {
+        CaseDef scene = scenes::empty_scene();
+        scenes::add_fixed_block(scene, "ground",
+                                {{0.440723729556336, -0.992778573402221},
+                                 {1.48566572807065, -0.864756057858143},
+                                 {1.51567903829599, 0.141194309255956},
+                                 {-0.661378974752696, 1.09897154396052}});
+        BlockDef& spike = scenes::add_block(scene, "spike",
+                                            {{1.4856878951257, -0.864776272250789},
+                                             {1.75247238464494, -1.57557821432872},
+                                             {2.02908317650905, -1.95121070737671},
+                                             {1.8944265370759, -1.50457787219135}});
+        spike.velocity = {-0.0369450917623901, 0.0336906544114028};
+        spike.fix_rotation = true;
+        scene.gravity = {-9.80244670376811, 0.38488780155482};
+        scene.loads = {{.name = "push", .blocks = {"spike"}, .force = {-1353.70366291732, 4924.14396579003}}};
+        scene.joints[0].normal_stiffness = stiffness;
+        scene.joints[0].shear_stiffness = 0.5 * stiffness;
+        scene.joints[0].friction_angle_deg = 50.0;
+        scene.contact.method = Method::force;
+        scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 30'000}};
+        CaseRun run(scene);
+        double fastest = 0.0;
+        for (int i = 0; i < 500; ++i)
+        {
+            run.advance(10);
+            fastest = std::max(fastest, run.velocity("spike").norm());
+        }
+        EXPECT_LT(fastest, 0.4) << stiffness;
+        EXPECT_LT(run.velocity("spike").norm(), 1e-6) << stiffness;
+        EXPECT_LT(run.displacement("spike").norm(), 0.01) << stiffness;
+    }
+}
+
 TEST(NextStep, FollowsTheBoundAndGrowsSlowly)
 {
     const StepRule own{.varies = true}, given{.varies = true, .keeps_given = true};
