@@ -137,11 +137,11 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, con
             const double depth = -found.distance();
             if (!found.has_external() || depth < pair.margin)
                 continue;
-            if (!leaves_it(found))
-                if (const Facing facing = choose_facing(shapes, other, found);
-                    facing.overlap > 0.0 && !is_corner_of_another(shapes, other, facing) &&
-                    are_freed(shapes, pair, facing, pair.margin + tolerance))
-                    return false;
+            const Facing facing = choose_facing(shapes, other, found);
+            if (is_corner_of_another(shapes, other, facing))
+                continue;  // it does not bear
+            if (!leaves_it(found) && facing.overlap > 0.0 && are_freed(shapes, pair, facing, pair.margin + tolerance))
+                return false;
             const bool comes_first = a != pair.a ? a < pair.a : b < pair.b;  // of pairs that are equally deep
             if (leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))
                 is_deepest = false;

@@ -204,6 +204,63 @@ TEST_P(SpikeAtCorner, GoesIntoNoBlock)
         }
 }
 
+/// A wedge is pressed into a hollow corner. It rests where it does between two blocks, whose joint ends in the corner.
+TEST_P(SpikeAtCorner, RestsInAHollow)
+{
+    const Polygon hollow{{0.0, 0.0}, {1.29903810567666, 0.75}, {-1.0, 1.6}, {-1.0, -1.6}, {0.964181414529809, -1.14906666467847}};
+    const Polygon above{{0.0, 0.0}, {1.29903810567666, 0.75}, {-1.0, 1.6}, {-1.0, 0.0}};
+    const Polygon below{{0.0, 0.0}, {-1.0, 0.0}, {-1.0, -1.6}, {0.964181414529809, -1.14906666467847}};
+    const Polygon kite{{1e-5, 0.0}, {0.939692620785908, -0.342020143325669}, {1.6, 0.0}, {0.939692620785908, 0.342020143325669}};
+    const auto way_in = [&](const std::vector<Polygon>& ground, double angle_deg, bool mirrored)
+    {
+        CaseDef scene = scenes::empty_scene();
+        scene.contact.method = GetParam();
+        scene.joints[0].normal_stiffness = 1e10;
+        scene.joints[0].shear_stiffness = 5e9;
+        scene.joints[0].friction_angle_deg = 0.0;
+        for (std::size_t i = 0; i < ground.size(); ++i)
+            scenes::add_fixed_block(scene, "ground" + std::to_string(i), ground[i]);
+        scenes::add_block(scene, "wedge", kite).fix_rotation = true;
+        scene.gravity = {0.0, 0.0};
+        scene.loads = {{.name = "push", .blocks = {"wedge"}, .force = {-1e5, 0.0}}};
+        scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 20'000}};
+        CaseRun run(scenes::turned(mirrored ? scenes::mirrored(scene) : scene, angle_deg));
+        run.advance(3000);
+        EXPECT_LT(run.velocity("wedge").norm(), 1e-6) << angle_deg << ' ' << mirrored;
+        return run.displacement("wedge").norm();
+    };
+    const double way = way_in({above, below}, 0.0, false);
+    EXPECT_LT(way, 1e-4);
+    for (const double angle : {0.0, 57.3})
+        for (const bool mirrored : {false, true})
+            EXPECT_NEAR(way_in({hollow}, angle, mirrored), way, 0.02 * way + 1e-7) << angle << ' ' << mirrored;
+}
+
+/// An arrow is pressed with its tip into a hollow corner. A seam of its own ends in the tip, two of the block in the corner.
+TEST_P(SpikeAtCorner, HoldsAnArrowInAHollow)
+{
+    for (const double angle : {0.0, 57.3})
+        for (const bool mirrored : {false, true})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scene.contact.method = GetParam();
+            scene.joints[0].normal_stiffness = 1e9;
+            scene.joints[0].shear_stiffness = 5e8;
+            scene.joints[0].friction_angle_deg = 0.0;
+            scenes::add_fixed_block(scene, "block", {{0.0, 0.0}, {0.7, 0.8}, {-1.0, 1.0}, {-1.2, -0.4}, {0.9, -0.7}});
+            scenes::add_block(
+                scene, "arrow",
+                {{1e-6, 0.0}, {0.594161841244942, -0.0835038605760393}, {0.300001, 0.0}, {0.594161841244942, 0.0835038605760393}})
+                .fix_rotation = true;
+            scene.gravity = {0.0, 0.0};
+            scene.loads = {{.name = "push", .blocks = {"arrow"}, .force = {-3317.65013261633, 0.0}}};
+            CaseRun run(scenes::turned(mirrored ? scenes::mirrored(scene) : scene, angle));
+            while (run.state().time < 0.15)
+                run.advance(20);
+            EXPECT_LT(run.displacement("arrow").norm(), 2e-3) << angle << ' ' << mirrored;
+        }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, SpikeAtCorner, testing::Values(Method::force, Method::hybrid, Method::impulse),
                          [](const auto& method) {
                              return method.param == Method::force ? "force"
