@@ -102,8 +102,9 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const bool at_end = place > 0.5 * facing.edges.length;
     const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
     const Vec2 &side = shapes.edge_tangent[facing.ref_edge], &beside = shapes.edge_tangent[next];
-    if (beside.dot(side) > in_line || (at_end ? cross(side, beside) : cross(beside, side)) < 0.0)
-        return false;  // a side goes on there, or rises: no corner beside which anything could slide
-    return narrow || (slides && lies_flat_beside(shapes, pair, facing, next));
+    if (beside.dot(side) > in_line)
+        return false;                                                               // a side goes on there
+    const bool falls = (at_end ? cross(side, beside) : cross(beside, side)) > 0.0;  // in a hollow corner the next side is no bevel
+    return narrow || (slides && falls && lies_flat_beside(shapes, pair, facing, next));
 }
 }  // namespace hdem
