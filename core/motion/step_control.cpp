@@ -35,7 +35,7 @@ constexpr double swing_share = 0.03;     // of 1 / omega of a block that water m
 constexpr double fall_share = 1e-7;      // of its size, see StepRule::falls_by
 constexpr double not_looked_at = 0.0;    // a stable step that is not known
 constexpr double narrow_share = 0.5;     // of the stable step of a block that is held by narrow contacts
-constexpr double narrow_step = 64.0;     // step^2 K_N size / m from which on it is: 2 to 4 on a face as long as the block
+constexpr double narrow_step = 64.0;     // step^2 K size / m from which on it is: 2 to 4 on a face as long as the block
 constexpr double settled_share = 0.01;   // of its size: a block that moved less in its stage keeps its contact lengths
 
 bool is_settled(Index block, const Model& model, const Blocks& blocks)
@@ -147,20 +147,12 @@ bool moves(Index block, const StepRule& rule, const Model& model, const Blocks& 
     return rim_speed(block, model, blocks) + unbalance(block, model, blocks) * grow_every * model.time_step >= rule.slow;
 }
 
-double greatest_stiffness(const Model& model)
-{
-    double greatest = 0.0;
-    for (const CoulombSlip& law : model.joints.laws)
-        greatest = std::max(greatest, law.normal_stiffness);
-    return greatest;
-}
-
 /// Do only narrow contacts hold a block, as a corner beside a corner does? As it gives way by a thousandth of its size, they become many times as long and stiff. So they are looked at
 /// whenever speeds are.
-bool is_held_narrowly(Index block, double stiffness, const Model& model, const Blocks& blocks)
+bool is_held_narrowly(Index block, const Model& model, const Blocks& blocks)
 {
     const double step = blocks.stable_step[block];
-    return step * step * stiffness * model.size(block) > narrow_step * model.mass[block];
+    return step * step * model.greatest_stiffness * model.size(block) > narrow_step * model.mass[block];
 }
 
 bool is_alone(Index block, const BlockContacts& list)
@@ -201,7 +193,6 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
                       const Contacts& contacts, Blocks& blocks)
 {
     StepBound bound;
-    const double stiffness = greatest_stiffness(model);
     for (Index b = range.begin; b < range.end; ++b)
     {
         if (!blocks.is_free(b))
@@ -209,9 +200,9 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
         const bool takes_part = blocks.takes_part(b);
         if (!takes_part && !is_beside_moving(b, list, contacts, blocks))
             continue;
-        if (look_at_all || blocks.stable_step[b] == not_looked_at || is_held_narrowly(b, stiffness, model, blocks))
+        if (look_at_all || blocks.stable_step[b] == not_looked_at || is_held_narrowly(b, model, blocks))
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
-        const double share = is_held_narrowly(b, stiffness, model, blocks) ? narrow_share * rule.stable_share : rule.stable_share;
+        const double share = is_held_narrowly(b, model, blocks) ? narrow_share * rule.stable_share : rule.stable_share;
         const double least = std::min(share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
         const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * model.size(b) / rule.falls_by) : infinity;
         const bool is_loose = blocks.is_loose(b, rule.loose_distance);

@@ -82,10 +82,9 @@ struct Blocks
     std::vector<BlockMotion> motion;
     std::vector<BlockForce> force;
     std::vector<BlockInertia> inertia;
-    std::vector<double> stable_step;  ///< last value found, see core/motion/step_control.h [s]
-    std::vector<double>
-        bearing_force;           ///< normal forces on its sides, summed and noted now and then (core/detection/bearing_force.h) [N]
-    std::vector<double> margin;  ///< a block may move so far before contacts must be found anew [m]
+    std::vector<double> stable_step;       ///< last value found, see core/motion/step_control.h [s]
+    std::vector<double> bearing_force;     ///< normal forces on its sides, summed (core/detection/bearing_force.h) [N]
+    std::vector<double> margin;            ///< a block may move so far before contacts must be found anew [m]
     std::vector<std::uint8_t> rest;        ///< checks in a row that found the block quiet, see core/motion/rest.h
     std::vector<std::uint8_t> present;     ///< 0 once excavated
     std::vector<Vec2> reference_position;  ///< displacements are counted from here [m]
