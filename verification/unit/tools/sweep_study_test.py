@@ -1,86 +1,19 @@
 #!/usr/bin/python3
-"""Studies with tools/sweep: designs, chains, statistics, a stop when enough is known, and a sweep that is killed and goes on.
+"""Studies with tools/sweep: designs, chains, statistics, and a stop when enough is known.
 
-    sweep_study_test.py HDEM TOOLS                the program, and the folder of its scripts
-    sweep_study_test.py HDEM TOOLS --runs 200     the last one with so many runs of a tunnel; a minute on one processor
+    sweep_study_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
-import csv
 import json
-import os
-import signal
 import subprocess
 import sys
-import tempfile
-import time
 import unittest
-from pathlib import Path
 
-HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-RUNS = int(sys.argv[4]) if sys.argv[3:4] == ["--runs"] else 24
-TUNNEL = TOOLS / "guide/cases/first_tunnel.toml"
-sys.path.insert(0, str(TOOLS))
-try:
-    import numpy as np
-    import scipy.stats    # noqa: F401
-except ImportError as missing:
-    print(f"skipped: {missing}")
-    sys.exit(77)
-from sweep_parts import designs, estimates, plans    # noqa: E402
-from sweep_parts.common import SweepError    # noqa: E402
-from sweep_parts.criterion import Criterion    # noqa: E402
-from sweep_parts.work import Enough    # noqa: E402
-
-# In place of hdem. A run is told x and seed; its summary says so again, and how much has fallen. `calls` has a line a run. Ends as CODE says at the x that STOP says.
-STAND_IN = '''#!/usr/bin/python3 -IS
-import json, os, sys, time
-from pathlib import Path
-words = sys.argv[2:]
-told = dict(words[i + 1].split("=") for i, word in enumerate(words) if word == "--set")
-x, seed = float(told.get("x", 0)), int(told.get("seed", 0))
-folder = Path(words[words.index("-o") + 1])
-folder.mkdir(parents=True, exist_ok=True)
-with open(Path(__file__).resolve().parent / "calls", "a") as calls:
-    calls.write(f"{folder.name} {x:g} {seed}\\n")
-if os.environ.get("STOP") == f"{x:g}":
-    sys.exit(int(os.environ["CODE"]))
-more = {"factor_of_safety": {"factor": x / 10, "trials": []}} if sys.argv[1] == "fos" and "FACTOR" in os.environ else {}
-slow = 20.0 < x <= float(os.environ.get("SLOW", 0))
-(folder / "summary.json").write_text(json.dumps(more | {"converged": not slow, "fallen": ["b"] * int(x > 23.7 + seed), "moved": 10.0 * x + seed, "title": "none", "nothing": None}))
-sys.exit(4 if slow else 0)
-'''
-
-
-class Scratch(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="hdem_study_test_")
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-        self.program = self.folder / "stand_in"
-        self.program.write_text(STAND_IN, encoding="utf-8")
-        self.program.chmod(0o755)
-        (self.folder / "case.toml").touch()
-
-    def sweep(self, *arguments, code=0, **variables):
-        if arguments[0] == "plan":
-            arguments += ("--program", "nowhere")    # hdem would refuse this case
-        done = subprocess.run([TOOLS / "sweep", *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.folder, env=os.environ | variables)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        self.assertNotIn("Traceback", done.stderr)
-        return done.stdout + done.stderr
-
-    def plan(self, *words, **more):
-        return self.sweep("plan", "case.toml", "-o", "s", *words, **more)
-
-    def work(self, *words, **more):
-        return self.sweep("work", "s", "--jobs", "1", "--program", self.program, *words, **more)
-
-    def calls(self):
-        file = self.folder / "calls"
-        return file.read_text(encoding="utf-8").splitlines() if file.exists() else []
-
-    def rows(self, name):
-        with open(self.folder / "s" / name, encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+from sweep_scratch import TOOLS, Scratch
+import numpy as np
+from sweep_parts import designs, estimates, plans
+from sweep_parts.common import SweepError
+from sweep_parts.criterion import Criterion
+from sweep_parts.work import Enough
 
 
 class Numbers(unittest.TestCase):
@@ -304,76 +237,6 @@ class Collect(Scratch):
         self.assertEqual((bare.returncode, bare.stderr.count("\n")), (2, 1), bare.stderr)
         self.assertRegex(bare.stderr, "needs the Python module.*scipy|needs the Python module numpy")
         self.assertIn("tools/setup", bare.stderr)
-
-
-def wait_until(condition, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError("waited in vain")
-        time.sleep(0.005)
-
-
-class Killed(Scratch):
-    """Runs of a tunnel: the sweep is ended twice by a signal and twice by a kill, and goes on with the same line."""
-
-    KEYS = ("--design", "latin", "--runs", RUNS, "--vary", "generator.seed=whole:1:9999", "--vary", "joint.default.friction_angle_deg=normal:25:5")
-    FOR_HDEM = ("--", "--quiet", "--threads", "1", "--set", "output.checkpoint_every=3000")
-
-    def words(self, folder):
-        return [TOOLS / "sweep", "work", folder, "--jobs", "2", "--program", HDEM, *self.FOR_HDEM]
-
-    def done(self):
-        return len(list((self.folder / "broken").glob("run_*/summary.json")))
-
-    def table(self, folder):
-        self.sweep("collect", folder, "--fails", "detached_blocks>0")
-        with open(self.folder / folder / "table.csv", encoding="utf-8") as file:
-            return [(row["run"], row["generator.seed"], row["joint.default.friction_angle_deg"], row["detached_blocks"], row["state_hash"]) for row in csv.DictReader(file)]
-
-    def test_goes_on_with_the_same_line_to_the_same_states(self):
-        for folder in ("whole", "broken"):
-            self.sweep("plan", TUNNEL, "-o", folder, *self.KEYS)
-        end = subprocess.run(self.words("whole"), cwd=self.folder, check=False, capture_output=True).returncode
-        self.assertIn(end, (0, 4), "4: one of these tunnels is not at rest in time")
-        for share, how in ((0.1, signal.SIGTERM), (0.25, signal.SIGKILL), (0.4, signal.SIGINT), (0.55, signal.SIGKILL)):
-            worker = subprocess.Popen(self.words("broken"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                                      preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))    # a shell ignores it for what runs beside it
-            wait_until(lambda: self.done() >= share * RUNS)
-            worker.send_signal(how)
-            worker.communicate()
-            self.assertEqual(worker.returncode, -9 if how is signal.SIGKILL else 128 + how)
-            self.assertLess(self.done(), RUNS, "it was not over")
-        time.sleep(1.0)    # what the killed worker has left behind comes to its end
-        self.assertEqual(subprocess.run(self.words("broken"), cwd=self.folder, check=False, capture_output=True).returncode, end)
-        whole, broken = self.table("whole"), self.table("broken")
-        self.assertEqual(broken, whole)
-        self.assertEqual(len({row[-1] for row in whole}), RUNS, "each run is another one")
-        print((self.folder / "whole/fails.csv").read_text(encoding="utf-8"))
-
-
-class Slurm(Scratch):
-    def test_task_is_queued_again_after_its_signal(self):
-        bin_folder = self.folder / "bin"
-        bin_folder.mkdir()
-        (bin_folder / "scontrol").write_text(f'#!/bin/bash\necho "$@" >> "{self.folder}/requeued"\n')
-        (bin_folder / "scontrol").chmod(0o755)
-        slow = self.folder / "slow"
-        slow.write_text('#!/bin/bash\ntrap \'kill $!; exit 143\' TERM\necho begun >> begun\nsleep 30 & wait $!\n')
-        slow.chmod(0o755)
-        self.plan("--vary", "x=1:6")
-        variables = os.environ | {"PATH": f"{bin_folder}:{os.environ['PATH']}", "HDEM_SOURCE": str(TOOLS.parent), "SLURM_CPUS_PER_TASK": "2", "SLURM_JOB_ID": "77", "HDEM": str(slow)}
-        for more, name in (({}, "requeue 77"), ({"SLURM_ARRAY_JOB_ID": "70", "SLURM_ARRAY_TASK_ID": "3"}, "requeue 70_3")):
-            (self.folder / "begun").unlink(missing_ok=True)
-            task = subprocess.Popen(["bash", TOOLS / "sweep_many.slurm", "s"], cwd=self.folder, env=variables | more, stdout=subprocess.DEVNULL)
-            wait_until(lambda: (self.folder / "begun").exists() and len((self.folder / "begun").read_text().split()) == 2)
-            task.send_signal(signal.SIGTERM)
-            self.assertEqual(task.wait(30), 143)
-            self.assertEqual((self.folder / "requeued").read_text().splitlines()[-1], name)
-        done = subprocess.run(["bash", TOOLS / "sweep_many.slurm", "s"], cwd=self.folder, env=variables | {"HDEM": str(self.program)}, check=False, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("6 runs: 6 done", done.stdout)
-        self.assertEqual(len((self.folder / "requeued").read_text().splitlines()), 2)
 
 
 if __name__ == "__main__":
