@@ -18,6 +18,8 @@ constexpr double widest_corner = 1e-2;  // of the size
 constexpr double steep = 0.36;          // tangent of the angle between two edges: blocks that rock are less inclined
 constexpr double least_fall = 1e-4;     // of the size
 constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
+constexpr double inclined = 0.05;       // tangent of the angle between two edges that do not
+constexpr double passes = 0.1;          // of the approach at one side: the approach at the other side is none
 
 /// How far its weight, or what else it bears, presses a block into what it lies on [m].
 double settlement(const Model& model, const Blocks& blocks, Index block, Index law, bool by_weight)
@@ -71,6 +73,21 @@ bool is_entered(const Facing& facing, double width, double way)
            std::min(facing.deepest, facing.edges.length - facing.deepest) < width + way;
 }
 
+/// The edge that meets the reference edge at one of its ends.
+struct NextSide
+{
+    Index edge;
+    bool goes_on;  ///< in line with it: one side of the block
+    bool falls;    ///< away from the other block; else the corner is hollow
+};
+
+NextSide side_beside(const Shapes& shapes, const PartPair& pair, const Facing& facing, bool at_end)
+{
+    const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
+    const Vec2 &side = shapes.edge_tangent[facing.ref_edge], &beside = shapes.edge_tangent[next];
+    return {next, beside.dot(side) > in_line, (at_end ? cross(side, beside) : cross(beside, side)) > 0.0};
+}
+
 /// Does the edge that meets the reference edge at an end lie flat on one of the two that meet in the corner of the other block?
 bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& facing, Index next)
 {
@@ -99,12 +116,28 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     if (!narrow && !is_entered(facing, width, way))
         return false;
     const double place = narrow ? facing.middle : facing.deepest;
-    const bool at_end = place > 0.5 * facing.edges.length;
-    const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.a : pair.b, facing.ref_edge, at_end).edge;
-    const Vec2 &side = shapes.edge_tangent[facing.ref_edge], &beside = shapes.edge_tangent[next];
-    if (beside.dot(side) > in_line)
-        return false;                                                               // a side goes on there
-    const bool falls = (at_end ? cross(side, beside) : cross(beside, side)) > 0.0;  // in a hollow corner the next side is no bevel
-    return narrow || (slides && falls && lies_flat_beside(shapes, pair, facing, next));
+    const NextSide next = side_beside(shapes, pair, facing, place > 0.5 * facing.edges.length);
+    if (next.goes_on)
+        return false;
+    return narrow || (slides && next.falls && lies_flat_beside(shapes, pair, facing, next.edge));
+}
+
+Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const PairScan& scan, const Facing& facing)
+{
+    if (std::abs(facing.slope) < inclined || facing.approach <= 0.0)
+        return facing;
+    const Shapes& shapes = model.shapes;
+    const double size = std::min(model.size(shapes.part_block[pair.a]), model.size(shapes.part_block[pair.b]));
+    const double speed = relative_speed(pair);
+    const double reach = least_width(model, size) + 2.0 * speed * blocks.step.next;
+    const double to_end = facing.along > 0.0 ? facing.edges.length - facing.deepest : facing.deepest;
+    const Scan& beside = scan.on[facing.ref_is_a ? 1 : 0];
+    if (!is_sliding(model, speed, size) || to_end > reach || facing.overlap > reach * std::abs(facing.slope) ||
+        beside.edge == no_index || beside.external_distance < scan.external_distance() - reach)
+        return facing;
+    if (const NextSide next = side_beside(shapes, pair, facing, facing.along > 0.0); next.goes_on || !next.falls)
+        return facing;
+    const Facing other = facing_on(!facing.ref_is_a, shapes, pair, scan);
+    return other.approach < passes * facing.approach ? other : facing;
 }
 }  // namespace hdem

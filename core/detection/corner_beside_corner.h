@@ -1,5 +1,5 @@
 #pragma once
-/// Corners that lie beside each other bear nothing.
+/// Corners that lie beside each other bear nothing, and corners that pass each other do not hit.
 
 #include "core/detection/facing_edges.h"
 #include "core/model/model.h"
@@ -22,4 +22,11 @@ namespace hdem
 /// @see verification/unit/core/detection/seams_test.cpp
 [[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
                                            bool has_borne);
+
+/// The edges that face each other where a corner slides off the end of an edge that it has only just reached: those of the other side, if the blocks do not approach there. Else `facing`.
+///
+/// The distance of two parts is the greatest over their sides. Where two sides are equally near, it shrinks as fast as that of the side at which the parts approach least. So a block
+/// that slides off the tips of two blocks in one point passes the lower one, though its corner would hit the inclined top of that.
+[[nodiscard]] Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const PairScan& scan,
+                                 const Facing& facing);
 }  // namespace hdem

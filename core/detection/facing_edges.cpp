@@ -86,7 +86,10 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     const EdgeTouch touch = touch_edges(f.edges, view, ref, inc);
     f.length = touch.length;
     f.middle = 0.5 * (touch.point[0].ref_t + touch.point[1].ref_t) - f.edges.start_t;
-    f.deepest = touch.point[touch.point[1].overlap > touch.point[0].overlap ? 1 : 0].ref_t - f.edges.start_t;
+    const TouchPoint& deepest = touch.point[touch.point[1].overlap > touch.point[0].overlap ? 1 : 0];
+    f.deepest = deepest.ref_t - f.edges.start_t;
+    f.along = deepest.v_t;
+    f.approach = deepest.v_m;
     f.slope = touch.slope;
     f.is_deep_at_end = view.m1 > view.m0;
     f.full = std::min(f.edges.length, std::abs(view.t1 - view.t0));
@@ -142,5 +145,10 @@ Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan&
     }
     const Facing facing = face(shapes, pair, ref_is_a, ref_edge);
     return facing.overlap < -best - pair.margin ? better_placed(shapes, pair, facing, best) : facing;
+}
+
+Facing facing_on(bool part_a, const Shapes& shapes, const PartPair& pair, const PairScan& scan)
+{
+    return face(shapes, pair, part_a, scan.on[part_a ? 0 : 1].edge);
 }
 }  // namespace hdem

@@ -50,7 +50,9 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     const PairScan scan = scan_pair(shapes, pair, contact.ref_edge);
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
-    const Facing facing = choose_facing(shapes, pair, scan, contact.ref_edge);
+    const bool is_pressed = contact.point[0].normal_force + contact.point[1].normal_force > 0.0;
+    const Facing nearest = choose_facing(shapes, pair, scan, contact.ref_edge);
+    const Facing facing = is_pressed ? nearest : pass_corner(model, blocks, pair, scan, nearest);
     const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
     const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
                          bears(shapes, pair, scan, facing,
