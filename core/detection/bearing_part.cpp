@@ -39,7 +39,7 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
     return around;
 }
 
-/// The part beside this one that a corner belongs to, or none: where a pair touches with a corner whose other edge lies flatter on what it touches, and is of that part. The two edges at
+/// The part beside this one that a corner belongs to, or none: where a pair touches with a corner whose other edge lies flatter on what it touches, or ends beside it, and is of that part. The two edges at
 /// a corner are then no choice of this part alone: the one that it has may even stand at right angles to what the corner lies on, or be off it all along but for that corner.
 std::optional<EdgeNeighbour> owner_of_corner(const Shapes& shapes, const PartPair& pair, const Facing& facing)
 {
@@ -58,9 +58,9 @@ std::optional<EdgeNeighbour> owner_of_corner(const Shapes& shapes, const PartPai
     if (along(facing.inc_edge) >= steep)
         return along(other.edge) < along(facing.inc_edge) - clearly ? std::optional(other) : std::nullopt;
     const double from = t.dot(seen(other.edge)), to = t.dot(seen(shapes.next_vertex(other.part, other.edge)));
-    const bool is_over = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0) >
-                         pair.margin;
-    const bool is_flatter = std::min(depth, depth_at_end) < -pair.margin && is_over && along(other.edge) < steep &&
+    const bool reaches = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0) >
+                         -pair.margin;
+    const bool is_flatter = std::min(depth, depth_at_end) < -pair.margin && reaches && along(other.edge) < steep &&
                             across(other.edge) < 0.5 * across(facing.inc_edge);
     return is_flatter ? std::optional(other) : std::nullopt;
 }
@@ -82,8 +82,10 @@ bool is_corner_of_another(const Shapes& shapes, const PartPair& pair, const Faci
     if (!found.has_external())
         return false;
     const Facing its_own = choose_facing(shapes, other, found);
-    if (std::abs(its_own.overlap - facing.overlap) > pair.margin)
-        return its_own.overlap > facing.overlap;
+    // Where its edge only reaches the end of the one below, both are as deep as the corner, and nothing lies on anything.
+    const double its_depth = its_own.length > pair.round_off ? its_own.overlap : -found.external_distance();
+    if (std::abs(its_depth - facing.overlap) > pair.margin)
+        return its_depth > facing.overlap;
     const Index part = facing.ref_is_a ? pair.b : pair.a;
     const std::optional<EdgeNeighbour> back = its_own.ref_is_a == facing.ref_is_a ? owner_of_corner(shapes, other, its_own)
                                                                                   : std::nullopt;

@@ -212,6 +212,31 @@ TEST_P(Seam, ThatEndsInATipDoesNotKickWhatSlidesOff)
                     << angle << ' ' << turn << ' ' << mirrored;
 }
 
+/// A block with a notch stands on one of two blocks; its base ends at the joint between them, and above the other one rises a side at 45 degrees. Where the notch is cut off, the part above that
+/// side has no base: the corner is the other part's.
+TEST_P(Seam, AtTheEndOfABaseLeavesTheNextBlockFree)
+{
+    constexpr double stiffness = 1e10;
+    const Polygon notched{{-1.0, 0.0}, {0.0, 0.0}, {0.9, 0.9}, {0.2, 0.9}, {-0.1, 0.45}, {-0.5, 0.9}, {-1.0, 0.9}};
+    for (const double turn : {0.0, 37.3, 140.0})
+        for (const bool mirrored : {false, true})
+        {
+            CaseDef scene = scenes::empty_scene();
+            scene.contact.method = GetParam();
+            scene.joints[0].normal_stiffness = scene.joints[0].shear_stiffness = stiffness;
+            scene.joints[0].friction_angle_deg = 40.0;
+            scenes::add_fixed_block(scene, "below", {{-3.0, -1.0}, {-1.0, -1.0}, {0.0, 0.0}, {-3.0, 0.0}});
+            scenes::add_fixed_block(scene, "beside", {{-1.0, -1.0}, {3.0, -1.0}, {3.0, 0.0}, {0.0, 0.0}});
+            scenes::add_block(scene, "block", notched);
+            scene.stages = {{.name = "rest", .until_converged = true, .max_cycles = 100'000, .relax_cycles = 3000}};
+            CaseRun run(scenes::turned(mirrored ? scenes::mirrored(scene) : scene, turn));
+            const double weight = run.model().mass[run.slot("block")] * g;
+            run.advance(8000);
+            EXPECT_NEAR(run.forces_between("below", "block").x(), weight, 1e-3 * weight) << turn << ' ' << mirrored;
+            EXPECT_EQ(run.forces_between("beside", "block").x(), 0.0) << turn << ' ' << mirrored;
+        }
+}
+
 /// A side that stands out by more than a corner is met.
 TEST_P(Seam, WithAStepOfATenthOfASizeStopsABlock)
 {
