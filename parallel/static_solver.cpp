@@ -86,6 +86,28 @@ StaticOutcome solve_unloaded(const Model& model, const State& state, int threads
     return second.is_taken() || outcome.kind == StaticOutcome::Kind::not_converged ? second : outcome;
 }
 
+/// Has the rock lost more by slip than all of its joints hold in shear?
+bool has_slid(const Model& model, const State& before, const State& after)
+{
+    return after.ledger.friction - before.ledger.friction > stored_energy(model, after).elastic_shear;
+}
+
+/// A step of Newton may carry blocks past joints that would have held them, though none comes away. Cycles come to the balance before; of the two, that with less slip is nearer to the start.
+StaticOutcome with_less_slip(const Model& model, const State& state, int threads, const StaticRule& rule, StaticOutcome found,
+                             State& trial)
+{
+    State near;
+    StaticOutcome outcome = try_way(approach_and_search, model, state, threads, rule, near);
+    if (!outcome.is_taken() || near.ledger.friction >= trial.ledger.friction)
+    {
+        add_effort(outcome, found);
+        return found;
+    }
+    add_effort(found, outcome);
+    trial = std::move(near);
+    return outcome;
+}
+
 /// From rock that bears its weight, as after an excavation. Where one search has to begin again it may end in a balance that the rock does not come to:
 /// then what is out of balance is let go in parts, and where there is none on that way there is none.
 StaticOutcome solve_loaded(const Model& model, const State& state, int threads, const StaticRule& rule, State& trial)
@@ -95,7 +117,8 @@ StaticOutcome solve_loaded(const Model& model, const State& state, int threads, 
         return take_off_released(model, trial, threads, rule);
     SearchOutcome outcome = search_at_once(model, trial, threads, rule);
     if (outcome.is_taken() && !outcome.has_begun_again)
-        return outcome;
+        return outcome.loose.empty() && has_slid(model, state, trial) ? with_less_slip(model, state, threads, rule, outcome, trial)
+                                                                      : outcome;
     StaticOutcome in_parts = try_way(search_in_parts, model, state, threads, rule, trial);
     add_effort(outcome, in_parts);
     if (in_parts.kind == StaticOutcome::Kind::not_converged && outcome.kind == StaticOutcome::Kind::no_equilibrium)

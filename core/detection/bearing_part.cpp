@@ -44,6 +44,7 @@ std::vector<Index> parts_around(const Shapes& shapes, Index part)
 std::optional<EdgeNeighbour> owner_of_corner(const Shapes& shapes, const PartPair& pair, const Facing& facing)
 {
     constexpr double steep = -0.7, clearly = 0.05;  // cosines
+    constexpr double flat = 0.01;                   // sine
     const Index part = facing.ref_is_a ? pair.b : pair.a;
     const RelativePose& pose = facing.ref_is_a ? pair.b_from_a : pair.a_from_b;
     const Vec2 t = shapes.edge_tangent[facing.ref_edge], start = shapes.vertex[facing.ref_edge];
@@ -58,10 +59,10 @@ std::optional<EdgeNeighbour> owner_of_corner(const Shapes& shapes, const PartPai
     if (along(facing.inc_edge) >= steep)
         return along(other.edge) < along(facing.inc_edge) - clearly ? std::optional(other) : std::nullopt;
     const double from = t.dot(seen(other.edge)), to = t.dot(seen(shapes.next_vertex(other.part, other.edge)));
-    const bool reaches = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0) >
-                         -pair.margin;
-    const bool is_flatter = std::min(depth, depth_at_end) < -pair.margin && reaches && along(other.edge) < steep &&
-                            across(other.edge) < 0.5 * across(facing.inc_edge);
+    const double over = std::min(std::max(from, to), shapes.edge_length[facing.ref_edge]) - std::max(std::min(from, to), 0.0);
+    const bool ends_beside = over > -pair.margin && across(other.edge) < flat;
+    const bool is_flatter = std::min(depth, depth_at_end) < -pair.margin && (over > pair.margin || ends_beside) &&
+                            along(other.edge) < steep && across(other.edge) < 0.5 * across(facing.inc_edge);
     return is_flatter ? std::optional(other) : std::nullopt;
 }
 

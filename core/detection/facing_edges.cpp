@@ -2,8 +2,10 @@
 
 #include "core/detection/edge_touch.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace hdem
 {
@@ -57,17 +59,27 @@ Index facing_edge(const Shapes& shapes, Index edge, Index other, const RelativeP
     return best;
 }
 
-EdgePair make_edges(const Shapes& shapes, Index ref_edge, Index inc_part, Index inc_edge)
+/// A side of a block goes on beyond a hollow corner, inside the block: a corner that is pressed into both sides there lies a little beyond the end of each.
+/// @return  by how much, before its start and after its end [m]
+std::array<double, 2> beyond_hollow_corners(const Shapes& shapes, Index part, Index edge)
 {
+    constexpr double share = 0.02;  // of its length: more than anything is pressed in
+    const double more = share * shapes.edge_length[edge];
+    return {shapes.is_reflex[edge] != 0 ? more : 0.0, shapes.is_reflex[shapes.next_vertex(part, edge)] != 0 ? more : 0.0};
+}
+
+EdgePair make_edges(const Shapes& shapes, Index ref_part, Index ref_edge, Index inc_part, Index inc_edge)
+{
+    const auto [before, after] = beyond_hollow_corners(shapes, ref_part, ref_edge);
     const Vec2 t = shapes.edge_tangent[ref_edge];
     const Vec2 start = shapes.vertex[ref_edge];
     const Vec2 p0 = shapes.vertex[inc_edge];
     const Vec2 p1 = shapes.vertex[shapes.next_vertex(inc_part, inc_edge)];
     return {.tx = t.x(),
             .ty = t.y(),
-            .start_t = t.dot(start),
+            .start_t = t.dot(start) - before,
             .start_m = cross(t, start),
-            .length = shapes.edge_length[ref_edge],
+            .length = before + shapes.edge_length[ref_edge] + after,
             .p0x = p0.x(),
             .p0y = p0.y(),
             .p1x = p1.x(),
@@ -79,13 +91,15 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     const Index inc_part = ref_is_a ? pair.b : pair.a;
     Facing f{.ref_is_a = ref_is_a, .ref_edge = ref_edge};
     f.inc_edge = facing_edge(shapes, ref_edge, inc_part, ref_is_a ? pair.b_from_a : pair.a_from_b, pair.margin);
-    f.edges = make_edges(shapes, ref_edge, inc_part, f.inc_edge);
+    f.edges = make_edges(shapes, ref_is_a ? pair.a : pair.b, ref_edge, inc_part, f.inc_edge);
     const BlockMotion& ref = ref_is_a ? pair.motion_a : pair.motion_b;
     const BlockMotion& inc = ref_is_a ? pair.motion_b : pair.motion_a;
     const EdgeView view = view_edges(f.edges, ref, inc);
     const EdgeTouch touch = touch_edges(f.edges, view, ref, inc);
-    f.length = touch.length;
-    f.middle = 0.5 * (touch.point[0].ref_t + touch.point[1].ref_t) - f.edges.start_t;
+    const auto beyond = beyond_hollow_corners(shapes, ref_is_a ? pair.a : pair.b, ref_edge);
+    const double from = touch.point[0].ref_t - f.edges.start_t, to = touch.point[1].ref_t - f.edges.start_t;
+    f.length = touch.length > 0.0 ? std::min(to, f.edges.length - beyond[1]) - std::max(from, beyond[0]) : touch.length;
+    f.middle = 0.5 * (from + to);
     const TouchPoint& deepest = touch.point[touch.point[1].overlap > touch.point[0].overlap ? 1 : 0];
     f.deepest = deepest.ref_t - f.edges.start_t;
     f.along = deepest.v_t;
@@ -93,8 +107,24 @@ Facing face(const Shapes& shapes, const PartPair& pair, bool ref_is_a, Index ref
     f.slope = touch.slope;
     f.is_deep_at_end = view.m1 > view.m0;
     f.full = std::min(f.edges.length, std::abs(view.t1 - view.t0));
-    f.overlap = touch.length > pair.round_off ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
+    f.overlap = f.length > pair.round_off ? std::max(touch.point[0].overlap, touch.point[1].overlap) : -infinity;
     return f;
+}
+
+/// A hollow corner presses into nothing: where it is the deepest of the incident edge, that edge is the one into which the other block's corner is pressed there.
+/// @return  the facing of that edge, if that corner is near the hollow one and none is pressed in far
+std::optional<Facing> facing_in_hollow(const Shapes& shapes, const PartPair& pair, const Facing& facing)
+{
+    const Index part = facing.ref_is_a ? pair.b : pair.a;
+    const Index corner = facing.is_deep_at_end ? shapes.next_vertex(part, facing.inc_edge) : facing.inc_edge;
+    if (shapes.is_reflex[corner] == 0)
+        return std::nullopt;
+    const Facing other = face(shapes, pair, !facing.ref_is_a, facing.inc_edge);
+    const auto beyond = beyond_hollow_corners(shapes, part, facing.inc_edge);
+    const double reach = beyond[facing.is_deep_at_end ? 1 : 0];
+    const double to_end = facing.is_deep_at_end ? other.edges.length - other.deepest : other.deepest;
+    const bool is_near = to_end < 2.0 * reach && std::abs(other.overlap) < reach && std::abs(facing.overlap) < reach;
+    return is_near ? std::optional(other) : std::nullopt;
 }
 
 /// The two edges of `facing` do not lie over each other: of the edges whose distance is `best`, the one that does. Edges of an almost straight side
@@ -144,6 +174,8 @@ Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan&
         ref_is_a = on_a.kept_distance > -infinity;
     }
     const Facing facing = face(shapes, pair, ref_is_a, ref_edge);
+    if (const std::optional<Facing> in_hollow = facing_in_hollow(shapes, pair, facing))
+        return *in_hollow;
     return facing.overlap < -best - pair.margin ? better_placed(shapes, pair, facing, best) : facing;
 }
 

@@ -13,7 +13,7 @@ struct Facing
     Index ref_edge, inc_edge;
     EdgePair edges;
     double overlap;       ///< greatest where they face each other; -infinity: beside each other [m]
-    double length;        ///< over which they lie over each other; < 0: beside each other [m]
+    double length;        ///< over which they lie over each other, up to hollow corners; < 0: beside each other [m]
     double middle;        ///< of that stretch, from the start of the reference edge [m]
     double deepest;       ///< where they overlap most, from there [m]
     double along;         ///< velocity of the other block there along the reference edge [m/s]

@@ -22,7 +22,8 @@ std::vector<std::uint8_t> reflex_vertices(const std::vector<ConvexPart>& parts)
         {
             const Vec2& at = part.vertices[i];
             const Vec2 to = part.vertices[next(i, n)] - at, from = part.vertices[(i + n - 1) % n] - at;
-            corners.push_back({at.x(), at.y(), std::atan2(cross(to, from), to.dot(from)), corners.size()});
+            const double angle = std::atan2(cross(to, from), to.dot(from));  // of a straight side, rounding may make it -pi
+            corners.push_back({at.x(), at.y(), angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle, corners.size()});
         }
     std::vector<std::uint8_t> reflex(corners.size(), 0);
     if (parts.size() == 1)
