@@ -119,11 +119,14 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, con
     if (is_corner_of_another(shapes, pair, its_facing))
         return false;
     const auto leaves_it = [&](const PairScan& s) { return s.distance() > s.external_distance() + pair.margin + tolerance; };
-    if (!leaves_it(scan))
+    const bool leaves = leaves_it(scan);
+    // Deeper than what tolerances could make of blocks that lie flat on each other.
+    const bool is_deep = scan.external_distance() < -farthest * (pair.margin + tolerance);
+    if (!leaves && !is_deep)
         return true;
     if (scan.distance() > -pair.margin)
         return false;
-    bool is_deepest = scan.external_distance() > farthest * scan.distance();
+    bool is_deepest = !leaves || scan.external_distance() > farthest * scan.distance();
     const std::vector<Index> around_b = parts_around(shapes, pair.b);
     for (const Index a : parts_around(shapes, pair.a))
         for (const Index b : around_b)
@@ -143,10 +146,11 @@ bool bears(const Shapes& shapes, const PartPair& pair, const PairScan& scan, con
             const Facing facing = choose_facing(shapes, other, found);
             if (is_corner_of_another(shapes, other, facing))
                 continue;  // it does not bear
-            if (!leaves_it(found) && facing.overlap > 0.0 && are_freed(shapes, pair, facing, pair.margin + tolerance))
+            const bool is_nearer = leaves || facing.overlap + pair.margin + tolerance < -scan.external_distance();
+            if (!leaves_it(found) && facing.overlap > 0.0 && is_nearer && are_freed(shapes, pair, facing, pair.margin + tolerance))
                 return false;
             const bool comes_first = a != pair.a ? a < pair.a : b < pair.b;  // of pairs that are equally deep
-            if (leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))
+            if (leaves && leaves_it(found) && (depth > -scan.distance() || (depth == -scan.distance() && comes_first)))
                 is_deepest = false;
         }
     return is_deepest;
