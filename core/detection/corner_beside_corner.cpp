@@ -140,4 +140,15 @@ Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pai
     const Facing other = facing_on(!facing.ref_is_a, shapes, pair, scan);
     return other.approach < passes * facing.approach ? other : facing;
 }
+
+bool is_end_of_a_piece(const Shapes& shapes, const PartPair& pair, const Facing& facing, double width)
+{
+    if (facing.length > width || std::abs(facing.slope) > inclined)
+        return false;
+    const bool at_end = facing.middle > 0.5 * facing.edges.length;
+    if (side_beside(shapes, pair, facing, at_end).goes_on)
+        return true;
+    const Index next = neighbour_of(shapes, facing.ref_is_a ? pair.b : pair.a, facing.inc_edge, at_end).edge;
+    return shapes.edge_tangent[next].dot(shapes.edge_tangent[facing.inc_edge]) > in_line;
+}
 }  // namespace hdem

@@ -29,4 +29,7 @@ namespace hdem
 /// that slides off the tips of two blocks in one point passes the lower one, though its corner would hit the inclined top of that.
 [[nodiscard]] Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const PairScan& scan,
                                  const Facing& facing);
+
+/// Is it at the end of one of two pieces of a straight side that the parts lie over each other by less than `width` [m], so that the other piece bears the rest?
+[[nodiscard]] bool is_end_of_a_piece(const Shapes& shapes, const PartPair& pair, const Facing& facing, double width);
 }  // namespace hdem

@@ -16,6 +16,9 @@ namespace
 /// Length of the reference edge of a pair that bears nothing: nothing lies over it.
 constexpr double no_length = -1.0;
 
+/// Share of the length floor where a straight side has a vertex: the piece beyond it would bear by the floor as soon as a block reaches it, and blocks that are drawn up to there swing to and fro.
+constexpr double floor_of_pieces = 1e-3;
+
 void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
 {
     const EdgeView v = view_edges(contact.edges, motion[contact.ref], motion[contact.inc]);
@@ -57,6 +60,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
                          bears(shapes, pair, scan, facing,
                                4.0 * model.contact.recycling_distance * size);  // holds until the next search
+    const double length_floor = is_end_of_a_piece(shapes, pair, facing, floor) ? floor_of_pieces * floor : floor;
     if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
     {
         const Contact old = contact;
@@ -68,7 +72,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         contact.edges = facing.edges;
         if (!bearing)
             contact.edges.length = no_length;
-        contact.length_floor = floor;
+        contact.length_floor = length_floor;
         contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
         const bool goes_on = bearing && was_bearing && carry_history(motion, old, contact);
         if (!bearing || !was_bearing)
@@ -84,6 +88,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         if (was_searched)
             limit_energy(model.joints, old, contact);
     }
+    contact.length_floor = length_floor;
     remember_view(motion, contact);
     return scan.distance();
 }

@@ -1,5 +1,7 @@
 /// Blocks that slide over the joints between others: a joint that ends in a plane does not hold, hit or lift what slides along the plane.
 
+#include "io/case_reader.h"
+#include "parallel/stages.h"
 #include "verification/scenes/scenes.h"
 #include "verification/unit/case_run.h"
 
@@ -234,6 +236,46 @@ TEST_P(Seam, AtTheEndOfABaseLeavesTheNextBlockFree)
             run.advance(8000);
             EXPECT_NEAR(run.forces_between("below", "block").x(), weight, 1e-3 * weight) << turn << ' ' << mirrored;
             EXPECT_EQ(run.forces_between("beside", "block").x(), 0.0) << turn << ' ' << mirrored;
+        }
+}
+
+/// Two blocks that are cut beside each other above a ledge. The ground has a vertex where the second one ends, the first one where its base comes to the ledge: once the least contact length counted for
+/// the piece beyond such a vertex, which the block reaches by a nanometre, and the two swung to and fro for ever.
+TEST(PieceOfASide, DoesNotKeepTwoBlocksFromRest)
+{
+    for (const char* height : {"0.6", "0.8", "1.1"})
+        for (const Method method : {Method::force, Method::hybrid})
+        {
+            CaseDef scene = read_case_text(fmt::format(R"(
+[domain]
+polygon = [[0.0, -1.0], [5.0, -1.0], [5.0, 0.0], [2.0, 0.0], [2.0, {0}], [-0.3, {0}], [-0.3, 0.0], [0.0, 0.0]]
+fixed_edges = [0]
+[[region]]
+name = "above"
+polygon = [[-0.3, 0.0], [2.0, 0.0], [2.0, {0}], [-0.3, {0}]]
+[[joint_set]]
+dip_deg = 90
+spacing = 1.15
+origin = [2.0, 0.0]
+region = "above"
+[material.rock]
+density = 2500.0
+[joint.default]
+normal_stiffness = 2e9
+shear_stiffness = 1e9
+friction_angle_deg = 30.0
+[[stage]]
+until = "converged"
+max_cycles = 20000
+)",
+                                                       height),
+                                           "case.toml")
+                                .def;
+            scene.contact.method = method;
+            CaseRun run(scene);
+            const std::vector<StageResult> results = run_stages(run.simulation, {});
+            EXPECT_TRUE(results[0].at_rest) << height;
+            EXPECT_LT(run.state().cycle, 5000) << height;
         }
 }
 
