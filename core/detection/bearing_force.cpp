@@ -1,5 +1,7 @@
 #include "core/detection/bearing_force.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 bool notes_bearing_forces(std::int64_t cycles_of_stage)
@@ -19,10 +21,9 @@ void note_bearing_forces(IndexRange range, const BlockContacts& list, const Cont
         {
             const auto contact = static_cast<std::uint32_t>(list.entry[e]) / 2;
             const std::array<ContactLanes::Lane, 2>& force = groups[contact / lanes].normal_force;
-            if (is_spring(regime[0][contact]))
-                sum += force[0][contact % lanes];
-            if (is_spring(regime[1][contact]))
-                sum += force[1][contact % lanes];
+            for (int end = 0; end < 2; ++end)
+                if (is_spring(regime[end][contact]))
+                    sum += std::max(force[end][contact % lanes], 0.0);  // of joints that are pulled, < 0
         }
         blocks.bearing_force[b] = sum;
     }

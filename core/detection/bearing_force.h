@@ -11,7 +11,7 @@ namespace hdem
 /// time.
 [[nodiscard]] bool notes_bearing_forces(std::int64_t cycles_of_stage);
 
-/// Note for each block of `range` the sum of the normal forces that springs bear on it. It says how far the block is pressed into what bears it
+/// Note for each block of `range` the sum of the normal forces by which springs press it. It says how far the block is pressed into what bears it
 /// (core/detection/corner_beside_corner.h). Notes are a part of the state: the search of features may not read forces of other contacts, which other threads are changing.
 /// Reads: contacts of this cycle. Writes: bearing_force of these blocks.
 void note_bearing_forces(IndexRange range, const BlockContacts& list, const Contacts& contacts, Blocks& blocks);

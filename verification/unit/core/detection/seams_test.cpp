@@ -279,6 +279,21 @@ max_cycles = 20000
         }
 }
 
+/// What pulls a block presses it into nothing. A force below 0 was noted, and checkpoints with it were refused.
+TEST(BearingForce, OfABlockThatHangsByTensionIsNone)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = Method::force;
+    scene.joints[0].cohesion = 1e6;
+    scene.joints[0].tension = 1e6;
+    scenes::add_fixed_block(scene, "ceiling", scenes::rectangle({-1.0, 0.0}, {1.0, 1.0}));
+    scenes::add_block(scene, "block", scenes::rectangle({-0.5, -1.0}, {0.5, 0.0}));
+    CaseRun run(scene);
+    run.advance(300);
+    EXPECT_LT(run.forces_between("ceiling", "block").x(), 0.0);
+    EXPECT_EQ(run.state().blocks.bearing_force[run.slot("block")], 0.0);
+}
+
 /// A side that stands out by more than a corner is met.
 TEST_P(Seam, WithAStepOfATenthOfASizeStopsABlock)
 {
