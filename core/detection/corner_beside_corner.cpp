@@ -117,9 +117,9 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
         return false;
     const double place = narrow ? facing.middle : facing.deepest;
     const NextSide next = side_beside(shapes, pair, facing, place > 0.5 * facing.edges.length);
-    if (next.goes_on)
+    if (next.goes_on || (slides && !next.falls))
         return false;
-    return narrow || (slides && next.falls && lies_flat_beside(shapes, pair, facing, next.edge));
+    return narrow || (slides && lies_flat_beside(shapes, pair, facing, next.edge));
 }
 
 Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const PairScan& scan, const Facing& facing)

@@ -15,6 +15,8 @@ namespace hdem
 ///   edges that lie over each other by less than the width (of a shorter edge, by less than half: a tip may be as narrow as it likes)
 ///   a steep edge that a corner has entered at its end by less than the width, if the edge that meets it there lies flat on the other block and one slides on the other
 ///
+/// What slides into a hollow corner hits the other side of that at once.
+///
 /// The width is a tenth of the length floor and what blocks may move until the next search, or some settlements of the lighter block under the
 /// forces that its sides bear (detection/bearing_force.h), at most a hundredth of the smaller one's size. Impulses leave no settlement.
 /// Where rock settles, corners that bear go on bearing: there the width goes by the block's weight alone.

@@ -127,6 +127,14 @@ std::optional<Facing> facing_in_hollow(const Shapes& shapes, const PartPair& pai
     return is_near ? std::optional(other) : std::nullopt;
 }
 
+/// Does an edge of one part lie flat on an edge of the other, or has one of them none?
+bool are_opposed(const Shapes& shapes, const PartPair& pair, Index edge_a, Index edge_b)
+{
+    constexpr double flat = -0.98;  // cosine of the angle between them
+    return edge_a == no_index || edge_b == no_index ||
+           shapes.edge_tangent[edge_a].dot(pair.b_from_a.turned(shapes.edge_tangent[edge_b])) < flat;
+}
+
 /// The two edges of `facing` do not lie over each other: of the edges whose distance is `best`, the one that does. Edges of an almost straight side
 /// are equally far from a corner that nears or enters it, and only one of them is over that corner. While the parts are apart, only pieces of one side change places: of
 /// blocks that touch with corners no edge lies over another, and they would pass from one to the next at each search.
@@ -161,9 +169,10 @@ Facing better_placed(const Shapes& shapes, const PartPair& pair, const Facing& f
 Facing choose_facing(const Shapes& shapes, const PartPair& pair, const PairScan& scan, Index kept)
 {
     const auto& [on_a, on_b] = scan.on;
-    // Near ties go to the longer edge.
+    // Near ties go to the longer edge; at a corner, where the two edges do not lie on each other, ties only.
     const auto length = [&](const Scan& on) { return on.edge != no_index ? shapes.edge_length[on.edge] : 0.0; };
-    const double lead = length(on_a) >= length(on_b) ? pair.margin : -pair.margin;
+    const double tie = are_opposed(shapes, pair, on_a.edge, on_b.edge) ? pair.margin : pair.round_off;
+    const double lead = length(on_a) >= length(on_b) ? tie : -tie;
     bool ref_is_a = on_a.external_distance + lead >= on_b.external_distance;
     Index ref_edge = ref_is_a ? on_a.edge : on_b.edge;
     const double best = scan.external_distance();

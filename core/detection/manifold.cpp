@@ -19,6 +19,17 @@ constexpr double no_length = -1.0;
 /// Share of the length floor where a straight side has a vertex: the piece beyond it would bear by the floor as soon as a block reaches it, and blocks that are drawn up to there swing to and fro.
 constexpr double floor_of_pieces = 1e-3;
 
+/// Share of the recycling distance where the blocks are near but bear nothing: which side of a corner a block takes shows within that way, and a side that is found late throws it back.
+constexpr double share_at_corners = 0.1;
+
+/// How far a vertex may move until features are searched anew [m].
+float limit_of_motion(const Model& model, double size, double distance, bool bearing)
+{
+    const double limit = model.contact.recycling_distance * size;
+    const bool is_at_corner = !bearing && std::abs(distance) < 2.0 * limit;
+    return static_cast<float>(is_at_corner ? share_at_corners * limit : limit);
+}
+
 void remember_view(const std::vector<BlockMotion>& motion, Contact& contact)
 {
     const EdgeView v = view_edges(contact.edges, motion[contact.ref], motion[contact.inc]);
@@ -54,9 +65,9 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
     const bool is_pressed = contact.point[0].normal_force + contact.point[1].normal_force > 0.0;
-    const Facing nearest = choose_facing(shapes, pair, scan, contact.ref_edge);
-    const Facing facing = is_pressed ? nearest : pass_corner(model, blocks, pair, scan, nearest);
     const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
+    const Facing nearest = choose_facing(shapes, pair, scan, was_bearing ? contact.ref_edge : no_index);
+    const Facing facing = is_pressed ? nearest : pass_corner(model, blocks, pair, scan, nearest);
     const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
                          bears(shapes, pair, scan, facing,
                                4.0 * model.contact.recycling_distance * size);  // holds until the next search
@@ -73,7 +84,6 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         if (!bearing)
             contact.edges.length = no_length;
         contact.length_floor = length_floor;
-        contact.moved_limit = static_cast<float>(model.contact.recycling_distance * size);
         const bool goes_on = bearing && was_bearing && carry_history(motion, old, contact);
         if (!bearing || !was_bearing)
             contact.point = {};
@@ -89,6 +99,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
             limit_energy(model.joints, old, contact);
     }
     contact.length_floor = length_floor;
+    contact.moved_limit = limit_of_motion(model, size, scan.external_distance(), bearing);
     remember_view(motion, contact);
     return scan.distance();
 }

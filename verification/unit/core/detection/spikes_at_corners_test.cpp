@@ -100,11 +100,37 @@ TEST_P(SpikeAtCorner, SlidesDownAsBesideABlockWithoutAHollow)
 {
     const Corner corner;
     const Vec2 way = pushed_way(GetParam(), corner.full, 0.0, false);
-    EXPECT_LT(way.y(), -0.09);
+    EXPECT_LT(way.y(), -0.08);
     for (const double angle : {0.0, 57.3, 200.0})
         for (const bool mirrored : {false, true})
             EXPECT_LT((pushed_way(GetParam(), corner.hollow, angle, mirrored) - way).norm(), 0.02 * way.norm())
                 << angle << ' ' << mirrored;
+}
+
+/// Tip on tip, driven along neither side. The spring of the side that it takes gave a tenth of the energy of the blow when that side was found late.
+TEST_P(SpikeAtCorner, IsThrownBackWithNoMoreThanItHad)
+{
+    const Polygon stair{{0.0, -1.3416}, {1.7889, 0.4472}, {1.3416, 0.8944}, {0.8944, 0.4472}, {-0.8944, 0.4472}, {-1.7889, 0.4472}};
+    const Polygon tip{{1.788903, 0.4472}, {2.7902, 0.7451}, {2.0316, 1.4633}};
+    CaseDef drawn = scenes::empty_scene();
+    drawn.contact.method = GetParam();
+    drawn.joints[0].normal_stiffness = 1e10;
+    drawn.joints[0].shear_stiffness = 5e9;
+    drawn.joints[0].friction_angle_deg = 50.0;
+    drawn.gravity = {-9.6388, 1.8246};
+    scenes::add_fixed_block(drawn, "stair", stair);
+    BlockDef& block = scenes::add_block(drawn, "tip", tip);
+    block.velocity = {-0.5141, 0.0141};
+    block.fix_rotation = true;
+    for (const double angle : {0.0, 57.3})
+        for (const bool mirrored : {false, true})
+        {
+            CaseRun run(scenes::turned(mirrored ? scenes::mirrored(drawn) : drawn, angle));
+            while (run.state().time < 0.25)
+                run.advance(20);
+            const EnergyLedger& ledger = run.state().ledger;
+            EXPECT_GT(ledger.contact_changes, -0.05 * (ledger.initial + ledger.gravity_work)) << angle << ' ' << mirrored;
+        }
 }
 
 /// The spike is driven over the block: it rides up on the corner.
