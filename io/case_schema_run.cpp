@@ -62,7 +62,7 @@ SectionSpec convergence_section()
               .unit = "m",
               .effect = "A block that moved farther in the last stage counts as detached (`detached_blocks` in summary.json). A "
                         "block that lies farther than this from its place at the start of the run, moved by earlier stages, is in "
-                        "`detached_before`.",
+                        "`detached_before`, unless it has settled with the rock around it.",
               .range = length}),
          field<&ConvergenceDef::lost_distance>(
              {.name = "lost_distance",

@@ -60,12 +60,6 @@ double relative_speed(const PartPair& pair)
     return std::sqrt(vx * vx + vy * vy);
 }
 
-/// Faster than by a fall of so little: rock that settles is slower.
-bool is_sliding(const Model& model, double speed, double size)
-{
-    return speed * speed > least_fall * size * model.gravity.norm();
-}
-
 /// @param way  that the blocks go until features are searched again, at least: a corner that is so far away may be there by then [m]
 bool is_entered(const Facing& facing, double width, double way)
 {
@@ -99,6 +93,12 @@ bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& 
 }
 }  // namespace
 
+bool is_sliding(const Model& model, const PartPair& pair, double size)
+{
+    const double speed = relative_speed(pair);
+    return speed * speed > least_fall * size * model.gravity.norm();
+}
+
 bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing, bool has_borne)
 {
     const Shapes& shapes = model.shapes;
@@ -110,7 +110,7 @@ bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const Par
     const std::vector<std::int32_t>& source = shapes.edge_source;
     const Index law = model.joints.find(source[facing.ref_edge], source[facing.inc_edge], model.material[facing.ref_is_a ? a : b],
                                         model.material[facing.ref_is_a ? b : a]);
-    const bool slides = is_sliding(model, speed, size);
+    const bool slides = is_sliding(model, pair, size);
     const double width = width_of(model, blocks, a, b, law, has_borne && !slides);
     const bool narrow = is_narrow(facing, width);
     if (!narrow && !is_entered(facing, width, way))
@@ -132,7 +132,7 @@ Facing pass_corner(const Model& model, const Blocks& blocks, const PartPair& pai
     const double reach = least_width(model, size) + 2.0 * speed * blocks.step.next;
     const double to_end = facing.along > 0.0 ? facing.edges.length - facing.deepest : facing.deepest;
     const Scan& beside = scan.on[facing.ref_is_a ? 1 : 0];
-    if (!is_sliding(model, speed, size) || to_end > reach || facing.overlap > reach * std::abs(facing.slope) ||
+    if (!is_sliding(model, pair, size) || to_end > reach || facing.overlap > reach * std::abs(facing.slope) ||
         beside.edge == no_index || beside.external_distance < scan.external_distance() - reach)
         return facing;
     if (const NextSide next = side_beside(shapes, pair, facing, facing.along > 0.0); next.goes_on || !next.falls)

@@ -25,6 +25,9 @@ namespace hdem
 [[nodiscard]] bool is_corner_beside_corner(const Model& model, const Blocks& blocks, const PartPair& pair, const Facing& facing,
                                            bool has_borne);
 
+/// Do the blocks of two parts move past each other faster than by a fall of 1e-4 of their size? Rock that settles is slower.
+[[nodiscard]] bool is_sliding(const Model& model, const PartPair& pair, double size);
+
 /// The edges that face each other where a corner slides off the end of an edge that it has only just reached: those of the other side, if the blocks do not approach there. Else `facing`.
 ///
 /// The distance of two parts is the greatest over their sides. Where two sides are equally near, it shrinks as fast as that of the side at which the parts approach least. So a block

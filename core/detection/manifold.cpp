@@ -16,9 +16,6 @@ namespace
 /// Length of the reference edge of a pair that bears nothing: nothing lies over it.
 constexpr double no_length = -1.0;
 
-/// Share of the length floor where a straight side has a vertex: the piece beyond it would bear by the floor as soon as a block reaches it, and blocks that are drawn up to there swing to and fro.
-constexpr double floor_of_pieces = 1e-3;
-
 /// Share of the recycling distance where the blocks are near but bear nothing: which side of a corner a block takes shows within that way, and a side that is found late throws it back.
 constexpr double share_at_corners = 0.1;
 
@@ -66,12 +63,14 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         return std::numeric_limits<double>::infinity();
     const bool is_pressed = contact.point[0].normal_force + contact.point[1].normal_force > 0.0;
     const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
-    const Facing nearest = choose_facing(shapes, pair, scan, was_bearing ? contact.ref_edge : no_index);
+    const bool keeps_edge = was_bearing || !is_sliding(model, pair, size);  // else the nearest counts: a block may hit it
+    const Facing nearest = choose_facing(shapes, pair, scan, keeps_edge ? contact.ref_edge : no_index);
     const Facing facing = is_pressed ? nearest : pass_corner(model, blocks, pair, scan, nearest);
-    const bool bearing = !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
+    contact.length_floor = floor;
+    const bool is_end = is_end_of_a_piece(shapes, pair, facing, was_bearing ? 0.5 * floor : floor);
+    const bool bearing = !is_end && !is_corner_beside_corner(model, blocks, pair, facing, was_bearing) &&
                          bears(shapes, pair, scan, facing,
                                4.0 * model.contact.recycling_distance * size);  // holds until the next search
-    const double length_floor = is_end_of_a_piece(shapes, pair, facing, floor) ? floor_of_pieces * floor : floor;
     if (facing.ref_edge != contact.ref_edge || facing.inc_edge != contact.inc_edge || bearing != was_bearing)
     {
         const Contact old = contact;
@@ -83,7 +82,6 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         contact.edges = facing.edges;
         if (!bearing)
             contact.edges.length = no_length;
-        contact.length_floor = length_floor;
         const bool goes_on = bearing && was_bearing && carry_history(motion, old, contact);
         if (!bearing || !was_bearing)
             contact.point = {};
@@ -98,7 +96,6 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
         if (was_searched)
             limit_energy(model.joints, old, contact);
     }
-    contact.length_floor = length_floor;
     contact.moved_limit = limit_of_motion(model, size, scan.external_distance(), bearing);
     remember_view(motion, contact);
     return scan.distance();

@@ -2,6 +2,7 @@
 
 #include "core/boundary/side_forces.h"
 #include "core/motion/loads.h"
+#include "core/motion/settled_rock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,6 +167,11 @@ DisplacementReport report_displacements(const Model& model, const State& state)
         report.mean += distance;
         report.greatest = std::max(report.greatest, distance);
         ++report.counted;
+    }
+    if (!report.before.empty())
+    {
+        const std::vector<std::uint8_t> settled = settled_rock(model, state, model.convergence.detached_distance);
+        std::erase_if(report.before, [&](Index i) { return settled[i] != 0; });
     }
     report.mean = report.counted > 0 ? report.mean / report.counted : 0.0;
     report.mean_all = counted_all > 0 ? report.mean_all / counted_all : 0.0;

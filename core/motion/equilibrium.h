@@ -85,7 +85,8 @@ struct DisplacementReport
     double mean_all = 0.0;        ///< of all free blocks, detached ones too [m]
     double greatest_all = 0.0;    ///< [m]
     std::vector<Index> detached;  ///< blocks that moved farther than the set distance, in the user's order
-    std::vector<Index> before;  ///< other blocks that lie farther than that from where the run began: detached in an earlier stage
+    std::vector<Index>
+        before;  ///< other blocks that lie farther than that from where the run began and have not settled with the rock around them: detached in an earlier stage
 };
 [[nodiscard]] DisplacementReport report_displacements(const Model& model, const State& state);
 

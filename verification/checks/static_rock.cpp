@@ -44,8 +44,8 @@ const std::array<RockCase, 5> collapsing = {{{1, {25.0, 75.0, -55.0}, 5.0, 0.0},
                                              {2, {25.0, 75.0, -55.0}, 10.0, 0.0},
                                              {2, {15.0, 75.0, -65.0}, 15.0, 1e3}}};
 
-/// The first three lose a block from the roof.
-const std::array<RockCase, 5> standing = {{{1, {25.0, 75.0, -55.0}, 10.0, 0.0},
+/// The first three lose a block from the roof. The first one is at its limit at 10 degrees: at 9.9 degrees slow cycles lose 57 to 71 of its 158 blocks, at 10.1 degrees 1 to 4.
+const std::array<RockCase, 5> standing = {{{1, {25.0, 75.0, -55.0}, 11.0, 0.0},
                                            {1, {20.0, 70.0, -60.0}, 15.0, 1e3},
                                            {2, {20.0, 70.0, -60.0}, 30.0, 0.0, 5e7},
                                            {3, {30.0, 80.0, -50.0}, 25.0, 1e4, 7e9},
