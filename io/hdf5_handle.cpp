@@ -40,10 +40,11 @@ void after_fork()
 Users& users()
 {
     static Users& all = *new Users;  // threads may outlive main()
-    static const int registered = ::pthread_atfork(before_fork, after_fork, after_fork);
-    static_cast<void>(registered);
     return all;
 }
+
+/// As the program or module is loaded: a process forked off while a thread of ours uses the library for the first time would find it half begun.
+[[maybe_unused]] const int watches_forks = (users(), ::pthread_atfork(before_fork, after_fork, after_fork));
 
 struct StoredType
 {

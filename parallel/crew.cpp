@@ -21,6 +21,9 @@ void abandon_crew()
 {
     static_cast<void>(crew.release());
 }
+
+/// As the program or module is loaded: another thread may make its first crew while a process is forked off.
+[[maybe_unused]] const int watches_forks = ::pthread_atfork(nullptr, nullptr, abandon_crew);
 #endif
 }  // namespace
 
@@ -85,8 +88,6 @@ void Crew::run(int threads, const TeamWork& work) noexcept
 
 void run_in_crew(int threads, const TeamWork& work)
 {
-    static const int watches_forks = ::pthread_atfork(nullptr, nullptr, abandon_crew);
-    static_cast<void>(watches_forks);
     if (is_in_team)
         return work.run(work.work, Team(0, 1));
     if (!crew || crew->asked() < threads)
