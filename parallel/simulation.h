@@ -47,6 +47,8 @@ class Simulation
     /// `is_to_stop` is asked now and then within a static solution, from this thread. If it says true, the solution is broken off and the function that
     /// seeks it throws BrokenOff.
     void ask_in_statics(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }
+    /// `follow` is told the number of each iteration of a static solution and its unbalanced ratio, from this thread.
+    void follow_statics(std::function<void(int, double)> follow) { follow_ = std::move(follow); }
     /// Seek the static solution at the beginning of a stage, if the state comes from a run that was broken off within it.
     void solve_due_statics();
     /// Seek a static solution later in a stage, where every block is slow: rock that only settles on its joints is brought to rest. Changes nothing where
@@ -113,5 +115,6 @@ class Simulation
     ThreadChoice threads_;
     std::optional<StaticOutcome> statics_;
     std::function<bool()> is_to_stop_;
+    std::function<void(int, double)> follow_;
 };
 }  // namespace hdem

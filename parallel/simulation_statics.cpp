@@ -24,6 +24,9 @@ void Simulation::solve_statics()
 {
     StaticRule rule = static_rule(model_);
     rule.is_to_stop = is_to_stop_;
+    int iteration = 0;
+    if (follow_)
+        rule.tell = [this, &iteration](double ratio) { follow_(++iteration, ratio); };
     state_.statics_due = true;
     statics_ = hdem::solve_statics(model_, state_, threads_.threads(), rule);
     state_.statics_due = false;

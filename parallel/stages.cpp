@@ -264,8 +264,13 @@ std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* 
         show(simulation, observers, true);
     StageRunner runner(simulation, observers, keeper);
     const auto stages = static_cast<Index>(simulation.model().stages.size());
-    if (keeper != nullptr)
-        simulation.ask_in_statics([keeper] { return keeper->is_to_stop(); });
+    simulation.ask_in_statics([keeper] { return keeper != nullptr && keeper->is_to_stop(); });
+    simulation.follow_statics(
+        [keeper](int iterations, double ratio)
+        {
+            if (keeper != nullptr)
+                keeper->follow_statics(iterations, ratio);
+        });
     Index first = state.stage;
     if (part.over != nullptr)
     {

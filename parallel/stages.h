@@ -27,6 +27,8 @@ class Keeper
     [[nodiscard]] virtual bool keep(const Simulation& simulation) = 0;
     /// Within a static solution, which may take long: is the run to be left? keep() comes after it.
     [[nodiscard]] virtual bool is_to_stop() { return false; }
+    /// Within a static solution: its iterations until now and the unbalanced ratio of the last one.
+    virtual void follow_statics([[maybe_unused]] int iterations, [[maybe_unused]] double ratio) {}
 };
 
 struct StageResult

@@ -180,6 +180,8 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
         tally_ = renew(whole_, {.part_all_open = whole_.imbalance.ratio() < parts_below, .is_first = i == 0});
         if (tally_.newly_parted > 0)
             find_imbalance(whole_, false, false);
+        if (rule_.tell)
+            rule_.tell(whole_.imbalance.ratio());
         if (i == 0 && whole_.imbalance.ratio() > settled)
         {
             goal.ratio = std::max(goal.ratio, 0.1 * settled);

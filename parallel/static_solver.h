@@ -18,7 +18,8 @@ struct StaticRule
     double most_loose = 0.1;     ///< share of the blocks that may come away before there is no equilibrium [-]
     int stagnation = 50;         ///< a search is given up after so many iterations in which the unbalance has not fallen by a tenth
     int most_iterations = 350;
-    std::function<bool()> is_to_stop{};  ///< asked in every iteration; true: BrokenOff is thrown
+    std::function<bool()> is_to_stop{};        ///< asked in every iteration; true: BrokenOff is thrown
+    std::function<void(double ratio)> tell{};  ///< told the unbalanced ratio of every iteration
 };
 
 /// Thrown within a static solution that is to end early; the state is as before it.

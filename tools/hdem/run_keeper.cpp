@@ -65,6 +65,19 @@ bool RunKeeper::is_to_stop()
     return interrupt() != 0 || is_late();
 }
 
+void RunKeeper::follow_statics(int iterations, double ratio)
+{
+    constexpr double line_every = 30.0;  // [s]
+    if (iterations == 1)
+        statics_begin_ = statics_line_ = Clock::now();
+    const std::string text = fmt::format("static solution: iteration {}, {}, unbalanced force ratio {:.2g}", iterations,
+                                         duration_text(since(statics_begin_)), ratio);
+    if (since(statics_line_) < line_every)
+        return log_.progress(text);
+    log_.line(text);
+    statics_line_ = Clock::now();
+}
+
 bool RunKeeper::is_late() const
 {
     return settings_.max_wall && since(settings_.begin) + save_seconds_ >= *settings_.max_wall;

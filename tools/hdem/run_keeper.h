@@ -31,6 +31,7 @@ class RunKeeper : public Keeper
     [[nodiscard]] std::int64_t next_cycle(std::int64_t now) const override;
     [[nodiscard]] bool keep(const Simulation& simulation) override;
     [[nodiscard]] bool is_to_stop() override;
+    void follow_statics(int iterations, double ratio) override;
 
     /// The run has come to its end.
     void finish(const Simulation& simulation);
@@ -58,6 +59,8 @@ class RunKeeper : public Keeper
     Clock::time_point first_ = Clock::now();
     Clock::time_point last_save_ = first_;
     double save_seconds_ = 0.0;  ///< that the last checkpoint took
+    Clock::time_point statics_begin_ = first_;
+    Clock::time_point statics_line_ = first_;  ///< when the last line about them was printed
     std::optional<int> exit_code_;
 };
 }  // namespace hdem

@@ -52,6 +52,7 @@ class TimedKeeper : public Keeper
         return inner_.keep(simulation);
     }
     [[nodiscard]] bool is_to_stop() override { return inner_.is_to_stop(); }
+    void follow_statics(int iterations, double ratio) override { inner_.follow_statics(iterations, ratio); }
 
   private:
     Keeper& inner_;

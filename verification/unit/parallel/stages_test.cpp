@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hdem
@@ -52,6 +53,35 @@ TEST(Stages, SayWhatAStaticSolutionFoundAtTheirBeginning)
     EXPECT_EQ(results[1].statics->outcome, "balanced");
     EXPECT_GT(results[1].statics->iterations, 0);
     EXPECT_LT(results[1].statics->residual, 1e-5);
+}
+
+TEST(Stages, TellTheirKeeperOfEachIterationOfAStaticSolution)
+{
+    class Follower : public Keeper
+    {
+      public:
+        [[nodiscard]] std::int64_t next_cycle(std::int64_t) const override { return std::numeric_limits<std::int64_t>::max(); }
+        [[nodiscard]] bool keep(const Simulation&) override { return true; }
+        void follow_statics(int iterations, double ratio) override
+        {
+            EXPECT_EQ(iterations, ++count);
+            last = ratio;
+        }
+        int count = 0;
+        double last = 1.0;
+    };
+    CaseDef scene = scenes::joints(16.0, 16.0, 0.8, 2.0);
+    scene.joints[0].cohesion = 5e4;
+    scene.contact.method = Method::force;
+    scene.stages = {{.name = "rest", .until_converged = true, .solver = RestSolver::statics}};
+    hdem::Setup setup = build_model(scene);
+    Simulation simulation(std::move(setup.model), std::move(setup.state));
+    Follower keeper;
+    const std::vector<StageResult> results = run_stages(simulation, {}, &keeper);
+    ASSERT_TRUE(results[0].statics.has_value());
+    EXPECT_GE(keeper.count, results[0].statics->iterations);
+    EXPECT_GT(results[0].statics->iterations, 0);
+    EXPECT_LT(keeper.last, 1e-3);
 }
 
 /// The step of what moves is found anew where a load ends within a stage: it was taken as 0, and positions were not numbers any more.
