@@ -1,7 +1,7 @@
 #pragma once
 /// Clusters: light blocks of a large island that carry heavy ones.
 
-#include "core/contact/impulse_islands.h"
+#include "core/contact/island_finder.h"
 
 #include <vector>
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Islands: impulse points that share movable blocks. Some are solved all at once where sweeps have left too much.
+/// Some islands are solved all at once where sweeps have left too much.
 
+#include "core/contact/island_finder.h"
 #include "core/model/model.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
@@ -47,28 +47,6 @@ struct MassRange
 /// Has one of the points velocities, or pseudo velocities, that another sweep would change noticeably?
 [[nodiscard]] bool are_unsolved(const Model& model, ExactIslands which, const MassRange& masses,
                                 const std::vector<ImpulsePoint>& points, const Blocks& blocks, const std::vector<Triple>& pseudo);
-
-struct Island
-{
-    std::vector<ImpulsePoint*> points;
-    std::vector<std::array<Index, 2>> ends;  ///< their ref and inc, in `blocks`; no_index: cannot move
-    std::vector<Index> blocks;               ///< that can move
-    double loss = 0.0;                       ///< as of sweep_impulses [J]
-};
-
-/// Finds the islands of lists of points. Blocks that cannot move join nothing.
-class IslandFinder
-{
-  public:
-    /// Islands in the order of their first points, points in the order of the lists.
-    void find(const std::vector<std::vector<ImpulsePoint>*>& lists, const Blocks& blocks, std::vector<Island>& islands);
-
-  private:
-    Index root(Index block);
-    std::vector<Index> parent_;     ///< a block; of those in the lists only
-    std::vector<Index> island_of_;  ///< of roots
-    std::vector<Index> place_;      ///< of blocks in their islands
-};
 
 /// Solves velocities and position correction of an island all at once, if it is one of `which` and the sweeps have left too much.
 /// Of an island of more than 100 points only the clusters are solved, and only where the sweeps have left more in a cluster than around it: its solution

@@ -4,7 +4,7 @@
 #include "core/rock/problem_text.h"
 #include "core/support/bolt_path.h"
 #include "core/support/bolt_pattern.h"
-#include "core/support/grouted_bolt.h"
+#include "core/support/make_bolt.h"
 #include "core/support/resolve_liner.h"
 
 #include <algorithm>
@@ -17,11 +17,10 @@ namespace hdem
 {
 namespace
 {
-constexpr double gap_share = 1e-3;     // of the mean block size: so much may lie between two blocks, or before a head
-constexpr double bridge_share = 0.01;  // of the longest segment: length of a bar's piece at a joint
-constexpr double most_bolts = 1e5;     // of one pattern
-constexpr double most_pieces = 1e6;    // of all bolts and liners together: more would fill the memory before anything is said
-constexpr double most_bare = 0.5;      // of the length of a liner: so much may have no block behind it without a word
+constexpr double gap_share = 1e-3;   // of the mean block size: so much may lie between two blocks, or before a head
+constexpr double most_bolts = 1e5;   // of one pattern
+constexpr double most_pieces = 1e6;  // of all bolts and liners together: more would fill the memory before anything is said
+constexpr double most_bare = 0.5;    // of the length of a liner: so much may have no block behind it without a word
 
 double length_of(const std::vector<Polygon>& lines)
 {
@@ -168,17 +167,19 @@ class SupportResolver
             left_out += reasons.empty() ? 0 : 1;
         }
         if (left_out == number)
-            problems_.push_back({.key = key_ + ".around",
-                                 .text = object_ + "around = \"" + bolt.around + "\" (none of its " + std::to_string(number) +
-                                         " bolts ties two blocks together: they lie in one block, or outside the rock). Give "
-                                         "another length, or another arc."});
+            problems_.push_back(
+                {.key = key_ + ".around",
+                 .text = object_ + "around = \"" + bolt.around + "\" (none of its " + std::to_string(number) +
+                         " bolts can be installed: each lies in one block, ends outside the rock, or crosses a gap in "
+                         "it). Give another length, or another arc."});
         else if (left_out > 0)
-            problems_.push_back({.severity = Problem::Severity::warning,
-                                 .key = key_ + ".around",
-                                 .text = object_ + "around = \"" + bolt.around + "\" (" + std::to_string(left_out) + " of " +
-                                         std::to_string(number) +
-                                         " bolts would do nothing: they lie in one block, or outside the rock; they are left out). "
-                                         "Give another length to change that."});
+            problems_.push_back(
+                {.severity = Problem::Severity::warning,
+                 .key = key_ + ".around",
+                 .text = object_ + "around = \"" + bolt.around + "\" (" + std::to_string(left_out) + " of " +
+                         std::to_string(number) +
+                         " bolts are left out: each lies in one block, ends outside the rock, or crosses a gap in it). "
+                         "Give another length to change that."});
         if (left_out < number && bolt.stage.empty() && !is_excavated(bolt.around))
             problems_.push_back(
                 {.severity = Problem::Severity::warning,
@@ -215,22 +216,13 @@ class SupportResolver
                                         .text = object_ + "name (another bolt is called \"" + name +
                                                 "\"; those of a pattern are called NAME.1, NAME.2, ...). Give another name."});
         warn_along_joint(head, end, name);
-        Bolt bolt = with_numbers(from, name, length);
+        Bolt bolt = bolt_per_metre(from, name, length);
         if (from.kind == BoltKind::grouted &&
-            !may_have(key_ + (from.segment ? ".segment" : ".bond_stiffness"), object_, longest_piece(from, bolt), length))
+            !may_have(key_ + (from.segment ? ".segment" : ".bond_stiffness"), object_, longest_segment(from, bolt), length))
             return;
-        bolt.axis = (end - head) / length;
-        if (from.kind == BoltKind::anchored)
-            bolt.links.push_back(link(path.front(), path.back(), head, end));
-        else
-            add_crossings(path, head, bolt);
-        if (from.kind == BoltKind::grouted)
-            add_segments(from, path, bolt);
+        bolt.stage = stage_;
+        tie(from, path, {head, end}, blocks_, bolt);
         bolt.history = model_.support.history_size;
-        bolt.history_size = from.kind == BoltKind::anchored
-                                ? 2
-                                : (from.kind == BoltKind::local ? 5 * static_cast<Index>(bolt.links.size())
-                                                                : grouted_history_size(bolt));
         model_.support.history_size += bolt.history_size;
         model_.support.bolts.push_back(std::move(bolt));
     }
@@ -257,89 +249,6 @@ class SupportResolver
                                          " m (it is in one of them only). Move it aside."});
     }
 
-    /// The one place where what is said of one bolt becomes what acts on a metre of thickness.
-    [[nodiscard]] Bolt with_numbers(const BoltDef& from, const std::string& name, double length) const
-    {
-        const double share = 1.0 / from.spacing;
-        Bolt bolt;
-        bolt.name = name;
-        bolt.kind = from.kind;
-        bolt.stage = stage_;
-        bolt.spacing = from.spacing;
-        bolt.pretension = share * from.pretension;
-        bolt.yield = from.yield ? share * *from.yield : Bolt::none;
-        bolt.rupture = from.rupture_strain.value_or(Bolt::none);
-        bolt.shear_stiffness = share * from.shear_stiffness;
-        bolt.shear_strength = from.shear_strength ? share * *from.shear_strength : Bolt::none;
-        bolt.section_stiffness = share * from.area * from.modulus;
-        bolt.bond_stiffness = share * from.bond_stiffness;
-        bolt.bond_strength = share * from.bond_strength;
-        bolt.plate = from.plate;
-        bolt.length = from.kind == BoltKind::local     ? from.active_length
-                      : from.kind == BoltKind::grouted ? 4.0 * std::sqrt(from.area / std::numbers::pi)  // twice the diameter
-                                                       : from.free_length.value_or(length);
-        bolt.stiffness = from.stiffness ? share * *from.stiffness : bolt.section_stiffness / bolt.length;
-        return bolt;
-    }
-
-    [[nodiscard]] BoltLink link(const PathPiece& first, const PathPiece& second, const Vec2& at_first, const Vec2& at_second) const
-    {
-        const auto centre = [&](Index b) { return Vec2(blocks_.motion[b].x, blocks_.motion[b].y); };
-        BoltLink made;
-        made.first = first.block;
-        made.second = second.block;
-        made.first_arm = at_first - centre(first.block);
-        made.second_arm = at_second - centre(second.block);
-        return made;
-    }
-
-    void add_crossings(const std::vector<PathPiece>& path, const Vec2& head, Bolt& bolt) const
-    {
-        const double half = 0.5 * bolt.length;
-        for (std::size_t i = 0; i + 1 < path.size(); ++i)
-            bolt.links.push_back(
-                link(path[i], path[i + 1], head + (path[i].to - half) * bolt.axis, head + (path[i + 1].from + half) * bolt.axis));
-        for (const PathPiece& piece : path)
-            bolt.blocks.push_back(piece.block);
-        for (BoltLink& each : bolt.links)
-        {
-            each.axial_stiffness = bolt.stiffness;
-            each.transverse_stiffness = bolt.shear_stiffness;
-        }
-    }
-
-    /// Of a grouted bolt [m].
-    static double longest_piece(const BoltDef& from, const Bolt& bolt)
-    {
-        return from.segment.value_or(0.1 * std::sqrt(bolt.section_stiffness / bolt.bond_stiffness));
-    }
-
-    static void add_segments(const BoltDef& from, const std::vector<PathPiece>& path, Bolt& bolt)
-    {
-        const double longest = longest_piece(from, bolt);
-        const double unbonded = from.free_length.value_or(0.0);
-        const auto add = [&](std::size_t part, double begin, double end, bool is_bonded)
-        {
-            const auto number = static_cast<int>(std::max(1.0, std::ceil((end - begin) / longest - 1e-9)));
-            for (int k = 0; k < number && end > begin; ++k)
-                bolt.segments.push_back({static_cast<Index>(part), (end - begin) / number, is_bonded});
-        };
-        for (std::size_t part = 0; part < path.size(); ++part)
-        {
-            const double begin = path[part].from, end = path[part].to, least = 1e-6 * longest;
-            double split = std::clamp(unbonded, begin, end);
-            split = split - begin < least ? begin : (end - split < least ? end : split);  // no piece of round-off
-            add(part, begin, split, false);
-            add(part, split, end, true);
-            if (part + 1 <
-                path.size())  // what bridges the joint has no bond: its tension is that of the joint, and yields as the bar does
-                bolt.segments.push_back({static_cast<Index>(part), bridge_share * longest, false});
-        }
-        const std::vector<double> stiffness = link_stiffness(bolt);
-        for (std::size_t i = 0; i < bolt.links.size(); ++i)
-            bolt.links[i].axial_stiffness = stiffness[i];
-    }
-
     const CaseDef& def_;
     const Blocks& blocks_;
     Model& model_;
@@ -355,9 +264,6 @@ class SupportResolver
 std::vector<Problem> resolve_support(const CaseDef& def, const Blocks& blocks, Model& model, SupportState& state)
 {
     std::vector<Problem> problems = SupportResolver(def, blocks, model).run();
-    for (Bolt& bolt : model.support.bolts)
-        if (bolt.kind == BoltKind::anchored)
-            bolt.links.front().axial_stiffness = bolt.stiffness;
     state.bolts.assign(model.support.bolts.size(), {});
     state.liners.assign(model.support.liners.size(), {});
     state.history.assign(static_cast<std::size_t>(model.support.history_size), 0.0);

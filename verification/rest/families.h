@@ -13,6 +13,7 @@ namespace hdem::verification::rest
 [[nodiscard]] Scene arch_scene(int number);
 [[nodiscard]] Scene drop_scene(int number);
 [[nodiscard]] Scene heap_scene(int number);
+[[nodiscard]] Scene concave_scene(int number);
 [[nodiscard]] Scene rubble_scene(int number);
 
 /// Case files of scenes that once came to a wrong rest: by three methods, turned by 0 to 350 degrees.

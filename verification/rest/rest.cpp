@@ -229,6 +229,8 @@ std::vector<Check> rest_checks()
     // The long ones first: the program starts them in this order.
     return {
         {"rest.heap", "many blocks that fall", [](Report& r) { check_family(r, "heap", heap_scene, 60); }, length},
+        {"rest.concave", "blocks with hollow corners that fall", [](Report& r) { check_family(r, "concave", concave_scene, 60); },
+         length},
         {"rest.known", "scenes that came to a wrong rest, in 36 orientations",
          [](Report& r) { check_family(r, "known", known_scene, known_scenes, known_scenes); }, length},
         {"rest.rubble", "a jointed rock face", [](Report& r) { check_family(r, "rubble", rubble_scene, 120); }, length},

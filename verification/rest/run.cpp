@@ -35,8 +35,8 @@ Simulation simulation_of(LoadedCase loaded, int threads)
 Body moved(Body body, const Vec2& way, double rotation)
 {
     const double c = std::cos(rotation), s = std::sin(rotation);
-    for (Polygon& part : body.parts)
-        for (Vec2& v : part)
+    for (ConvexPart& part : body.parts)
+        for (Vec2& v : part.vertices)
         {
             const Vec2 from = v - body.centroid;
             v = body.centroid + way + Vec2(c * from.x() - s * from.y(), s * from.x() + c * from.y());

@@ -48,24 +48,29 @@ Eigen::MatrixXd scaled_stiffness(const std::vector<Body>& bodies, const std::vec
     return matrix;
 }
 
+/// Of a block on a face from `start` to `end`.
+double face_frequency_squared(const Body& body, const JointDef& joint, const Vec2& start, const Vec2& end)
+{
+    const Vec2 face = end - start;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3, 3);
+    for (const Vec2& at : {start, end})
+        for (const bool along : {false, true})
+        {
+            const Vec2 way = along ? face.normalized() : turned_left(face.normalized());
+            const Eigen::Vector3d row = row_of(way, at - body.centroid).cwiseProduct(roots_of_inverse_masses(body));
+            matrix += 0.5 * face.norm() * (along ? joint.shear_stiffness : joint.normal_stiffness) * row * row.transpose();
+        }
+    return greatest_eigenvalue(matrix);
+}
+
 /// Of a block on one of its faces.
 double landing_frequency_squared(const Body& body, const JointDef& joint)
 {
     double greatest = 0.0;
-    const Polygon& polygon = body.parts.front();
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-    {
-        const Vec2 face = polygon[next(i, polygon.size())] - polygon[i];
-        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3, 3);
-        for (const Vec2& end : {polygon[i], polygon[next(i, polygon.size())]})
-            for (const bool along : {false, true})
-            {
-                const Vec2 way = along ? face.normalized() : turned_left(face.normalized());
-                const Eigen::Vector3d row = row_of(way, end - body.centroid).cwiseProduct(roots_of_inverse_masses(body));
-                matrix += 0.5 * face.norm() * (along ? joint.shear_stiffness : joint.normal_stiffness) * row * row.transpose();
-            }
-        greatest = std::max(greatest, greatest_eigenvalue(matrix));
-    }
+    for (const auto& [corners, source] : body.parts)
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (source[i] != edge_internal)
+                greatest = std::max(greatest, face_frequency_squared(body, joint, corners[i], corners[next(i, corners.size())]));
     return greatest;
 }
 

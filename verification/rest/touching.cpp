@@ -1,5 +1,6 @@
 #include "verification/rest/touching.h"
 
+#include "core/geometry/convex_decomposition.h"
 #include "core/geometry/polygon.h"
 
 #include <algorithm>
@@ -82,19 +83,21 @@ class PairSearch
   public:
     PairSearch(double gap, double depth) : gap_(gap), depth_(depth) {}
 
-    void search(const Polygon& a, std::size_t first, const Polygon& b, std::size_t second, std::vector<TouchingPoint>& points)
+    void search(const ConvexPart& a, std::size_t first, const ConvexPart& b, std::size_t second, std::vector<TouchingPoint>& points)
     {
         std::vector<Vec2> faces;  // outward from a
-        for (std::size_t i = 0; i < a.size(); ++i)
-            if (const Edge edge(a, i); add(edge, b, first, second, points))
+        for (std::size_t i = 0; i < a.vertices.size(); ++i)
+            if (const Edge edge(a.vertices, i); a.source[i] != edge_internal && add(edge, b.vertices, first, second, points))
                 faces.push_back(edge.outward);
-        for (std::size_t i = 0; i < b.size(); ++i)
+        for (std::size_t i = 0; i < b.vertices.size(); ++i)
         {
-            const Edge edge(b, i);
+            if (b.source[i] == edge_internal)
+                continue;
+            const Edge edge(b.vertices, i);
             // The same two faces, seen from the other side, would carry twice their cohesion.
             const bool seen = std::ranges::any_of(faces, [&](const Vec2& f) { return (f + edge.outward).norm() < antiparallel; });
             if (!seen)
-                add(edge, a, second, first, points);
+                add(edge, a.vertices, second, first, points);
         }
     }
 
@@ -121,8 +124,19 @@ class PairSearch
 
 Body body_of(const Polygon& polygon, double density, bool fixed)
 {
-    Body body{.parts = {polygon}, .fixed = fixed};
-    make_anticlockwise(body.parts.front());
+    Body body{.fixed = fixed};
+    Polygon outline = polygon;
+    make_anticlockwise(outline);
+    CutPolygon whole;
+    for (const Vec2& v : outline)
+        whole.add(v, {.source = edge_plain});
+    for (const CutPolygon& part : convex_parts(whole))
+    {
+        ConvexPart& added = body.parts.emplace_back();
+        added.vertices = part.vertices;
+        for (const EdgeTag& edge : part.edges)
+            added.source.push_back(edge.source);
+    }
     const AreaMoments moments = area_moments(polygon);
     body.centroid = moments.centroid;
     body.mass = density * moments.area;
@@ -142,8 +156,8 @@ std::vector<TouchingPoint> find_touching(const std::vector<Body>& bodies, double
             if ((bodies[i].fixed && bodies[j].fixed) ||
                 (bodies[i].centroid - bodies[j].centroid).norm() > bodies[i].radius + bodies[j].radius + gap)
                 continue;
-            for (const Polygon& a : bodies[i].parts)
-                for (const Polygon& b : bodies[j].parts)
+            for (const ConvexPart& a : bodies[i].parts)
+                for (const ConvexPart& b : bodies[j].parts)
                     pair.search(a, i, b, j, points);
         }
     return points;
@@ -154,9 +168,10 @@ double overlap_depth(const Body& a, const Body& b)
     double depth = 0.0;
     if ((a.centroid - b.centroid).norm() > a.radius + b.radius)
         return depth;
-    for (const Polygon& p : a.parts)
-        for (const Polygon& q : b.parts)
-            depth = std::max(depth, -std::max(greatest_separation(p, q), greatest_separation(q, p)));
+    for (const ConvexPart& p : a.parts)
+        for (const ConvexPart& q : b.parts)
+            depth = std::max(depth,
+                             -std::max(greatest_separation(p.vertices, q.vertices), greatest_separation(q.vertices, p.vertices)));
     return depth;
 }
 }  // namespace hdem::verification::rest

@@ -39,7 +39,7 @@ class JudgeOfABlock : public testing::Test
         outcome.bodies = bodies_of(scene);
         const Placement turn = turned_by(rotation / radians(1.0));
         Body& block = outcome.bodies[1];
-        for (Vec2& v : block.parts.front())
+        for (Vec2& v : block.parts.front().vertices)
             v = block.centroid + way + turn.turned(v - block.centroid);
         block.centroid += way;
     }

@@ -144,6 +144,24 @@ TEST(Touching, NothingTouchesBeyondTheGap)
     EXPECT_EQ(find_touching(bodies, 1.1e-3, 1e-3).size(), 2U);
 }
 
+TEST(Touching, HollowCornersTouchWithBothSidesAndNeverWithinTheBlock)
+{
+    const Polygon angle{{0.0, 0.0}, {3.0, 0.0}, {3.0, 1.0}, {1.0, 1.0}, {1.0, 3.0}, {0.0, 3.0}};
+    const std::vector<Body> bodies{body_of(angle, rock, true), body_of(rectangle(1.0, 1.0, 2.0, 2.0), rock, false)};
+    ASSERT_EQ(bodies[0].parts.size(), 2U);
+    EXPECT_NEAR(bodies[0].mass, 5.0 * rock, 1e-9);
+    double upwards = 0.0, aside = 0.0;
+    for (const TouchingPoint& point : find_touching(bodies, gap, gap))
+    {
+        const Vec2 normal = (point.first == 0 ? 1.0 : -1.0) * point.normal;
+        upwards += normal.y() > 0.999 ? point.length : 0.0;
+        aside += normal.x() > 0.999 ? point.length : 0.0;
+        EXPECT_GT(std::max(normal.x(), normal.y()), 0.999);
+    }
+    EXPECT_NEAR(upwards, 1.0, 1e-5);
+    EXPECT_NEAR(aside, 1.0, 1e-5);
+}
+
 TEST(Touching, OverlapIsTheLeastWayApart)
 {
     const Body a = body_of(rectangle(0.0, 0.0, 1.0, 1.0), rock, false);
