@@ -169,6 +169,8 @@ bool Simulation::holds_rest()
                            std::ranges::any_of(state_.support.liners, [](const LinerRecord& r) { return r.installed != 0; });
     if (!must_last)
         return true;
+    if (!state_.is_calm)  // blocks that had stopped before the first look
+        find_calm(now);
     // Where no block takes part any more nothing can show itself; steps of small blocks are so short that the span would take a million cycles.
     constexpr double cycles_without_motion = 10'000.0;
     const RestRule rest = resolve_rules(model_, state_).rest;

@@ -137,6 +137,17 @@ TEST(StageEnds, ComeToAHeavyBlockOnALightOne)
         }
 }
 
+/// Ten million cycles of its step take the time in which a block that slips would show itself.
+TEST(StageEnds, ComeToASmallBlockThatHasStoppedBeforeTheFirstLook)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.joints.front().normal_stiffness = scene.joints.front().shear_stiffness = 1e12;
+    scenes::add_fixed_block(scene, "ground", scenes::rectangle({-4e-3, -2e-3}, {4e-3, 0.0}));
+    scenes::add_block(scene, "grain", scenes::rectangle({-2e-3, 0.0}, {2e-3, 2e-3}));
+    scene.stages = {{.name = "rest", .cycles = {}, .until_converged = true, .max_cycles = 20'000}};
+    EXPECT_TRUE(run_all(scene)[0].at_rest);
+}
+
 TEST(StageEnds, WaitForLoadsThatChange)
 {
     for (const char* until : {"quiet for 0.01 s", "speed < 1e-3", "displacement within 1e-6 for 0.01 s", "displacement > 1"})
