@@ -35,6 +35,7 @@ void write_record(Hdf5Writer& file, const RunRecord& record)
     file.make_group("/run");
     file.set_text("/run", "begin", record.begin);
     file.write_texts("/run/restarts", record.restarts);
+    file.write_texts("/run/warnings", record.warnings);
     file.set_attribute("/run", "wall_seconds", record.wall_seconds);
     file.set_attribute("/run", "finished", static_cast<std::uint8_t>(record.finished));
     std::vector<double> axes;
@@ -62,6 +63,8 @@ RunRecord read_record(const Hdf5Reader& file)
         record.files.emplace(names[i], one_text(file, fmt::format("/case/files/{}", i)));
     record.begin = file.text("/run", "begin");
     record.restarts = file.read_texts("/run/restarts");
+    if (file.has("/run/warnings"))  // not in those of earlier programs
+        record.warnings = file.read_texts("/run/warnings");
     record.wall_seconds = file.attribute<double>("/run", "wall_seconds", {}).front();
     record.finished = file.attribute<std::uint8_t>("/run", "finished", {}).front() != 0;
     const auto axes = file.read<double>("/run/history_axes", {any_extent, 2});

@@ -21,6 +21,7 @@ struct RunRecord
     std::vector<std::string> overrides;  ///< key.path=value, also for --method
     std::string begin;                   ///< of the run, UTC
     std::vector<std::string> restarts;   ///< "UTC cycle", one for each
+    std::vector<std::string> warnings;   ///< of the state at the start, for the summary at the end
     double wall_seconds = 0.0;           ///< spent until now [s]
     bool finished = false;               ///< the run came to its end
     std::vector<Vec2> history_axes;      ///< of RunRecorder

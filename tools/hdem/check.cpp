@@ -91,7 +91,7 @@ void describe_insitu(const Model& model, const InsituSummary& insitu)
     if (insitu.worst != no_index)
         say("worst unbalanced  {:.3g} of the forces on block {}\n", insitu.unbalance, printable(model.name[insitu.worst]));
     for (const std::string& warning : insitu_warnings(model, insitu))
-        say("{}\n", warning);
+        say("warning: {}\n", warning);
     for (const StressedSet& set : insitu.sets)
         say("joints            {}: {} contacts, {:.6g} m; shear strength in use at most {:.4f}; above it {} contacts, {:.6g} m "
             "({:.4g} % "

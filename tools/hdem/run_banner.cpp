@@ -76,13 +76,12 @@ std::vector<std::string> insitu_warnings(const Model& model, const InsituSummary
 {
     std::vector<std::string> warnings;
     if (insitu.field > 1e-3)
-        warnings.push_back(
-            fmt::format("warning: [insitu]: the field is not in equilibrium with gravity (it lacks {:.3g} of rho g). Blocks "
-                        "will move. Give gradient = [.., rho g, ..], or surface and ratio.",
-                        insitu.field));
+        warnings.push_back(fmt::format("[insitu]: the field is not in equilibrium with gravity (it lacks {:.3g} of rho g). Blocks "
+                                       "will move. Give gradient = [.., rho g, ..], or surface and ratio.",
+                                       insitu.field));
     if (insitu.unbalance > 1e-9)
         warnings.push_back(
-            fmt::format("warning: [insitu]: block {} is out of balance by {:.3g} of what acts on it. Look for a side that is "
+            fmt::format("[insitu]: block {} is out of balance by {:.3g} of what acts on it. Look for a side that is "
                         "free under stress (fix it), for a gap beside the block, or for a joint that would bear tension.",
                         printable(model.name[insitu.worst]), insitu.unbalance));
     Index above = 0;
@@ -94,7 +93,7 @@ std::vector<std::string> insitu_warnings(const Model& model, const InsituSummary
     }
     if (above > 0)
         warnings.push_back(
-            fmt::format("warning: [insitu]: {} joints ({:.4g} m) bear more shear than their strength, or tension, which they do "
+            fmt::format("[insitu]: {} joints ({:.4g} m) bear more shear than their strength, or tension, which they do "
                         "not take. They slip or open in the first cycle. `hdem check` lists them set by set.",
                         above, length));
     return warnings;
@@ -132,9 +131,7 @@ void print_banner(Log& log, const RunStart& start, const RunOptions& options, Si
             simulation.threads(), processors, processors));
     for (const Problem& warning : start.loaded.warnings)
         log.line(warning.text);
-    if (simulation.model().insitu.given && !start.restarted)
-        for (const std::string& warning :
-             insitu_warnings(simulation.model(), summarise_insitu(simulation.model(), simulation.state())))
-            log.line(warning);
+    for (const std::string& warning : start.record.warnings)
+        log.line("warning: " + warning);
 }
 }  // namespace hdem

@@ -36,10 +36,21 @@ std::unique_ptr<Log> begin_log(const RunStart& start, const RunOptions& options)
     return log;
 }
 
-RunFiles::RunFiles(const RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin)
+namespace
+{
+/// What the summary at the end needs to know of the state in which the run begins.
+RunStart& noted(RunStart& start, const Simulation& simulation)
+{
+    if (simulation.model().insitu.given && !start.restarted && simulation.state().cycle == 0)
+        start.record.warnings = insitu_warnings(simulation.model(), summarise_insitu(simulation.model(), simulation.state()));
+    return start;
+}
+}  // namespace
+
+RunFiles::RunFiles(RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin)
     : folder_(start.folder),
       log_(log),
-      recorder_((print_banner(log, start, options, simulation), make_recorder(start, options, simulation))),
+      recorder_((print_banner(log, noted(start, simulation), options, simulation), make_recorder(start, options, simulation))),
       rows_(simulation, log),
       keeper_({start.folder, simulation.model().output, begin, options.max_wall}, start.record, *recorder_, log),
       session_{.first_cycle = simulation.state().cycle}

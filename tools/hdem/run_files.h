@@ -21,7 +21,8 @@ class RunFiles
 
     /// Prints what is to run.
     /// @param begin  of the program
-    RunFiles(const RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin);
+    /// @param start  takes the warnings of the state in which the run begins
+    RunFiles(RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin);
 
     /// See run_stages. Throws what that throws, once what led to it is on the disk.
     /// @param also  see the states too, after the recorder

@@ -199,6 +199,7 @@ RunSummary summarise(const RunStart& start, const Simulation& simulation, const 
             s.lost_blocks.push_back(model.name[block]);
     for (const Problem& warning : start.loaded.warnings)
         s.warnings.push_back(warning.text);
+    s.warnings.insert(s.warnings.end(), start.record.warnings.begin(), start.record.warnings.end());
     for (std::string& warning : run_warnings(simulation, s))
         s.warnings.push_back(std::move(warning));
     return s;

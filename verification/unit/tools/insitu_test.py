@@ -3,6 +3,7 @@
 
     insitu_test.py HDEM    the program
 """
+import json
 import subprocess
 import sys
 import tempfile
@@ -47,6 +48,17 @@ class Insitu(unittest.TestCase):
             self.assertIn("not in equilibrium with gravity", text)
             self.assertIn("block top is out of balance", text)
             self.assertIn("bear more shear than their strength", text)
+
+    def test_summary_has_the_warnings_of_the_start_after_a_restart_too(self):
+        with tempfile.TemporaryDirectory(prefix="hdem_insitu_") as folder:
+            case, out = Path(folder, "case.toml"), Path(folder, "out")
+            case.write_text(CASE.replace("[insitu]", "[output]\ncheckpoint_every = 5\n[insitu]") + "stress = [0.0, -1e3, 2e3]\n", encoding="utf-8")
+            warnings = []
+            for options in ([], ["--restart", out / "checkpoint.previous.h5", "--overwrite"]):
+                subprocess.run([HDEM, "run", *([] if options else [case]), *options, "-o", out, "--quiet"], check=True)
+                warnings.append(json.loads((out / "summary.json").read_text(encoding="utf-8"))["warnings"])
+            self.assertEqual(len([w for w in warnings[0] if w.startswith("[insitu]: ")]), 3, warnings[0])
+            self.assertEqual(warnings[0], warnings[1])
 
     def test_says_nothing_of_rock_in_balance(self):
         for command in ("check", "run"):
