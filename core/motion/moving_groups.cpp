@@ -1,10 +1,10 @@
 #include "core/motion/moving_groups.h"
 
-#include "core/detection/edge_touch.h"
+#include "core/motion/contact_tie.h"
+#include "core/motion/damping.h"
+#include "core/motion/tipping.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 namespace hdem
 {
@@ -22,43 +22,14 @@ bool is_fast(Index block, const Model& model, double speed, const Blocks& blocks
     return m.vx * m.vx + m.vy * m.vy + rim * rim > speed * speed;
 }
 
-/// How a closed contact point ties its blocks.
-enum class Tie
-{
-    none,  ///< bears nothing
-    sticks,
-    slides
-};
-
-EdgeTouch touch_of(Index contact, const Blocks& blocks, const Contacts& contacts)
-{
-    return touch_edges(contacts.edges(contact), blocks.motion[contacts.ref[contact]], blocks.motion[contacts.inc[contact]]);
-}
-
-Tie tie_of(Index contact, int end, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
-{
-    const std::uint8_t regime = contacts.regime[end][contact];
-    if (regime == static_cast<std::uint8_t>(Regime::open))
-        return Tie::none;
-    if (regime == static_cast<std::uint8_t>(Regime::impulse))
-        return std::abs(touch_of(contact, blocks, contacts).point[end].v_t) > rule.speed ? Tie::slides : Tie::sticks;
-    if (contacts.normal_force(end, contact) == 0.0 && contacts.shear_force(end, contact) == 0.0)
-        return Tie::none;
-    return regime == static_cast<std::uint8_t>(Regime::slip) ? Tie::slides : Tie::sticks;
-}
-
-bool do_touch(Index contact, const Contacts& contacts)
-{
-    return (contacts.regime[0][contact] | contacts.regime[1][contact]) != 0;
-}
-
 /// Do two members of these blocks move together? Where a point is closed and does not slide.
 bool are_together(Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
 {
     for (int end = 0; end < 2; ++end)
     {
         const auto regime = static_cast<Regime>(contacts.regime[end][contact]);
-        if (regime == Regime::stick || (regime != Regime::open && tie_of(contact, end, rule, blocks, contacts) != Tie::slides))
+        if (regime == Regime::stick ||
+            (regime != Regime::open && tie_of(contact, end, rule.speed, blocks, contacts) != Tie::slides))
             return true;
     }
     return false;
@@ -67,50 +38,6 @@ bool are_together(Index contact, const GroupRule& rule, const Blocks& blocks, co
 Index other_block(Index block, Index contact, const Contacts& contacts)
 {
     return contacts.ref[contact] == block ? contacts.inc[contact] : contacts.ref[contact];
-}
-
-/// Of the radius: points so near to each other are one.
-constexpr double one_point = 0.01;
-
-/// Does all that bears the block meet it in one point, about which its weight turns it on and away from where it stood? (One that comes back is damped: a block that rocks or hops comes
-/// to rest. So is one that slides there while the force of the joint turns it back: it would tip if it stuck.)
-bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
-          const BlockContacts& list)
-{
-    const double w = blocks.motion[block].w;
-    if (!(std::abs(w) * model.radius[block] > rule.speed))
-        return false;
-    std::optional<Vec2> hinge;
-    Vec2 borne = Vec2::Zero();
-    bool sticks = false;
-    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
-    {
-        const Index contact = list.entry[e] / 2;
-        if (!do_touch(contact, contacts))
-            continue;
-        for (int end = 0; end < 2; ++end)
-        {
-            const Tie tie = tie_of(contact, end, rule, blocks, contacts);
-            if (tie == Tie::none)
-                continue;
-            sticks = sticks || tie == Tie::sticks;
-            const EdgeTouch touch = touch_of(contact, blocks, contacts);
-            if (!(touch.slope * (blocks.motion[contacts.inc[contact]].w - blocks.motion[contacts.ref[contact]].w) > 0.0))
-                return false;  // the faces come together
-            const TouchPoint& p = touch.point[end];
-            const bool is_ref = contacts.ref[contact] == block;
-            const double t = is_ref ? p.ref_t : p.inc_t, m = is_ref ? p.ref_m : p.inc_m;
-            const Vec2 at(touch.ex * t - touch.ey * m, touch.ey * t + touch.ex * m);
-            if (hinge && (*hinge - at).norm() > one_point * model.radius[block])
-                return false;
-            hinge = at;
-            const double shear = contacts.shear_force(end, contact) + contacts.tilt_force(end, contact),
-                         normal = contacts.normal_force(end, contact);
-            const Vec2 on_inc(shear * touch.ex + normal * touch.ey, shear * touch.ey - normal * touch.ex);
-            borne += is_ref ? Vec2(-on_inc) : on_inc;
-        }
-    }
-    return hinge && cross(model.gravity, *hinge) * w > 0.0 && (sticks || cross(*hinge, borne) * w > 0.0);
 }
 }  // namespace
 
@@ -174,7 +101,7 @@ void MovingGroups::take_outside(Member& member, Index contact, const View& view)
         return;
     member.touched = true;
     for (int end = 0; end < 2; ++end)
-        member.held = member.held || tie_of(contact, end, view.rule, view.blocks, view.contacts) == Tie::sticks;
+        member.held = member.held || tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) == Tie::sticks;
 }
 
 /// From those that are reached on to all that contacts lead to which let pass.
@@ -219,16 +146,24 @@ void MovingGroups::gather(Index member, const View& view)
             if (!do_touch(contact, view.contacts))
                 continue;
             now.touches = true;
+            const Index other = place_[other_block(block, contact, view.contacts)];
             for (int end = 0; end < 2; ++end)
             {
-                if (tie_of(contact, end, view.rule, view.blocks, view.contacts) != Tie::slides)
+                if (tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) != Tie::slides)
                     continue;
+                if (other != no_index)
+                {
+                    group.rides = group.rides || !are_together(contact, view.rule, view.blocks, view.contacts);
+                    continue;
+                }
                 const double normal = view.contacts.normal_force(end, contact), shear = view.contacts.shear_force(end, contact);
                 const double load = normal * normal + shear * shear;
                 if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
-                    group = {.load = load, .contact = contact, .is_alone = group.is_alone};
+                {
+                    group.load = load;
+                    group.contact = contact;
+                }
             }
-            const Index other = place_[other_block(block, contact, view.contacts)];
             if (other == no_index || members_[other].group != no_index ||
                 !are_together(contact, view.rule, view.blocks, view.contacts))
                 continue;
@@ -268,7 +203,7 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
     moving.clear();
     for (const Member& member : members_)
     {
-        if (member.touched && !member.bolted && tips(member.block, model, rule, blocks, contacts, list))
+        if (member.touched && !member.bolted && tips(member.block, model, rule.speed, blocks, contacts, list))
         {
             moving.push_back({member.block, FreeMotion::tips, 1.0F, 0.0F});
             continue;
@@ -276,13 +211,36 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         if (member.held || !member.touches)
             continue;  // (what touches nothing is not damped in any case)
         const Group& group = groups_[member.group];
-        const bool slides = !group.is_alone && group.contact != no_index;
-        if (member.touched && !slides)
+        const bool slides = group.contact != no_index;
+        if (member.touched && !group.rides && (group.is_alone || !slides))
             continue;
         const EdgeTouch touch = slides ? touch_of(group.contact, blocks, contacts) : EdgeTouch();
-        moving.push_back({member.block, member.touched ? FreeMotion::slides : FreeMotion::flies, static_cast<float>(touch.ex),
-                          static_cast<float>(touch.ey)});
+        const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
+        moving.push_back({member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
     }
+    add_dragged(model, view, moving);
+}
+
+void MovingGroups::add_dragged(const Model& model, const View& view, std::vector<MovingBlock>& moving) const
+{
+    const auto known = static_cast<std::ptrdiff_t>(moving.size());
+    for (const Member& member : members_)
+        for (Index e = view.list.begin[member.block]; e < view.list.begin[member.block + 1]; ++e)
+        {
+            const Index contact = view.list.entry[e] / 2;
+            const Index other = other_block(member.block, contact, view.contacts);
+            if (place_[other] != no_index || !do_touch(contact, view.contacts) || view.blocks.present[other] == 0 ||
+                !is_unbound(view.blocks.inertia[other]) || is_fast(other, model, view.rule.speed, view.blocks))
+                continue;
+            for (int end = 0; end < 2; ++end)
+                if (tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) == Tie::slides)
+                    moving.push_back({other, FreeMotion::dragged, 1.0F, 0.0F});
+        }
+    std::ranges::sort(moving.begin() + known, moving.end(), {}, &MovingBlock::block);
+    moving.erase(std::unique(moving.begin() + known, moving.end(),
+                             [](const MovingBlock& a, const MovingBlock& b) { return a.block == b.block; }),
+                 moving.end());
+    std::ranges::inplace_merge(moving, moving.begin() + known, {}, &MovingBlock::block);
 }
 
 void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks)
@@ -291,8 +249,8 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
          at != moving.end() && at->block < range.end; ++at)
     {
         BlockForce& force = blocks.force[at->block];
-        if (force.contacts == 0)
-            continue;  // gone
+        if (force.contacts == 0 || (at->how == FreeMotion::dragged && force.mobilised < static_cast<float>(sliding_from)))
+            continue;  // gone, or held
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;

@@ -33,7 +33,10 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
 ///   others                                         as each block by itself
 ///
-/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md).
+/// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Nor is a slow block that slides while a fast one slides on
+/// it: else what the fast one gives it would be lost.
+///
+/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, or rolls on, is not damped either (core/tried.md).
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups
@@ -41,7 +44,7 @@ class MovingGroups
   public:
     /// @param fast  ascending
     /// @param bolted  blocks with other forces between them than those of contacts: a group with one of them is left as it is
-    /// @param moving  members of groups of the first two kinds, and blocks that tip
+    /// @param moving  members of groups of the first two kinds, and blocks that tip, ride or are dragged
     void find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
               const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 
@@ -57,8 +60,9 @@ class MovingGroups
     };
     struct Group
     {
-        double load = 0.0;  ///< of its most loaded joint that slides, squared [N2]
+        double load = 0.0;  ///< of its most loaded joint to the outside, squared [N2]
         Index contact = no_index;
+        bool rides = false;    ///< slides on a fast block
         bool is_alone = true;  ///< it has one member
     };
     struct View
@@ -76,6 +80,7 @@ class MovingGroups
     void flood(const View& view, const Passes& passes);
     void find_groups(const View& view);
     void gather(Index member, const View& view);
+    void add_dragged(const Model& model, const View& view, std::vector<MovingBlock>& moving) const;
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;

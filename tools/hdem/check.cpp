@@ -93,7 +93,8 @@ void describe_insitu(const Model& model, const InsituSummary& insitu)
     for (const std::string& warning : insitu_warnings(model, insitu))
         say("warning: {}\n", warning);
     for (const StressedSet& set : insitu.sets)
-        say("joints            {}: {} contacts, {:.6g} m; shear strength in use at most {:.4f}; above it {} contacts, {:.6g} m "
+        say("joints            {}: {} contacts, {:.6g} m; shear strength in use at most {:.4f}; above it or in tension {} "
+            "contacts, {:.6g} m "
             "({:.4g} % "
             "of their length)\n",
             printable(set.name), set.joints, set.length, set.most_used, set.above, set.length_above,

@@ -1,5 +1,5 @@
 #include "core/energy_ledger.h"
-#include "core/joint/normal_closure.h"
+#include "core/motion/equilibrium.h"
 #include "tools/hdem/run_figures.h"
 #include "tools/hdem/run_report.h"
 #include "tools/hdem/timing.h"
@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace hdem
 {
@@ -14,27 +15,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// Joints that end above the stress from which on their normal spring is a straight line.
-void print_straight_joints(Log& log, const Model& model, const Contacts& contacts)
+/// The fastest blocks first: of hundreds only some are named.
+std::vector<std::string> fastest_first(std::vector<std::string> names, const Model& model, const Blocks& blocks)
 {
-    for (std::size_t j = 0; j < model.joints.names.size() && model.joints.has_memory(); ++j)
-    {
-        const JointRow& row = model.joints.rows[j];
-        if (row.curve == CurveKind::linear)
-            continue;
-        double greatest = 0.0;
-        for (Index i = 0; i < contacts.size(); ++i)
-            if (contacts.law[i] == static_cast<Index>(j))
-                for (int k = 0; k < 2; ++k)
-                    greatest = std::max(greatest, contacts.normal_force(k, i) / contacts.lane[i / lanes].last_length[i % lanes]);
-        const double limit = row.numbers[curve_cap_stress];
-        if (greatest > limit)
-            log.line(fmt::format("warning: joint \"{}\" bears up to {:.4g} Pa; from {:.4g} Pa on its normal spring is a straight "
-                                 "line. Give it a greater "
-                                 "normal_stress.",
-                                 model.joints.names[j], greatest, limit));
-    }
+    std::unordered_map<std::string, double> speed;
+    for (Index b = 0; b < model.blocks(); ++b)
+        speed.emplace(model.name[b], rim_speed(b, model, blocks));
+    std::ranges::stable_sort(names, std::greater<>(), [&](const std::string& name) { return speed.at(name); });
+    return names;
 }
+
 std::string words(std::string name)
 {
     std::ranges::replace(name, '_', ' ');
@@ -144,14 +134,19 @@ void print_closing(Log& log, const RunSummary& s, const Session& session, const 
     for (const std::string& line : stage_table(s, simulation.model()))
         log.line(line);
     for (const StageSummary& stage : s.stages)
-        if (!stage.not_at_rest.empty())
-            log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks: {}", stage.name, stage.not_at_rest.size(),
-                                 first_of(stage.not_at_rest)));
+    {
+        if (stage.not_at_rest.empty())
+            continue;
+        const bool is_last = &stage == &s.stages.back();
+        log.line(fmt::format("not at rest at the end of stage \"{}\": {} blocks{}: {}", stage.name, stage.not_at_rest.size(),
+                             is_last ? ", the fastest first" : "",
+                             first_of(is_last ? fastest_first(stage.not_at_rest, simulation.model(), simulation.state().blocks)
+                                              : stage.not_at_rest)));
+    }
     if (const StageSummary* last = s.stages.empty() ? nullptr : &s.stages.back(); last && last->sought_rest && !last->met_end)
         for (const LinerSummary& liner : s.liners)
             if (liner.moves)
                 log.line(fmt::format("not at rest at the end of stage \"{}\": liner \"{}\"", last->name, liner.name));
-    print_straight_joints(log, simulation.model(), simulation.state().contacts);
     log.line(fmt::format("kinetic energy {:.4g} J (limit {:.4g} J), unbalanced force ratio {:.3g}", s.kinetic_energy,
                          s.kinetic_energy_limit, s.unbalanced_force_ratio));
     log.line(fmt::format("displacement {}: mean {:.4g} mm, greatest {:.4g} mm; all blocks: mean {:.4g} mm, greatest {:.4g} mm",

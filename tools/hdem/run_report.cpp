@@ -1,5 +1,6 @@
 #include "tools/hdem/run_report.h"
 
+#include "core/joint/normal_closure.h"
 #include "core/stage/rules.h"
 #include "core/state/state_hash.h"
 #include "core/version.h"
@@ -49,6 +50,27 @@ void add_liner_warnings(const RunSummary& s, std::vector<std::string>& warnings)
     }
 }
 
+/// Joints that end above the stress from which on their normal spring is a straight line.
+void add_straight_joints(const Model& model, const Contacts& contacts, std::vector<std::string>& warnings)
+{
+    for (std::size_t j = 0; j < model.joints.names.size() && model.joints.has_memory(); ++j)
+    {
+        const JointRow& row = model.joints.rows[j];
+        if (row.curve == CurveKind::linear)
+            continue;
+        double greatest = 0.0;
+        for (Index i = 0; i < contacts.size(); ++i)
+            if (contacts.law[i] == static_cast<Index>(j))
+                for (int k = 0; k < 2; ++k)
+                    greatest = std::max(greatest, contacts.normal_force(k, i) / contacts.lane[i / lanes].last_length[i % lanes]);
+        if (const double limit = row.numbers[curve_cap_stress]; greatest > limit)
+            warnings.push_back(
+                fmt::format("joint \"{}\" bears up to {:.4g} Pa; from {:.4g} Pa on its normal spring is a straight line. Give it "
+                            "a greater normal_stress.",
+                            model.joints.names[j], greatest, limit));
+    }
+}
+
 /// Is a motion prescribed in some stage?
 bool is_ever_driven(const Model& model)
 {
@@ -94,6 +116,7 @@ std::vector<std::string> run_warnings(const Simulation& simulation, const RunSum
             fmt::format("blocks have left the model and move on outside it: {}. Give walls or a ground to hold them, or "
                         "a stage with until = \"converged\", which ends their way.",
                         first_of(outside)));
+    add_straight_joints(model, simulation.state().contacts, warnings);
     add_liner_warnings(s, warnings);
     add_damping_warning(simulation, warnings);
     if (const WorstResidual& watch = simulation.state().worst_residual; watch.share > 1.0)

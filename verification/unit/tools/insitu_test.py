@@ -68,6 +68,12 @@ class Insitu(unittest.TestCase):
         curved = "surface = 1.0\nratio = 0.5\n[joint.j]\nmaterials = ['rock', 'rock']\nnormal_stiffness = 7e9\nshear_stiffness = 5e8\nfriction_angle_deg = 30\ngreatest_closure = 1e-3\n"
         self.assertIn('warning: joint "j" bears up to', said(curved + "normal_stress = 1e4\n", "run"))
         self.assertNotIn("warning: joint", said(curved, "run"))
+        with tempfile.TemporaryDirectory(prefix="hdem_insitu_") as folder:
+            case = Path(folder, "case.toml")
+            case.write_text(CASE + curved + "normal_stress = 1e4\n", encoding="utf-8")
+            subprocess.run([HDEM, "run", case, "-o", folder + "/out", "--quiet"], check=True)
+            warnings = json.loads(Path(folder, "out", "summary.json").read_text(encoding="utf-8"))["warnings"]
+            self.assertTrue([w for w in warnings if w.startswith('joint "j" bears up to')], warnings)
 
     def test_tells_of_a_static_solution_that_joints_do_not_allow(self):
         joint = "surface = 1.0\nratio = 0.5\n[joint.j]\nnormal_stiffness = 7e9\nshear_stiffness = 5e8\nfriction_angle_deg = 30\n"

@@ -285,6 +285,43 @@ max_cycles = 8000
 """
 
 
+SLIDING = """
+[material.rock]
+density = 2700
+[joint.default]
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_angle_deg = 0
+[gravity]
+vector = [%g, -9.0]
+[[block]]
+name = "ground"
+polygon = [[-90, -1], [90, -1], [90, 0], [-90, 0]]
+fixed = true
+[[block]]
+name = "slow"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+velocity = [0.1, 0]
+[[block]]
+name = "fast"
+polygon = [[5, 0], [6, 0], [6, 1], [5, 1]]
+velocity = [1, 0]
+[[stage]]
+until = "converged"
+max_cycles = 1000
+"""
+
+
+class NotAtRest(unittest.TestCase):
+    def test_the_fastest_block_is_named_first(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = Path(folder) / "case.toml"
+            case.write_text(SLIDING % 1.0)
+            run = subprocess.run([HDEM, "run", case, "-o", folder + "/run"], capture_output=True, text=True, check=False)
+            self.assertEqual(run.returncode, 4, run.stderr)
+            self.assertIn("2 blocks, the fastest first: fast, slow", run.stdout)
+
+
 class Linings(unittest.TestCase):
     def warnings(self, keys):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,3 +1,4 @@
+#include "parallel/stages.h"
 #include "verification/unit/case_run.h"
 
 #include <fmt/format.h>
@@ -138,6 +139,85 @@ TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
             EXPECT_NEAR(damped.displacement("column").norm(), free.displacement("column").norm(),
                         tip.share * free.displacement("column").norm());
         }
+}
+
+/// A many-sided block rolls down a slope from side to side: what damping took of it would be most of its weight's work.
+TEST_P(MovingGroup, OfOneThatRollsMovesAsUndamped)
+{
+    const auto way = [](DampingPreset preset, bool mirrored)
+    {
+        CaseDef scene = scenes::empty_scene();
+        scene.contact.method = GetParam();
+        scene.damping.preset = preset;
+        scene.joints[0].friction_angle_deg = 45.0;
+        scenes::add_fixed_block(scene, "ground", rectangle({-50.0, -2.0}, {50.0, 0.0}));
+        Polygon wheel;
+        for (int i = 0; i < 36; ++i)
+        {
+            const double angle = (10.0 * i - 85.0) * std::numbers::pi / 180.0;
+            wheel.emplace_back(std::cos(angle), std::sin(angle) + std::cos(5.0 * std::numbers::pi / 180.0));
+        }
+        scenes::add_block(scene, "wheel", wheel);
+        scene = scenes::turned(scene, -12.0);
+        scene.gravity = {0.0, -g};
+        CaseRun run(mirrored ? scenes::mirrored(scene) : scene);
+        run_for(run, 2.0);
+        return run.displacement("wheel").norm();
+    };
+    const double free = way(DampingPreset::dynamic, false);
+    EXPECT_GT(free, 1.5);
+    for (const bool mirrored : {false, true})
+        EXPECT_NEAR(way(DampingPreset::automatic, mirrored), free, 0.15 * free);
+}
+
+/// A block slides without friction on a wedge that slides without friction: a = m g sin(s) cos(s) / (M + m sin(s)^2) of the wedge, M = m, s = 45 degrees.
+TEST_P(MovingGroup, OfTwoThatSlideOnEachOtherKeepsItsMomentum)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = GetParam();
+    scene.joints[0].friction_angle_deg = 0.0;
+    scene.materials.push_back({.name = "light", .density = 400.0});
+    scene.materials.push_back({.name = "heavy", .density = 5000.0});
+    scenes::add_fixed_block(scene, "ground", rectangle({-10.0, -2.0}, {10.0, 0.0}));
+    scenes::add_block(scene, "wedge", {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}).material = "light";
+    scenes::add_block(scene, "block", {{0.05, 0.95}, {0.25, 0.75}, {0.35, 0.85}, {0.15, 1.05}}).material = "heavy";
+    for (const bool mirrored : {false, true})
+    {
+        CaseRun run(mirrored ? scenes::mirrored(scene) : scene);
+        const double t = run_for(run, 0.3), way = (mirrored ? -0.5 : 0.5) * g / 3.0 * t * t;
+        EXPECT_NEAR(run.displacement("wedge").x(), -way, 0.015 * std::abs(way));
+        EXPECT_NEAR(run.displacement("block").x(), way, 0.015 * std::abs(way));
+    }
+}
+
+/// A stone is thrown onto a slab, which it drags along until both have the same speed; then both slide on. The slab moves 0.1143 m, where rest is looked for too.
+TEST_P(MovingGroup, DragsWhatItSlidesOn)
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = GetParam();
+    scene.joints[0].normal_stiffness = 5.5e10;
+    scene.joints[0].shear_stiffness = 2.75e10;
+    scene.joints[0].friction_angle_deg = 7.1025807;
+    scene.materials.push_back({.name = "slab", .density = 2500.0});
+    scene.materials.push_back({.name = "stone", .density = 12497.0268});
+    JointDef rough = scene.joints[0];
+    rough.name = "stone on slab";
+    rough.friction_angle_deg = 20.5741223;
+    rough.materials = {"slab", "stone"};
+    scene.joints.push_back(rough);
+    scenes::add_fixed_block(scene, "ground", rectangle({-20.0, -3.0}, {80.0, 0.0}));
+    scenes::add_block(scene, "slab", rectangle({0.0, 0.0}, {7.1055, 0.43427})).material = "slab";
+    BlockDef& stone = scenes::add_block(scene, "stone", rectangle({0.71055, 0.43427}, {2.37533, 0.66005}));
+    stone.material = "stone";
+    stone.velocity = {3.2562, 0.0};
+    scene.stages = {{.name = "rest", .cycles = {}, .until_converged = true, .max_cycles = 200'000}};
+    for (const double angle : {0.0, 37.0})
+    {
+        hdem::Setup setup = build_model(scenes::turned(scene, angle));
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        EXPECT_TRUE(run_stages(simulation, {}).back().at_rest);
+        EXPECT_NEAR(simulation.state().blocks.displacement(simulation.model().find_block("slab")).norm(), 0.1143, 0.003);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MovingGroup, testing::Values(Method::force, Method::hybrid),
