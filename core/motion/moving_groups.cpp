@@ -203,7 +203,7 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
     moving.clear();
     for (const Member& member : members_)
     {
-        if (member.touched && !member.bolted && tips(member.block, model, rule.speed, blocks, contacts, list))
+        if (member.touched && !member.bolted && tips(member.block, model, rule, blocks, contacts, list))
         {
             moving.push_back({member.block, FreeMotion::tips, 1.0F, 0.0F});
             continue;

@@ -16,6 +16,7 @@ namespace hdem
 struct GroupRule
 {
     double speed = std::numeric_limits<double>::infinity();  ///< blocks that are faster, or their rims [m/s]
+    bool frees_rolling = true;                               ///< blocks that roll on over their faces are not damped
 };
 
 /// Are groups searched for among all blocks, in the cycle that follows so many cycles of the stage? If all blocks are fast, a search takes a good part of
@@ -36,7 +37,8 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
 /// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Nor is a slow block that slides while a fast one slides on
 /// it: else what the fast one gives it would be lost.
 ///
-/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, or rolls on, is not damped either (core/tried.md).
+/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor is one that rolls on over its faces, but where rest is sought: fallen blocks would roll on
+/// for long.
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups

@@ -39,10 +39,11 @@ Bearing bearing_of(Index block, Index contact, int end, const Blocks& blocks, co
 }
 }  // namespace
 
-bool tips(Index block, const Model& model, double fast, const Blocks& blocks, const Contacts& contacts, const BlockContacts& list)
+bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
+          const BlockContacts& list)
 {
     const double w = blocks.motion[block].w;
-    if (!(std::abs(w) * model.radius[block] > fast))
+    if (!(std::abs(w) * model.radius[block] > rule.speed))
         return false;
     const auto turns_on = [&](const Vec2& at) { return cross(model.gravity, at) * w > 0.0; };
     Index first = no_index;
@@ -57,16 +58,16 @@ bool tips(Index block, const Model& model, double fast, const Blocks& blocks, co
             continue;
         for (int end = 0; end < 2; ++end)
         {
-            const Tie tie = tie_of(contact, end, fast, blocks, contacts);
+            const Tie tie = tie_of(contact, end, rule.speed, blocks, contacts);
             if (tie == Tie::none)
                 continue;
             const Bearing bearing = bearing_of(block, contact, end, blocks, contacts);
-            if (!turns_on(bearing.at) || (!bearing.opens && !turns_on(bearing.other)))
+            if (!turns_on(bearing.at) || (!bearing.opens && !(rule.frees_rolling && turns_on(bearing.other))))
                 return false;
             if (first == no_index)
                 hinge = bearing.at;
             const bool is_apart = first != no_index && (hinge - bearing.at).norm() > one_point * model.radius[block];
-            if (is_apart && first != contact)
+            if (is_apart && !(rule.frees_rolling && first == contact))
                 return false;
             rolls = rolls || is_apart;
             first = first == no_index ? contact : first;

@@ -2,6 +2,7 @@
 /// Blocks that tip over or roll.
 
 #include "core/model/model.h"
+#include "core/motion/moving_groups.h"
 #include "core/state/blocks.h"
 #include "core/state/contacts.h"
 #include "core/state/workspace.h"
@@ -14,7 +15,7 @@ namespace hdem
 ///
 /// All points lie in one place, or on one face that sticks by most of its force. So a block tips away from where it stood, and rolls over a face that its weight passes. One that comes back to its face is damped: a
 /// block that rocks or hops comes to rest. So is one that slides there while the force of the joint turns it back: it would tip if it stuck.
-/// @param fast  the rim is faster [m/s]
-[[nodiscard]] bool tips(Index block, const Model& model, double fast, const Blocks& blocks, const Contacts& contacts,
+/// @param rule  the rim is faster; do blocks that roll count?
+[[nodiscard]] bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
                         const BlockContacts& list);
 }  // namespace hdem

@@ -50,7 +50,8 @@ GroupRule groups_of(const StageSetting& s, double settling)
 {
     if (s.preset != DampingPreset::automatic || s.damping.local == 0.0 || s.method == Method::impulse)
         return {};
-    return {.speed = settling > 0.0 ? 2.0 * settling : s.convergence.mean_speed};
+    return settling > 0.0 ? GroupRule{.speed = 2.0 * settling, .frees_rolling = false}
+                          : GroupRule{.speed = s.convergence.mean_speed};
 }
 
 StageSetting setting_of(const Model& model, const State& state)
