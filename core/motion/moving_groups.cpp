@@ -218,7 +218,8 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
         moving.push_back({member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
     }
-    add_dragged(model, view, moving);
+    if (!rule.frees_rolling)  // rest is sought; elsewhere slow slips are not damped in any case
+        add_dragged(model, view, moving);
 }
 
 void MovingGroups::add_dragged(const Model& model, const View& view, std::vector<MovingBlock>& moving) const
