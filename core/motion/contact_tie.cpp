@@ -23,6 +23,17 @@ Tie tie_of(Index contact, int end, double fast, const Blocks& blocks, const Cont
     return regime == static_cast<std::uint8_t>(Regime::slip) ? Tie::slides : Tie::sticks;
 }
 
+bool are_together(Index contact, double fast, const Blocks& blocks, const Contacts& contacts)
+{
+    for (int end = 0; end < 2; ++end)
+    {
+        const auto regime = static_cast<Regime>(contacts.regime[end][contact]);
+        if (regime == Regime::stick || (regime != Regime::open && tie_of(contact, end, fast, blocks, contacts) != Tie::slides))
+            return true;
+    }
+    return false;
+}
+
 bool do_touch(Index contact, const Contacts& contacts)
 {
     return (contacts.regime[0][contact] | contacts.regime[1][contact]) != 0;

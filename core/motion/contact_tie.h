@@ -21,6 +21,14 @@ enum class Tie
 /// The faces of a contact where its blocks are now.
 [[nodiscard]] EdgeTouch touch_of(Index contact, const Blocks& blocks, const Contacts& contacts);
 
+/// Do the blocks of this contact move together? Where a point is closed and does not slide.
+[[nodiscard]] bool are_together(Index contact, double fast, const Blocks& blocks, const Contacts& contacts);
+
+[[nodiscard]] inline Index other_block(Index block, Index contact, const Contacts& contacts)
+{
+    return contacts.ref[contact] == block ? contacts.inc[contact] : contacts.ref[contact];
+}
+
 /// Is one of its points closed?
 [[nodiscard]] bool do_touch(Index contact, const Contacts& contacts);
 }  // namespace hdem

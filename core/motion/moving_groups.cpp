@@ -1,57 +1,16 @@
 #include "core/motion/moving_groups.h"
 
 #include "core/motion/contact_tie.h"
-#include "core/motion/damping.h"
 #include "core/motion/tipping.h"
 
 #include <algorithm>
 
 namespace hdem
 {
-namespace
-{
-bool is_unbound(const BlockInertia& inertia)
-{
-    return inertia.inverse_mass_x > 0.0 && inertia.inverse_mass_y > 0.0 && inertia.inverse_inertia > 0.0;
-}
-
-bool is_fast(Index block, const Model& model, double speed, const Blocks& blocks)
-{
-    const BlockMotion& m = blocks.motion[block];
-    const double rim = model.radius[block] * m.w;
-    return m.vx * m.vx + m.vy * m.vy + rim * rim > speed * speed;
-}
-
-/// Do two members of these blocks move together? Where a point is closed and does not slide.
-bool are_together(Index contact, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts)
-{
-    for (int end = 0; end < 2; ++end)
-    {
-        const auto regime = static_cast<Regime>(contacts.regime[end][contact]);
-        if (regime == Regime::stick ||
-            (regime != Regime::open && tie_of(contact, end, rule.speed, blocks, contacts) != Tie::slides))
-            return true;
-    }
-    return false;
-}
-
-Index other_block(Index block, Index contact, const Contacts& contacts)
-{
-    return contacts.ref[contact] == block ? contacts.inc[contact] : contacts.ref[contact];
-}
-}  // namespace
-
 bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some)
 {
     constexpr std::int64_t always = 64, often = 16, seldom = 32;
     return cycles_of_stage < always || cycles_of_stage % (there_are_some ? often : seldom) == 0;
-}
-
-void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast)
-{
-    for (Index b = range.begin; b < range.end; ++b)
-        if (is_fast(b, model, rule.speed, blocks) && blocks.present[b] != 0 && is_unbound(blocks.inertia[b]))
-            fast.push_back(b);
 }
 
 void MovingGroups::take_members(const std::vector<Index>& fast, Index blocks)
@@ -153,7 +112,7 @@ void MovingGroups::gather(Index member, const View& view)
                     continue;
                 if (other != no_index)
                 {
-                    group.rides = group.rides || !are_together(contact, view.rule, view.blocks, view.contacts);
+                    group.rides = group.rides || !are_together(contact, view.rule.speed, view.blocks, view.contacts);
                     continue;
                 }
                 const double normal = view.contacts.normal_force(end, contact), shear = view.contacts.shear_force(end, contact);
@@ -165,7 +124,7 @@ void MovingGroups::gather(Index member, const View& view)
                 }
             }
             if (other == no_index || members_[other].group != no_index ||
-                !are_together(contact, view.rule, view.blocks, view.contacts))
+                !are_together(contact, view.rule.speed, view.blocks, view.contacts))
                 continue;
             members_[other].group = number;
             group.is_alone = false;
@@ -195,11 +154,12 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
             Member& member = members_[place_[block]];
             member.bolted = member.touched = member.held = true;
         }
-    flood<&Member::held>(view, [&](Index contact) { return are_together(contact, rule, blocks, contacts); });
+    flood<&Member::held>(view, [&](Index contact) { return are_together(contact, rule.speed, blocks, contacts); });
     for (Member& member : members_)
         member.touched = member.touched || member.held;
     flood<&Member::touched>(view, [&](Index contact) { return do_touch(contact, contacts); });
     find_groups(view);
+    before_.swap(moving);
     moving.clear();
     for (const Member& member : members_)
     {
@@ -218,30 +178,8 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
         moving.push_back({member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
     }
-    if (!rule.frees_rolling)  // rest is sought; elsewhere slow slips are not damped in any case
-        add_dragged(model, view, moving);
-}
-
-void MovingGroups::add_dragged(const Model& model, const View& view, std::vector<MovingBlock>& moving) const
-{
-    const auto known = static_cast<std::ptrdiff_t>(moving.size());
-    for (const Member& member : members_)
-        for (Index e = view.list.begin[member.block]; e < view.list.begin[member.block + 1]; ++e)
-        {
-            const Index contact = view.list.entry[e] / 2;
-            const Index other = other_block(member.block, contact, view.contacts);
-            if (place_[other] != no_index || !do_touch(contact, view.contacts) || view.blocks.present[other] == 0 ||
-                !is_unbound(view.blocks.inertia[other]) || is_fast(other, model, view.rule.speed, view.blocks))
-                continue;
-            for (int end = 0; end < 2; ++end)
-                if (tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) == Tie::slides)
-                    moving.push_back({other, FreeMotion::dragged, 1.0F, 0.0F});
-        }
-    std::ranges::sort(moving.begin() + known, moving.end(), {}, &MovingBlock::block);
-    moving.erase(std::unique(moving.begin() + known, moving.end(),
-                             [](const MovingBlock& a, const MovingBlock& b) { return a.block == b.block; }),
-                 moving.end());
-    std::ranges::inplace_merge(moving, moving.begin() + known, {}, &MovingBlock::block);
+    if (rule.seeks_rest)  // elsewhere slow slips are not damped in any case
+        dragged_.find(model, rule, fast, bolted, before_, blocks, contacts, list, moving);
 }
 
 void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks)
@@ -250,8 +188,8 @@ void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Block
          at != moving.end() && at->block < range.end; ++at)
     {
         BlockForce& force = blocks.force[at->block];
-        if (force.contacts == 0 || (at->how == FreeMotion::dragged && force.mobilised < static_cast<float>(sliding_from)))
-            continue;  // gone, or held
+        if (force.contacts == 0)
+            continue;  // gone
         force.reserve = 0.0;
         force.t_x = at->t_x;
         force.t_y = at->t_y;

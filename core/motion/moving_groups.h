@@ -1,31 +1,20 @@
 #pragma once
 /// Groups of blocks that move together. What holds a group from outside decides how local damping acts on it.
 
-#include "core/model/model.h"
-#include "core/state/blocks.h"
+#include "core/motion/dragged_blocks.h"
+#include "core/motion/fast_blocks.h"
 #include "core/state/contacts.h"
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
-#include <limits>
 #include <vector>
 
 namespace hdem
 {
-/// Which blocks may form groups.
-struct GroupRule
-{
-    double speed = std::numeric_limits<double>::infinity();  ///< blocks that are faster, or their rims [m/s]
-    bool frees_rolling = true;                               ///< blocks that roll on over their faces are not damped
-};
-
 /// Are groups searched for among all blocks, in the cycle that follows so many cycles of the stage? If all blocks are fast, a search takes a good part of
 /// a cycle's time. So it is made in each of a stage's first cycles, in which most falling blocks come free, and later now and then. In between, only the
 /// known groups are checked, in each cycle: a group that hits something is damped from then on.
 [[nodiscard]] bool looks_for_groups(std::int64_t cycles_of_stage, bool there_are_some);
-
-/// Blocks of `range` that are so fast and free to move and turn. Appends to `fast`.
-void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
 
 /// Groups of fast blocks. Local damping stands for the energy that the surrounding rock takes up, so it holds a block back by no more than the unused
 /// friction of its joints. But joints between blocks that fall or slide together hold nothing back. So groups
@@ -34,8 +23,8 @@ void find_fast(IndexRange range, const Model& model, const GroupRule& rule, cons
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
 ///   others                                         as each block by itself
 ///
-/// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Nor is a slow block that slides while a fast one slides on
-/// it: else what the fast one gives it would be lost.
+/// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
+/// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
 /// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor is one that rolls on over its faces, but where rest is sought: fallen blocks would roll on
 /// for long.
@@ -46,7 +35,7 @@ class MovingGroups
   public:
     /// @param fast  ascending
     /// @param bolted  blocks with other forces between them than those of contacts: a group with one of them is left as it is
-    /// @param moving  members of groups of the first two kinds, and blocks that tip, ride or are dragged
+    /// @param moving  members of groups of the first two kinds, and blocks that tip, ride or are dragged; before the call those of the cycle before
     void find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
               const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 
@@ -82,12 +71,13 @@ class MovingGroups
     void flood(const View& view, const Passes& passes);
     void find_groups(const View& view);
     void gather(Index member, const View& view);
-    void add_dragged(const Model& model, const View& view, std::vector<MovingBlock>& moving) const;
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;
     std::vector<Group> groups_;
     std::vector<Index> queue_;  ///< members
+    std::vector<MovingBlock> before_;
+    DraggedBlocks dragged_;
 };
 
 /// Mark these blocks for damping, once forces are summed. Writes: force of these blocks.

@@ -62,12 +62,12 @@ bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& 
             if (tie == Tie::none)
                 continue;
             const Bearing bearing = bearing_of(block, contact, end, blocks, contacts);
-            if (!turns_on(bearing.at) || (!bearing.opens && !(rule.frees_rolling && turns_on(bearing.other))))
+            if (!turns_on(bearing.at) || (!bearing.opens && !(!rule.seeks_rest && turns_on(bearing.other))))
                 return false;
             if (first == no_index)
                 hinge = bearing.at;
             const bool is_apart = first != no_index && (hinge - bearing.at).norm() > one_point * model.radius[block];
-            if (is_apart && !(rule.frees_rolling && first == contact))
+            if (is_apart && !(!rule.seeks_rest && first == contact))
                 return false;
             rolls = rolls || is_apart;
             first = first == no_index ? contact : first;

@@ -50,8 +50,7 @@ GroupRule groups_of(const StageSetting& s, double settling)
 {
     if (s.preset != DampingPreset::automatic || s.damping.local == 0.0 || s.method == Method::impulse)
         return {};
-    return settling > 0.0 ? GroupRule{.speed = 2.0 * settling, .frees_rolling = false}
-                          : GroupRule{.speed = s.convergence.mean_speed};
+    return settling > 0.0 ? GroupRule{.speed = 2.0 * settling, .seeks_rest = true} : GroupRule{.speed = s.convergence.mean_speed};
 }
 
 StageSetting setting_of(const Model& model, const State& state)
