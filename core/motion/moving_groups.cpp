@@ -142,6 +142,51 @@ void MovingGroups::find_groups(const View& view)
             gather(k, view);
 }
 
+/// Members that stick to each other tip together; else single ones may by themselves.
+void MovingGroups::find_tipping(const Model& model, const View& view)
+{
+    std::vector<bool> seen(members_.size());
+    std::vector<Index> group;  // blocks
+    const auto tip = [&]
+    {
+        const bool found = tips(group, model, view.rule, view.blocks, view.contacts, view.list);
+        for (const Index block : group)
+            members_[place_[block]].tips = found;
+        return found;
+    };
+    for (std::size_t k = 0; k < members_.size(); ++k)
+    {
+        if (seen[k] || !members_[k].touched)
+            continue;
+        group.assign(1, members_[k].block);
+        seen[k] = true;
+        bool bolted = false;
+        for (std::size_t at = 0; at < group.size(); ++at)
+        {
+            bolted = bolted || members_[place_[group[at]]].bolted;
+            for (Index e = view.list.begin[group[at]]; e < view.list.begin[group[at] + 1]; ++e)
+            {
+                const Index contact = view.list.entry[e] / 2;
+                const Index other = place_[other_block(group[at], contact, view.contacts)];
+                if (other == no_index || seen[other] || !are_together(contact, view.rule.speed, view.blocks, view.contacts))
+                    continue;
+                seen[other] = true;
+                group.push_back(members_[other].block);
+            }
+        }
+        std::ranges::sort(group);
+        if ((!bolted && tip()) || group.size() == 1)
+            continue;
+        const std::vector<Index> all = group;
+        for (const Index block : all)
+            if (!members_[place_[block]].bolted)
+            {
+                group.assign(1, block);
+                tip();
+            }
+    }
+}
+
 void MovingGroups::find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
                         const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
 {
@@ -159,11 +204,12 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         member.touched = member.touched || member.held;
     flood<&Member::touched>(view, [&](Index contact) { return do_touch(contact, contacts); });
     find_groups(view);
+    find_tipping(model, view);
     before_.swap(moving);
     moving.clear();
     for (const Member& member : members_)
     {
-        if (member.touched && !member.bolted && tips(member.block, model, rule, blocks, contacts, list))
+        if (member.tips)
         {
             moving.push_back({member.block, FreeMotion::tips, 1.0F, 0.0F});
             continue;

@@ -26,7 +26,7 @@ namespace hdem
 /// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
 /// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
-/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor is one that rolls on over its faces, but where rest is sought: fallen blocks would roll on
+/// A block, or a group, without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor is a block that rolls on over its faces, but where rest is sought: fallen blocks would roll on
 /// for long.
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
@@ -47,6 +47,7 @@ class MovingGroups
         bool held = false;     ///< by a joint that does not slide, or together with such a member
         bool touches = false;  ///< anything
         bool bolted = false;
+        bool tips = false;
         Index group = no_index;  ///< of those that are not held
     };
     struct Group
@@ -70,6 +71,7 @@ class MovingGroups
     template <bool Member::*reached, typename Passes>
     void flood(const View& view, const Passes& passes);
     void find_groups(const View& view);
+    void find_tipping(const Model& model, const View& view);
     void gather(Index member, const View& view);
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast

@@ -2,6 +2,7 @@
 
 #include "core/motion/contact_tie.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hdem
@@ -20,7 +21,8 @@ struct Bearing
     bool opens = false;       ///< the faces turn away from each other
 };
 
-Bearing bearing_of(Index block, Index contact, int end, const Blocks& blocks, const Contacts& contacts)
+/// @param w  of the block, or of its group [rad/s]
+Bearing bearing_of(Index block, double w, Index contact, int end, const Blocks& blocks, const Contacts& contacts)
 {
     const EdgeTouch touch = touch_of(contact, blocks, contacts);
     const bool is_ref = contacts.ref[contact] == block;
@@ -29,53 +31,117 @@ Bearing bearing_of(Index block, Index contact, int end, const Blocks& blocks, co
         const double t = is_ref ? p.ref_t : p.inc_t, m = is_ref ? p.ref_m : p.inc_m;
         return {touch.ex * t - touch.ey * m, touch.ey * t + touch.ex * m};
     };
+    const double turn = blocks.motion[other_block(block, contact, contacts)].w - w;
     const double shear = contacts.shear_force(end, contact) + contacts.tilt_force(end, contact),
                  normal = contacts.normal_force(end, contact);
     const Vec2 on_inc(shear * touch.ex + normal * touch.ey, shear * touch.ey - normal * touch.ex);
     return {.at = place(touch.point[end]),
             .other = place(touch.point[1 - end]),
             .force = is_ref ? Vec2(-on_inc) : on_inc,
-            .opens = touch.slope * (blocks.motion[contacts.inc[contact]].w - blocks.motion[contacts.ref[contact]].w) > 0.0};
+            .opens = touch.slope * (is_ref ? turn : -turn) > 0.0};
 }
+
+/// A group as one rigid block.
+struct Whole
+{
+    Vec2 centroid = {0.0, 0.0};
+    double w = 0.0;       ///< angular momentum about the centroid over moment of inertia [rad/s]
+    double radius = 0.0;  ///< of its largest member [m]
+};
+
+Whole whole_of(const std::vector<Index>& group, const Model& model, const Blocks& blocks)
+{
+    const BlockMotion& origin = blocks.motion[group.front()];  // one block by itself: nothing is rounded
+    Whole whole;
+    double mass = 0.0, momentum = 0.0, inertia = 0.0;
+    Vec2 place = Vec2::Zero(), velocity = Vec2::Zero();  // from the origin
+    for (const Index block : group)
+    {
+        const BlockMotion& m = blocks.motion[block];
+        const double of_block = model.mass[block], rotary = 1.0 / blocks.inertia[block].inverse_inertia;
+        const Vec2 from(m.x - origin.x, m.y - origin.y), moves(m.vx - origin.vx, m.vy - origin.vy);
+        mass += of_block;
+        place += of_block * from;
+        velocity += of_block * moves;
+        momentum += of_block * cross(from, moves) + rotary * m.w;
+        inertia += of_block * from.squaredNorm() + rotary;
+        whole.radius = std::max(whole.radius, model.radius[block]);
+    }
+    place /= mass;
+    whole.centroid = Vec2(origin.x, origin.y) + place;
+    whole.w = (momentum - cross(place, velocity)) / (inertia - mass * place.squaredNorm());
+    return whole;
+}
+
+/// Takes one after the other the points that bear a group.
+class TippingTest
+{
+  public:
+    TippingTest(const Whole& whole, const Vec2& gravity, bool may_roll) : whole_(whole), gravity_(gravity), may_roll_(may_roll) {}
+
+    /// @return whether the group may tip, by what is known now
+    bool take(Index contact, Tie tie, const Bearing& bearing)
+    {
+        if (!turns_on(bearing.at) || (!bearing.opens && !(may_roll_ && turns_on(bearing.other))))
+            return false;
+        if (first_ == no_index)
+            hinge_ = bearing.at;
+        const bool is_apart = first_ != no_index && (hinge_ - bearing.at).norm() > one_point * whole_.radius;
+        if (is_apart && !(may_roll_ && first_ == contact))
+            return false;
+        rolls_ = rolls_ || is_apart;
+        first_ = first_ == no_index ? contact : first_;
+        sticks_ = sticks_ || tie == Tie::sticks;
+        stuck_ += (tie == Tie::sticks ? 1.0 : -1.0) * bearing.force.norm();
+        moment_ += cross(bearing.at, bearing.force);
+        return true;
+    }
+
+    [[nodiscard]] bool is_passed() const
+    {
+        return first_ != no_index && (rolls_ ? stuck_ > 0.0 : sticks_ || moment_ * whole_.w > 0.0);
+    }
+
+  private:
+    [[nodiscard]] bool turns_on(const Vec2& at) const { return cross(gravity_, at) * whole_.w > 0.0; }
+
+    const Whole& whole_;
+    Vec2 gravity_;
+    bool may_roll_;
+    Index first_ = no_index;  ///< contact
+    Vec2 hinge_ = Vec2::Zero();
+    double moment_ = 0.0;
+    double stuck_ = 0.0;  ///< of the forces, more than slides [N]
+    bool sticks_ = false, rolls_ = false;
+};
 }  // namespace
 
-bool tips(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks, const Contacts& contacts,
-          const BlockContacts& list)
+bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& rule, const Blocks& blocks,
+          const Contacts& contacts, const BlockContacts& list)
 {
-    const double w = blocks.motion[block].w;
-    if (!(std::abs(w) * model.radius[block] > rule.speed))
+    const Whole whole = whole_of(group, model, blocks);
+    if (!(std::abs(whole.w) * whole.radius > rule.speed))
         return false;
-    const auto turns_on = [&](const Vec2& at) { return cross(model.gravity, at) * w > 0.0; };
-    Index first = no_index;
-    Vec2 hinge = Vec2::Zero();
-    double moment = 0.0;
-    double stuck = 0.0;  // of the forces, more than slides [N]
-    bool sticks = false, rolls = false;
-    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
-    {
-        const Index contact = list.entry[e] / 2;
-        if (!do_touch(contact, contacts))
-            continue;
-        for (int end = 0; end < 2; ++end)
+    TippingTest test(whole, model.gravity, !rule.seeks_rest && group.size() == 1);
+    for (const Index block : group)
+        for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
         {
-            const Tie tie = tie_of(contact, end, rule.speed, blocks, contacts);
-            if (tie == Tie::none)
+            const Index contact = list.entry[e] / 2;
+            if (!do_touch(contact, contacts) || std::ranges::binary_search(group, other_block(block, contact, contacts)))
                 continue;
-            const Bearing bearing = bearing_of(block, contact, end, blocks, contacts);
-            if (!turns_on(bearing.at) || (!bearing.opens && !(!rule.seeks_rest && turns_on(bearing.other))))
-                return false;
-            if (first == no_index)
-                hinge = bearing.at;
-            const bool is_apart = first != no_index && (hinge - bearing.at).norm() > one_point * model.radius[block];
-            if (is_apart && !(!rule.seeks_rest && first == contact))
-                return false;
-            rolls = rolls || is_apart;
-            first = first == no_index ? contact : first;
-            sticks = sticks || tie == Tie::sticks;
-            stuck += (tie == Tie::sticks ? 1.0 : -1.0) * bearing.force.norm();
-            moment += cross(bearing.at, bearing.force);
+            for (int end = 0; end < 2; ++end)
+            {
+                const Tie tie = tie_of(contact, end, rule.speed, blocks, contacts);
+                if (tie == Tie::none)
+                    continue;
+                Bearing bearing = bearing_of(block, whole.w, contact, end, blocks, contacts);
+                const Vec2 from_whole = Vec2(blocks.motion[block].x, blocks.motion[block].y) - whole.centroid;
+                bearing.at += from_whole;
+                bearing.other += from_whole;
+                if (!test.take(contact, tie, bearing))
+                    return false;
+            }
         }
-    }
-    return first != no_index && (rolls ? stuck > 0.0 : sticks || moment * w > 0.0);
+    return test.is_passed();
 }
 }  // namespace hdem

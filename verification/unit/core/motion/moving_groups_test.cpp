@@ -51,7 +51,7 @@ TEST_P(MovingGroup, FallsWithGravity)
     for (const double angle : {0.0, 37.0})
     {
         CaseRun run(scenes::turned(two_on_each_other(5.0, GetParam()), angle));
-        const double t = run_for(run, 0.8);
+        const double t = run_for(run, 0.6);
         for (const char* block : {"lower", "upper"})
             EXPECT_NEAR(run.displacement(block).norm(), 0.5 * g * t * t, 2e-3 * g) << block << " turned by " << angle;
     }
@@ -139,6 +139,33 @@ TEST_P(MovingGroup, OfOneThatTipsMovesAsUndamped)
             EXPECT_NEAR(damped.displacement("column").norm(), free.displacement("column").norm(),
                         tip.share * free.displacement("column").norm());
         }
+}
+
+/// A pile of blocks topples over a corner as one block does.
+TEST_P(MovingGroup, OfSeveralThatTipMovesAsUndamped)
+{
+    const auto way = [](DampingPreset preset, int blocks, bool mirrored)
+    {
+        CaseDef scene = scenes::empty_scene();
+        scene.contact.method = GetParam();
+        scene.damping.preset = preset;
+        scene.joints[0].friction_angle_deg = 40.0;
+        scenes::add_fixed_block(scene, "ground", rectangle({-20.0, -3.0}, {20.0, 0.0}));
+        for (int i = 0; i < blocks; ++i)
+            scenes::add_block(scene, fmt::format("b{}", i), rectangle({0.0, 4.0 / blocks * i}, {1.0, 4.0 / blocks * (i + 1)}));
+        scene = scenes::turned(scene, 25.0);
+        scene.gravity = {0.0, -g};
+        CaseRun run(mirrored ? scenes::mirrored(scene) : scene);
+        run_for(run, 0.6);
+        return run.displacement(fmt::format("b{}", blocks - 1)).norm();
+    };
+    for (const int blocks : {2, 4})
+    {
+        const double free = way(DampingPreset::dynamic, blocks, false);
+        EXPECT_GT(free, 0.2);
+        for (const bool mirrored : {false, true})
+            EXPECT_NEAR(way(DampingPreset::automatic, blocks, mirrored), free, 0.15 * free);
+    }
 }
 
 /// A many-sided block rolls down a slope from side to side: what damping took of it would be most of its weight's work.
