@@ -3,12 +3,14 @@
 #include "core/motion/contact_tie.h"
 
 #include <algorithm>
+#include <iterator>
+#include <ranges>
 
 namespace hdem
 {
 namespace
 {
-/// Larger groups of slow blocks are rock, and held.
+/// Larger groups are rock, and held.
 constexpr std::size_t most_dragged = 64;
 
 /// Of all contacts of a block.
@@ -39,7 +41,7 @@ void DraggedBlocks::set(Index block, Mark mark)
     mark_[block] = mark;
 }
 
-/// Adds the slow blocks that stick to this one to its group.
+/// Adds the blocks that stick to this one to its group.
 bool DraggedBlocks::is_held(Index block, const View& view)
 {
     bool held = false;
@@ -49,9 +51,7 @@ bool DraggedBlocks::is_held(Index block, const View& view)
                      if (held || !is_somewhere(Tie::sticks, contact, view))
                          return;
                      const Index other = other_block(block, contact, view.contacts);
-                     if (!is_slow(other, view))
-                         held = !is_unbound(view.blocks.inertia[other]);
-                     else if (mark_[other] == Mark::held)
+                     if (!is_unbound(view.blocks.inertia[other]) || mark_[other] == Mark::held)
                          held = true;
                      else if (mark_[other] == Mark::unknown)
                      {
@@ -103,9 +103,11 @@ void DraggedBlocks::find(const Model& model, const GroupRule& rule, const std::v
                                  search_from(block.block, view);
                          });
     std::ranges::sort(marked_);
-    const auto known = static_cast<std::ptrdiff_t>(moving.size());
+    const auto known = std::ssize(moving);
+    const auto is_known = [&](Index block)
+    { return std::ranges::binary_search(std::views::take(moving, known), block, {}, &MovingBlock::block); };
     for (const Index block : marked_)
-        if (mark_[block] == Mark::dragged)
+        if (mark_[block] == Mark::dragged && !is_known(block))
             moving.push_back({block, FreeMotion::dragged, 1.0F, 0.0F});
     std::ranges::inplace_merge(moving, moving.begin() + known, {}, &MovingBlock::block);
 }

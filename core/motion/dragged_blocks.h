@@ -12,7 +12,7 @@
 
 namespace hdem
 {
-/// Slow blocks that a fast one touches, with all slow blocks that stick to them. They are not damped if all of their other joints slide: local damping would take
+/// Slow blocks that a fast one touches, with all blocks that stick to them. They are not damped if all of their other joints slide: local damping would take
 /// what the fast block gives them. Else they are held, like the rock that fallen blocks slide over. One that was dragged goes on undamped until it stops: blocks that push each
 /// other along touch now and then only.
 class DraggedBlocks
