@@ -12,7 +12,8 @@ namespace hdem
 struct GroupRule
 {
     double speed = std::numeric_limits<double>::infinity();  ///< blocks that are faster, or their rims [m/s]
-    bool seeks_rest = false;  ///< then blocks that roll are damped, and slow blocks that fast ones drag along are not
+    bool seeks_rest =
+        false;  ///< then blocks that roll and piles that tip are damped, and slow blocks that fast ones drag along are not
 };
 
 /// Free to move in all directions, and to turn.

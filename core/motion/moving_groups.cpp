@@ -4,6 +4,7 @@
 #include "core/motion/tipping.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hdem
 {
@@ -142,48 +143,60 @@ void MovingGroups::find_groups(const View& view)
             gather(k, view);
 }
 
-/// Members that stick to each other tip together; else single ones may by themselves.
+/// Adds members that stick to those of the group.
+/// @return whether they may tip together: they are not many, and no face bears them at both of its ends. If not, the group is left unfinished.
+bool MovingGroups::gather_together(const View& view, std::vector<Index>& group)
+{
+    constexpr std::size_t most = 64;
+    for (std::size_t at = 0; at < group.size(); ++at)
+    {
+        if (members_[place_[group[at]]].bolted || group.size() > most)
+            return false;
+        for (Index e = view.list.begin[group[at]]; e < view.list.begin[group[at] + 1]; ++e)
+        {
+            const Index contact = view.list.entry[e] / 2;
+            const Index block = other_block(group[at], contact, view.contacts), other = place_[block];
+            if (other != no_index && are_together(contact, view.rule.speed, view.blocks, view.contacts))
+            {
+                if (members_[other].search == Search::ended)
+                    return false;
+                if (members_[other].search == Search::to_come)
+                    group.push_back(block);
+                members_[other].search = Search::goes_on;
+            }
+            else if (view.contacts.regime[0][contact] != 0 && view.contacts.regime[1][contact] != 0)
+                return false;
+        }
+    }
+    return true;
+}
+
+/// Members that stick to each other tip together; else single ones may by themselves. Not where rest is sought: a pile that has been dropped would lean by its bounces.
 void MovingGroups::find_tipping(const Model& model, const View& view)
 {
-    std::vector<bool> seen(members_.size());
-    std::vector<Index> group;  // blocks
-    const auto tip = [&]
+    const auto turns = [&](Index block) { return std::abs(view.blocks.motion[block].w) * model.radius[block] > view.rule.speed; };
+    const auto test = [&](const std::vector<Index>& group)
     {
         const bool found = tips(group, model, view.rule, view.blocks, view.contacts, view.list);
         for (const Index block : group)
             members_[place_[block]].tips = found;
         return found;
     };
-    for (std::size_t k = 0; k < members_.size(); ++k)
+    std::vector<Index> group;
+    for (Member& member : members_)
     {
-        if (seen[k] || !members_[k].touched)
+        if (member.search != Search::to_come || !member.touched || !turns(member.block))
             continue;
-        group.assign(1, members_[k].block);
-        seen[k] = true;
-        bool bolted = false;
-        for (std::size_t at = 0; at < group.size(); ++at)
-        {
-            bolted = bolted || members_[place_[group[at]]].bolted;
-            for (Index e = view.list.begin[group[at]]; e < view.list.begin[group[at] + 1]; ++e)
-            {
-                const Index contact = view.list.entry[e] / 2;
-                const Index other = place_[other_block(group[at], contact, view.contacts)];
-                if (other == no_index || seen[other] || !are_together(contact, view.rule.speed, view.blocks, view.contacts))
-                    continue;
-                seen[other] = true;
-                group.push_back(members_[other].block);
-            }
-        }
+        member.search = Search::goes_on;
+        group.assign(1, member.block);
+        bool together = !view.rule.seeks_rest && gather_together(view, group) && group.size() > 1;
+        for (const Index block : group)
+            members_[place_[block]].search = Search::ended;
         std::ranges::sort(group);
-        if ((!bolted && tip()) || group.size() == 1)
-            continue;
-        const std::vector<Index> all = group;
-        for (const Index block : all)
-            if (!members_[place_[block]].bolted)
-            {
-                group.assign(1, block);
-                tip();
-            }
+        together = together && test(group);
+        for (std::size_t k = 0; k < group.size() && !together; ++k)
+            if (!members_[place_[group[k]]].bolted && turns(group[k]))
+                test({group[k]});
     }
 }
 

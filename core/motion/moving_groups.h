@@ -7,6 +7,7 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace hdem
@@ -26,8 +27,8 @@ namespace hdem
 /// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
 /// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
-/// A block, or a group, without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor is a block that rolls on over its faces, but where rest is sought: fallen blocks would roll on
-/// for long.
+/// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor are, but where rest is sought, a group that tips so and a block
+/// that rolls on over its faces: fallen blocks would roll on for long, and a pile that was dropped would lean.
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups
@@ -40,6 +41,12 @@ class MovingGroups
               const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
 
   private:
+    enum class Search : std::uint8_t
+    {
+        to_come,
+        goes_on,
+        ended
+    };
     struct Member
     {
         Index block;
@@ -48,7 +55,8 @@ class MovingGroups
         bool touches = false;  ///< anything
         bool bolted = false;
         bool tips = false;
-        Index group = no_index;  ///< of those that are not held
+        Search search = Search::to_come;  ///< for groups that tip
+        Index group = no_index;           ///< of those that are not held
     };
     struct Group
     {
@@ -72,6 +80,7 @@ class MovingGroups
     void flood(const View& view, const Passes& passes);
     void find_groups(const View& view);
     void find_tipping(const Model& model, const View& view);
+    [[nodiscard]] bool gather_together(const View& view, std::vector<Index>& group);
     void gather(Index member, const View& view);
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
