@@ -13,6 +13,9 @@ namespace
 /// Larger groups are rock, and held.
 constexpr std::size_t most_dragged = 64;
 
+/// Of the speed of fast blocks: a dragged block that is slower has stopped. Undamped, its springs would swing on for ever.
+constexpr double share_of_stopped = 0.05;
+
 /// Of all contacts of a block.
 template <typename Take>
 void for_contacts(Index block, const BlockContacts& list, const Take& take)
@@ -94,8 +97,10 @@ void DraggedBlocks::find(const Model& model, const GroupRule& rule, const std::v
                          if (do_touch(contact, contacts) && is_slow(other, view))
                              search_from(other, view);
                      });
+    const GroupRule goes_on{.speed = share_of_stopped * rule.speed};
     for (const MovingBlock& block : before)
-        if (block.how == FreeMotion::dragged && is_slow(block.block, view))
+        if (!fast.empty() && block.how == FreeMotion::dragged && is_slow(block.block, view) &&
+            is_fast(block.block, model, goes_on, blocks))
             for_contacts(block.block, list,
                          [&](Index contact)
                          {
