@@ -171,7 +171,7 @@ bool MovingGroups::gather_together(const View& view, std::vector<Index>& group)
     return true;
 }
 
-/// Members that stick to each other tip together; else single ones may by themselves. Not where rest is sought: a pile that has been dropped would lean by its bounces.
+/// Members that stick to each other tip together; else single ones may by themselves. Not where rest is sought: fallen blocks rock in groups, too.
 void MovingGroups::find_tipping(const Model& model, const View& view)
 {
     const auto turns = [&](Index block) { return std::abs(view.blocks.motion[block].w) * model.radius[block] > view.rule.speed; };

@@ -28,7 +28,7 @@ namespace hdem
 /// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
 /// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor are, but where rest is sought, a group that tips so and a block
-/// that rolls on over its faces: fallen blocks would roll on for long, and a pile that was dropped would lean.
+/// that rolls on over its faces: fallen blocks would roll and rock on for long.
 ///
 /// A group of the first kind is made of all blocks that touch each other; one of the second kind of those whose joints with each other do not slide.
 class MovingGroups
