@@ -74,6 +74,10 @@ void DraggedBlocks::search_from(Index seed, const View& view)
     bool held = false;
     for (std::size_t at = 0; at < group_.size() && !held; ++at)
         held = is_held(group_[at], view) || group_.size() > most_dragged;
+    bool slides = false;  // what only bounces is not pushed along
+    for (const Index block : group_)
+        for_contacts(block, view.list, [&](Index contact) { slides = slides || is_somewhere(Tie::slides, contact, view); });
+    held = held || !slides;
     for (const Index block : group_)
         set(block, held ? Mark::held : Mark::dragged);
 }

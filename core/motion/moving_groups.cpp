@@ -182,7 +182,7 @@ void MovingGroups::find_tipping(const Model& model, const View& view)
             members_[place_[block]].tips = found;
         return found;
     };
-    std::vector<Index> group;
+    std::vector<Index> group, single;
     for (Member& member : members_)
     {
         if (member.search != Search::to_come || !member.touched || !turns(member.block))
@@ -196,7 +196,10 @@ void MovingGroups::find_tipping(const Model& model, const View& view)
         together = together && test(group);
         for (std::size_t k = 0; k < group.size() && !together; ++k)
             if (!members_[place_[group[k]]].bolted && turns(group[k]))
-                test({group[k]});
+            {
+                single.assign(1, group[k]);
+                test(single);
+            }
     }
 }
 

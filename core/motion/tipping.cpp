@@ -51,7 +51,9 @@ struct Whole
 
 Whole whole_of(const std::vector<Index>& group, const Model& model, const Blocks& blocks)
 {
-    const BlockMotion& origin = blocks.motion[group.front()];  // one block by itself: nothing is rounded
+    const BlockMotion& origin = blocks.motion[group.front()];
+    if (group.size() == 1)
+        return {{origin.x, origin.y}, origin.w, model.radius[group.front()]};
     Whole whole;
     double mass = 0.0, momentum = 0.0, inertia = 0.0;
     Vec2 place = Vec2::Zero(), velocity = Vec2::Zero();  // from the origin
