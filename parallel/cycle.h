@@ -3,6 +3,7 @@
 
 #include "core/contact/block_forces.h"
 #include "core/model/model.h"
+#include "core/motion/moving_groups.h"
 #include "core/motion/rest.h"
 #include "core/stage/rules.h"
 #include "core/state/state.h"

@@ -75,7 +75,8 @@ void CycleRunner::find_groups(const Model& model, State& state, const Team& team
             if (!among_all)
                 std::erase_if(fast, [&](Index block)
                               { return !std::ranges::binary_search(state.moving, block, {}, &MovingBlock::block); });
-            groups_.find(model, rules_.groups, fast, bolted, state.blocks, state.contacts, work_.block_contacts, state.moving);
+            const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
+            groups_.find(model, rules_.groups, fast, bolted, ties, state.moving);
         });
 }
 

@@ -17,7 +17,6 @@ constexpr double least_load = 2.0;      // weights: the block may carry another 
 constexpr double widest_corner = 1e-2;  // of the size
 constexpr double steep = 0.36;          // tangent of the angle between two edges: blocks that rock are less inclined
 constexpr double least_fall = 1e-4;     // of the size
-constexpr double flat = -0.98;          // cosine of the angle between two edges that lie on each other
 constexpr double inclined = 0.05;       // tangent of the angle between two edges that do not
 constexpr double passes = 0.1;          // of the approach at one side: the approach at the other side is none
 
@@ -88,8 +87,8 @@ bool lies_flat_beside(const Shapes& shapes, const PartPair& pair, const Facing& 
     const RelativePose& pose = facing.ref_is_a ? pair.b_from_a : pair.a_from_b;
     const Index inc_part = facing.ref_is_a ? pair.b : pair.a;
     const Index other = neighbour_of(shapes, inc_part, facing.inc_edge, facing.is_deep_at_end).edge;
-    return std::ranges::any_of(std::array{facing.inc_edge, other},
-                               [&](Index e) { return shapes.edge_tangent[next].dot(pose.turned(shapes.edge_tangent[e])) < flat; });
+    return std::ranges::any_of(std::array{facing.inc_edge, other}, [&](Index e)
+                               { return shapes.edge_tangent[next].dot(pose.turned(shapes.edge_tangent[e])) < opposed; });
 }
 }  // namespace
 

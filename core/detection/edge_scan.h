@@ -38,6 +38,9 @@ struct RelativePose
 /// Cosine of the angle between two pieces of one side.
 inline constexpr double in_line = 0.999;
 
+/// Cosine of the angle between two edges that lie on each other.
+inline constexpr double opposed = -0.98;
+
 /// Distance of a part from the line of an edge.
 struct Distance
 {

@@ -130,9 +130,8 @@ std::optional<Facing> facing_in_hollow(const Shapes& shapes, const PartPair& pai
 /// Does an edge of one part lie flat on an edge of the other, or has one of them none?
 bool are_opposed(const Shapes& shapes, const PartPair& pair, Index edge_a, Index edge_b)
 {
-    constexpr double flat = -0.98;  // cosine of the angle between them
     return edge_a == no_index || edge_b == no_index ||
-           shapes.edge_tangent[edge_a].dot(pair.b_from_a.turned(shapes.edge_tangent[edge_b])) < flat;
+           shapes.edge_tangent[edge_a].dot(pair.b_from_a.turned(shapes.edge_tangent[edge_b])) < opposed;
 }
 
 /// The two edges of `facing` do not lie over each other: of the edges whose distance is `best`, the one that does. Edges of an almost straight side

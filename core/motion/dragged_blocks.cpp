@@ -1,40 +1,32 @@
 #include "core/motion/dragged_blocks.h"
 
-#include "core/motion/contact_tie.h"
-
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 
 namespace hdem
 {
 namespace
 {
-/// Larger groups are rock, and held.
-constexpr std::size_t most_dragged = 64;
-
 /// Of the speed of fast blocks: a dragged block that is slower has stopped. Undamped, its springs would swing on for ever.
 constexpr double share_of_stopped = 0.05;
 
-/// Of all contacts of a block.
-template <typename Take>
-void for_contacts(Index block, const BlockContacts& list, const Take& take)
+bool is_slow(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks)
 {
-    for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
-        take(list.entry[e] / 2);
+    return blocks.present[block] != 0 && is_unbound(blocks.inertia[block]) && !is_fast(block, model, rule, blocks);
+}
+
+bool does_slide(Index block, const ContactTies& ties)
+{
+    return ties.any_contact(block, [&](Index contact, Index) { return ties.is_somewhere(Tie::slides, contact); });
 }
 }  // namespace
 
-bool DraggedBlocks::is_slow(Index block, const View& view)
+void DraggedBlocks::clear(Index blocks)
 {
-    return view.blocks.present[block] != 0 && is_unbound(view.blocks.inertia[block]) &&
-           !is_fast(block, view.model, view.rule, view.blocks);
-}
-
-bool DraggedBlocks::is_somewhere(Tie tie, Index contact, const View& view)
-{
-    return tie_of(contact, 0, view.rule.speed, view.blocks, view.contacts) == tie ||
-           tie_of(contact, 1, view.rule.speed, view.blocks, view.contacts) == tie;
+    for (const Index block : marked_)
+        mark_[block] = Mark::unknown;
+    marked_.clear();
+    mark_.resize(static_cast<std::size_t>(blocks), Mark::unknown);
 }
 
 void DraggedBlocks::set(Index block, Mark mark)
@@ -45,27 +37,25 @@ void DraggedBlocks::set(Index block, Mark mark)
 }
 
 /// Adds the blocks that stick to this one to its group.
-bool DraggedBlocks::is_held(Index block, const View& view)
+bool DraggedBlocks::is_held(Index block, const ContactTies& ties)
 {
-    bool held = false;
-    for_contacts(block, view.list,
-                 [&](Index contact)
-                 {
-                     if (held || !is_somewhere(Tie::sticks, contact, view))
-                         return;
-                     const Index other = other_block(block, contact, view.contacts);
-                     if (!is_unbound(view.blocks.inertia[other]) || mark_[other] == Mark::held)
-                         held = true;
-                     else if (mark_[other] == Mark::unknown)
-                     {
-                         set(other, Mark::searched);
-                         group_.push_back(other);
-                     }
-                 });
-    return held;
+    return ties.any_contact(block,
+                            [&](Index contact, Index other)
+                            {
+                                if (!ties.is_somewhere(Tie::sticks, contact))
+                                    return false;
+                                if (!is_unbound(ties.blocks.inertia[other]) || mark_[other] == Mark::held)
+                                    return true;
+                                if (mark_[other] == Mark::unknown)
+                                {
+                                    set(other, Mark::searched);
+                                    group_.push_back(other);
+                                }
+                                return false;
+                            });
 }
 
-void DraggedBlocks::search_from(Index seed, const View& view)
+void DraggedBlocks::search_from(Index seed, const ContactTies& ties)
 {
     if (mark_[seed] != Mark::unknown)
         return;
@@ -73,48 +63,37 @@ void DraggedBlocks::search_from(Index seed, const View& view)
     group_.assign(1, seed);
     bool held = false;
     for (std::size_t at = 0; at < group_.size() && !held; ++at)
-        held = is_held(group_[at], view) || group_.size() > most_dragged;
-    bool slides = false;  // what only bounces is not pushed along
-    for (const Index block : group_)
-        for_contacts(block, view.list, [&](Index contact) { slides = slides || is_somewhere(Tie::slides, contact, view); });
-    held = held || !slides;
+        held = is_held(group_[at], ties) || group_.size() > most_blocks_of_body;
+    // What only bounces is not pushed along.
+    held = held || std::ranges::none_of(group_, [&](Index block) { return does_slide(block, ties); });
     for (const Index block : group_)
         set(block, held ? Mark::held : Mark::dragged);
 }
 
 void DraggedBlocks::find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast,
-                         const std::vector<Index>& bolted, const std::vector<MovingBlock>& before, const Blocks& blocks,
-                         const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
+                         const std::vector<Index>& bolted, const std::vector<MovingBlock>& before, const ContactTies& ties,
+                         std::vector<MovingBlock>& moving)
 {
-    const View view{model, rule, blocks, contacts, list};
-    for (const Index block : marked_)
-        mark_[block] = Mark::unknown;
-    marked_.clear();
-    mark_.resize(static_cast<std::size_t>(blocks.size()), Mark::unknown);
+    const Blocks& blocks = ties.blocks;
+    clear(blocks.size());
     for (const Index block : bolted)
         set(block, Mark::held);
     for (const Index block : fast)
-        for_contacts(block, list,
-                     [&](Index contact)
-                     {
-                         const Index other = other_block(block, contact, contacts);
-                         if (do_touch(contact, contacts) && is_slow(other, view))
-                             search_from(other, view);
-                     });
+        ties.for_contacts(block,
+                          [&](Index contact, Index other)
+                          {
+                              if (ties.do_touch(contact) && is_slow(other, model, rule, blocks))
+                                  search_from(other, ties);
+                          });
     const GroupRule goes_on{.speed = share_of_stopped * rule.speed};
-    for (const MovingBlock& block : before)
-        if (!fast.empty() && block.how == FreeMotion::dragged && is_slow(block.block, view) &&
-            is_fast(block.block, model, goes_on, blocks))
-            for_contacts(block.block, list,
-                         [&](Index contact)
-                         {
-                             if (is_somewhere(Tie::slides, contact, view))
-                                 search_from(block.block, view);
-                         });
+    for (const auto& [block, how, t_x, t_y] : before)
+        if (!fast.empty() && how == FreeMotion::dragged && is_slow(block, model, rule, blocks) &&
+            is_fast(block, model, goes_on, blocks) && does_slide(block, ties))
+            search_from(block, ties);
     std::ranges::sort(marked_);
     const auto known = std::ssize(moving);
     const auto is_known = [&](Index block)
-    { return std::ranges::binary_search(std::views::take(moving, known), block, {}, &MovingBlock::block); };
+    { return std::ranges::binary_search(moving.begin(), moving.begin() + known, block, {}, &MovingBlock::block); };
     for (const Index block : marked_)
         if (mark_[block] == Mark::dragged && !is_known(block))
             moving.push_back({block, FreeMotion::dragged, 1.0F, 0.0F});

@@ -3,9 +3,7 @@
 
 #include "core/motion/contact_tie.h"
 #include "core/motion/fast_blocks.h"
-#include "core/state/contacts.h"
 #include "core/state/state.h"
-#include "core/state/workspace.h"
 
 #include <cstdint>
 #include <vector>
@@ -23,18 +21,9 @@ class DraggedBlocks
     /// @param before  of the cycle before
     /// @param moving  what is found is added, in the order of blocks
     void find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
-              const std::vector<MovingBlock>& before, const Blocks& blocks, const Contacts& contacts, const BlockContacts& list,
-              std::vector<MovingBlock>& moving);
+              const std::vector<MovingBlock>& before, const ContactTies& ties, std::vector<MovingBlock>& moving);
 
   private:
-    struct View
-    {
-        const Model& model;
-        const GroupRule& rule;
-        const Blocks& blocks;
-        const Contacts& contacts;
-        const BlockContacts& list;
-    };
     enum class Mark : std::uint8_t
     {
         unknown,
@@ -43,11 +32,10 @@ class DraggedBlocks
         dragged
     };
 
-    [[nodiscard]] static bool is_slow(Index block, const View& view);
-    [[nodiscard]] static bool is_somewhere(Tie tie, Index contact, const View& view);
+    void clear(Index blocks);
     /// Nothing, if it is known.
-    void search_from(Index seed, const View& view);
-    [[nodiscard]] bool is_held(Index block, const View& view);
+    void search_from(Index seed, const ContactTies& ties);
+    [[nodiscard]] bool is_held(Index block, const ContactTies& ties);
     void set(Index block, Mark mark);
 
     std::vector<Mark> mark_;     ///< of each block; unknown between two calls

@@ -28,45 +28,39 @@ void MovingGroups::take_members(const std::vector<Index>& fast, Index blocks)
 }
 
 /// What members touch that is not fast: from the side of which there are fewer.
-void MovingGroups::look_outside(const View& view)
+void MovingGroups::look_outside(const ContactTies& ties)
 {
     const auto all = static_cast<Index>(place_.size()), inside = static_cast<Index>(members_.size());
-    const auto look = [&](Index block, auto&& take)
-    {
-        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
-            take(view.list.entry[e] / 2, place_[other_block(block, view.list.entry[e] / 2, view.contacts)]);
-    };
     if (2 * inside < all)
         for (Member& member : members_)
-            look(member.block,
-                 [&](Index contact, Index other)
-                 {
-                     if (other == no_index)
-                         take_outside(member, contact, view);
-                 });
+            ties.for_contacts(member.block,
+                              [&](Index contact, Index other)
+                              {
+                                  if (place_[other] == no_index)
+                                      take_outside(member, contact, ties);
+                              });
     else
         for (Index block = 0; block < all; ++block)
             if (place_[block] == no_index)
-                look(block,
-                     [&](Index contact, Index other)
-                     {
-                         if (other != no_index)
-                             take_outside(members_[other], contact, view);
-                     });
+                ties.for_contacts(block,
+                                  [&](Index contact, Index other)
+                                  {
+                                      if (place_[other] != no_index)
+                                          take_outside(members_[place_[other]], contact, ties);
+                                  });
 }
 
-void MovingGroups::take_outside(Member& member, Index contact, const View& view)
+void MovingGroups::take_outside(Member& member, Index contact, const ContactTies& ties)
 {
-    if (member.held || !do_touch(contact, view.contacts))
+    if (member.held || !ties.do_touch(contact))
         return;
     member.touched = true;
-    for (int end = 0; end < 2; ++end)
-        member.held = member.held || tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) == Tie::sticks;
+    member.held = ties.is_somewhere(Tie::sticks, contact);
 }
 
 /// From those that are reached on to all that contacts lead to which let pass.
 template <bool MovingGroups::Member::*reached, typename Passes>
-void MovingGroups::flood(const View& view, const Passes& passes)
+void MovingGroups::flood(const ContactTies& ties, const Passes& passes)
 {
     queue_.clear();
     for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
@@ -76,20 +70,43 @@ void MovingGroups::flood(const View& view, const Passes& passes)
     {
         const Index block = members_[queue_.back()].block;
         queue_.pop_back();
-        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
+        ties.for_contacts(block,
+                          [&](Index contact, Index next)
+                          {
+                              const Index other = place_[next];
+                              if (other == no_index || members_[other].*reached || !passes(contact))
+                                  return;
+                              members_[other].*reached = true;
+                              queue_.push_back(other);
+                          });
+    }
+}
+
+/// A joint of the group that slides, to another member or to the outside.
+void MovingGroups::take_joint(Index contact, bool outside, Group& group, const ContactTies& ties)
+{
+    const Contacts& contacts = ties.contacts;
+    for (int end = 0; end < 2; ++end)
+    {
+        if (ties.at(contact, end) != Tie::slides)
+            continue;
+        if (!outside)
         {
-            const Index contact = view.list.entry[e] / 2;
-            const Index other = place_[other_block(block, contact, view.contacts)];
-            if (other == no_index || members_[other].*reached || !passes(contact))
-                continue;
-            members_[other].*reached = true;
-            queue_.push_back(other);
+            group.rides = group.rides || !ties.are_together(contact);
+            continue;
+        }
+        const double normal = contacts.normal_force(end, contact), shear = contacts.shear_force(end, contact);
+        const double load = normal * normal + shear * shear;
+        if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
+        {
+            group.load = load;
+            group.contact = contact;
         }
     }
 }
 
 /// All that moves together with a member that is not held, and the joint on which they slide.
-void MovingGroups::gather(Index member, const View& view)
+void MovingGroups::gather(Index member, const ContactTies& ties)
 {
     const auto number = static_cast<Index>(groups_.size());
     Group group;
@@ -98,86 +115,62 @@ void MovingGroups::gather(Index member, const View& view)
     while (!queue_.empty())
     {
         Member& now = members_[queue_.back()];
-        const Index block = now.block;
         queue_.pop_back();
-        for (Index e = view.list.begin[block]; e < view.list.begin[block + 1]; ++e)
-        {
-            const Index contact = view.list.entry[e] / 2;
-            if (!do_touch(contact, view.contacts))
-                continue;
-            now.touches = true;
-            const Index other = place_[other_block(block, contact, view.contacts)];
-            for (int end = 0; end < 2; ++end)
-            {
-                if (tie_of(contact, end, view.rule.speed, view.blocks, view.contacts) != Tie::slides)
-                    continue;
-                if (other != no_index)
-                {
-                    group.rides = group.rides || !are_together(contact, view.rule.speed, view.blocks, view.contacts);
-                    continue;
-                }
-                const double normal = view.contacts.normal_force(end, contact), shear = view.contacts.shear_force(end, contact);
-                const double load = normal * normal + shear * shear;
-                if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
-                {
-                    group.load = load;
-                    group.contact = contact;
-                }
-            }
-            if (other == no_index || members_[other].group != no_index ||
-                !are_together(contact, view.rule.speed, view.blocks, view.contacts))
-                continue;
-            members_[other].group = number;
-            group.is_alone = false;
-            queue_.push_back(other);
-        }
+        ties.for_contacts(now.block,
+                          [&](Index contact, Index next)
+                          {
+                              if (!ties.do_touch(contact))
+                                  return;
+                              now.touches = true;
+                              const Index other = place_[next];
+                              take_joint(contact, other == no_index, group, ties);
+                              if (other == no_index || members_[other].group != no_index || !ties.are_together(contact))
+                                  return;
+                              members_[other].group = number;
+                              group.is_alone = false;
+                              queue_.push_back(other);
+                          });
     }
     groups_.push_back(group);
 }
 
-void MovingGroups::find_groups(const View& view)
+void MovingGroups::find_groups(const ContactTies& ties)
 {
     groups_.clear();
     for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
         if (!members_[k].held && members_[k].group == no_index)
-            gather(k, view);
+            gather(k, ties);
 }
 
 /// Adds members that stick to those of the group.
 /// @return whether they may tip together: they are not many, and no face bears them at both of its ends. If not, the group is left unfinished.
-bool MovingGroups::gather_together(const View& view, std::vector<Index>& group)
+bool MovingGroups::gather_together(const ContactTies& ties, std::vector<Index>& group)
 {
-    constexpr std::size_t most = 64;
-    for (std::size_t at = 0; at < group.size(); ++at)
+    const auto bars = [&](Index contact, Index block)
     {
-        if (members_[place_[group[at]]].bolted || group.size() > most)
+        const Index other = place_[block];
+        if (other == no_index || !ties.are_together(contact))
+            return ties.contacts.regime[0][contact] != 0 && ties.contacts.regime[1][contact] != 0;
+        if (members_[other].search == Search::ended)
+            return true;
+        if (members_[other].search == Search::to_come)
+            group.push_back(block);
+        members_[other].search = Search::goes_on;
+        return false;
+    };
+    for (std::size_t at = 0; at < group.size(); ++at)
+        if (members_[place_[group[at]]].bolted || group.size() > most_blocks_of_body || ties.any_contact(group[at], bars))
             return false;
-        for (Index e = view.list.begin[group[at]]; e < view.list.begin[group[at] + 1]; ++e)
-        {
-            const Index contact = view.list.entry[e] / 2;
-            const Index block = other_block(group[at], contact, view.contacts), other = place_[block];
-            if (other != no_index && are_together(contact, view.rule.speed, view.blocks, view.contacts))
-            {
-                if (members_[other].search == Search::ended)
-                    return false;
-                if (members_[other].search == Search::to_come)
-                    group.push_back(block);
-                members_[other].search = Search::goes_on;
-            }
-            else if (view.contacts.regime[0][contact] != 0 && view.contacts.regime[1][contact] != 0)
-                return false;
-        }
-    }
     return true;
 }
 
 /// Members that stick to each other tip together; else single ones may by themselves. Not where rest is sought: fallen blocks rock in groups, too.
-void MovingGroups::find_tipping(const Model& model, const View& view)
+void MovingGroups::find_tipping(const Model& model, const GroupRule& rule, const ContactTies& ties)
 {
-    const auto turns = [&](Index block) { return std::abs(view.blocks.motion[block].w) * model.radius[block] > view.rule.speed; };
+    const auto turns = [&](Index block) { return std::abs(ties.blocks.motion[block].w) * model.radius[block] > rule.speed; };
     const auto test = [&](const std::vector<Index>& group)
     {
-        const bool found = tips(group, model, view.rule, view.blocks, view.contacts, view.list);
+        const bool found = tips(group, model, rule, ties);
         for (const Index block : group)
             members_[place_[block]].tips = found;
         return found;
@@ -189,7 +182,7 @@ void MovingGroups::find_tipping(const Model& model, const View& view)
             continue;
         member.search = Search::goes_on;
         group.assign(1, member.block);
-        bool together = !view.rule.seeks_rest && gather_together(view, group) && group.size() > 1;
+        bool together = !rule.seeks_rest && gather_together(ties, group) && group.size() > 1;
         for (const Index block : group)
             members_[place_[block]].search = Search::ended;
         std::ranges::sort(group);
@@ -203,45 +196,49 @@ void MovingGroups::find_tipping(const Model& model, const View& view)
     }
 }
 
-void MovingGroups::find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
-                        const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving)
+/// @pre  it tips, or touches something and is not held
+MovingBlock MovingGroups::motion_of(const Member& member, const ContactTies& ties) const
 {
-    const View view{rule, blocks, contacts, list};
-    take_members(fast, blocks.size());
-    look_outside(view);
+    if (member.tips)
+        return {member.block, FreeMotion::tips, 1.0F, 0.0F};
+    const Index contact = groups_[member.group].contact;
+    const bool slides = contact != no_index;
+    const EdgeTouch touch = slides ? ties.touch(contact) : EdgeTouch();
+    const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
+    return {member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)};
+}
+
+void MovingGroups::find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
+                        const ContactTies& ties, std::vector<MovingBlock>& moving)
+{
+    take_members(fast, ties.blocks.size());
+    look_outside(ties);
     for (const Index block : bolted)
         if (place_[block] != no_index)
         {
             Member& member = members_[place_[block]];
             member.bolted = member.touched = member.held = true;
         }
-    flood<&Member::held>(view, [&](Index contact) { return are_together(contact, rule.speed, blocks, contacts); });
+    flood<&Member::held>(ties, [&](Index contact) { return ties.are_together(contact); });
     for (Member& member : members_)
         member.touched = member.touched || member.held;
-    flood<&Member::touched>(view, [&](Index contact) { return do_touch(contact, contacts); });
-    find_groups(view);
-    find_tipping(model, view);
+    flood<&Member::touched>(ties, [&](Index contact) { return ties.do_touch(contact); });
+    find_groups(ties);
+    find_tipping(model, rule, ties);
     before_.swap(moving);
     moving.clear();
-    for (const Member& member : members_)
+    const auto is_free = [&](const Member& member)
     {
-        if (member.tips)
-        {
-            moving.push_back({member.block, FreeMotion::tips, 1.0F, 0.0F});
-            continue;
-        }
         if (member.held || !member.touches)
-            continue;  // (what touches nothing is not damped in any case)
+            return false;  // (what touches nothing is not damped in any case)
         const Group& group = groups_[member.group];
-        const bool slides = group.contact != no_index;
-        if (member.touched && !group.rides && (group.is_alone || !slides))
-            continue;
-        const EdgeTouch touch = slides ? touch_of(group.contact, blocks, contacts) : EdgeTouch();
-        const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
-        moving.push_back({member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)});
-    }
+        return !member.touched || group.rides || (!group.is_alone && group.contact != no_index);
+    };
+    for (const Member& member : members_)
+        if (member.tips || is_free(member))
+            moving.push_back(motion_of(member, ties));
     if (rule.seeks_rest)  // elsewhere slow slips are not damped in any case
-        dragged_.find(model, rule, fast, bolted, before_, blocks, contacts, list, moving);
+        dragged_.find(model, rule, fast, bolted, before_, ties, moving);
 }
 
 void mark_moving(IndexRange range, const std::vector<MovingBlock>& moving, Blocks& blocks)

@@ -1,11 +1,10 @@
 #pragma once
 /// Groups of blocks that move together. What holds a group from outside decides how local damping acts on it.
 
+#include "core/motion/contact_tie.h"
 #include "core/motion/dragged_blocks.h"
 #include "core/motion/fast_blocks.h"
-#include "core/state/contacts.h"
 #include "core/state/state.h"
-#include "core/state/workspace.h"
 
 #include <cstdint>
 #include <vector>
@@ -38,7 +37,7 @@ class MovingGroups
     /// @param bolted  blocks with other forces between them than those of contacts: a group with one of them is left as it is
     /// @param moving  members of groups of the first two kinds, and blocks that tip, ride or are dragged; before the call those of the cycle before
     void find(const Model& model, const GroupRule& rule, const std::vector<Index>& fast, const std::vector<Index>& bolted,
-              const Blocks& blocks, const Contacts& contacts, const BlockContacts& list, std::vector<MovingBlock>& moving);
+              const ContactTies& ties, std::vector<MovingBlock>& moving);
 
   private:
     enum class Search : std::uint8_t
@@ -65,23 +64,17 @@ class MovingGroups
         bool rides = false;    ///< slides on a fast block
         bool is_alone = true;  ///< it has one member
     };
-    struct View
-    {
-        const GroupRule& rule;
-        const Blocks& blocks;
-        const Contacts& contacts;
-        const BlockContacts& list;
-    };
-
     void take_members(const std::vector<Index>& fast, Index blocks);
-    void look_outside(const View& view);
-    void take_outside(Member& member, Index contact, const View& view);
+    void look_outside(const ContactTies& ties);
+    void take_outside(Member& member, Index contact, const ContactTies& ties);
     template <bool Member::*reached, typename Passes>
-    void flood(const View& view, const Passes& passes);
-    void find_groups(const View& view);
-    void find_tipping(const Model& model, const View& view);
-    [[nodiscard]] bool gather_together(const View& view, std::vector<Index>& group);
-    void gather(Index member, const View& view);
+    void flood(const ContactTies& ties, const Passes& passes);
+    void find_groups(const ContactTies& ties);
+    void find_tipping(const Model& model, const GroupRule& rule, const ContactTies& ties);
+    [[nodiscard]] bool gather_together(const ContactTies& ties, std::vector<Index>& group);
+    void gather(Index member, const ContactTies& ties);
+    static void take_joint(Index contact, bool outside, Group& group, const ContactTies& ties);
+    [[nodiscard]] MovingBlock motion_of(const Member& member, const ContactTies& ties) const;
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;

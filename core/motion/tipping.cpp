@@ -1,7 +1,5 @@
 #include "core/motion/tipping.h"
 
-#include "core/motion/contact_tie.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,16 +20,17 @@ struct Bearing
 };
 
 /// @param w  of the block, or of its group [rad/s]
-Bearing bearing_of(Index block, double w, Index contact, int end, const Blocks& blocks, const Contacts& contacts)
+Bearing bearing_of(Index block, double w, Index contact, int end, const ContactTies& ties)
 {
-    const EdgeTouch touch = touch_of(contact, blocks, contacts);
+    const Contacts& contacts = ties.contacts;
+    const EdgeTouch touch = ties.touch(contact);
     const bool is_ref = contacts.ref[contact] == block;
     const auto place = [&](const TouchPoint& p) -> Vec2
     {
         const double t = is_ref ? p.ref_t : p.inc_t, m = is_ref ? p.ref_m : p.inc_m;
         return {touch.ex * t - touch.ey * m, touch.ey * t + touch.ex * m};
     };
-    const double turn = blocks.motion[other_block(block, contact, contacts)].w - w;
+    const double turn = ties.blocks.motion[ties.other_block(block, contact)].w - w;
     const double shear = contacts.shear_force(end, contact) + contacts.tilt_force(end, contact),
                  normal = contacts.normal_force(end, contact);
     const Vec2 on_inc(shear * touch.ex + normal * touch.ey, shear * touch.ey - normal * touch.ex);
@@ -118,32 +117,31 @@ class TippingTest
 };
 }  // namespace
 
-bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& rule, const Blocks& blocks,
-          const Contacts& contacts, const BlockContacts& list)
+bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& rule, const ContactTies& ties)
 {
-    const Whole whole = whole_of(group, model, blocks);
+    const Whole whole = whole_of(group, model, ties.blocks);
     if (!(std::abs(whole.w) * whole.radius > rule.speed))
         return false;
     TippingTest test(whole, model.gravity, !rule.seeks_rest && group.size() == 1);
+    const auto fails = [&](Index block, Index contact, int end)
+    {
+        const Tie tie = ties.at(contact, end);
+        if (tie == Tie::none)
+            return false;
+        Bearing bearing = bearing_of(block, whole.w, contact, end, ties);
+        const Vec2 from_whole = Vec2(ties.blocks.motion[block].x, ties.blocks.motion[block].y) - whole.centroid;
+        bearing.at += from_whole;
+        bearing.other += from_whole;
+        return !test.take(contact, tie, bearing);
+    };
     for (const Index block : group)
-        for (Index e = list.begin[block]; e < list.begin[block + 1]; ++e)
-        {
-            const Index contact = list.entry[e] / 2;
-            if (!do_touch(contact, contacts) || std::ranges::binary_search(group, other_block(block, contact, contacts)))
-                continue;
-            for (int end = 0; end < 2; ++end)
-            {
-                const Tie tie = tie_of(contact, end, rule.speed, blocks, contacts);
-                if (tie == Tie::none)
-                    continue;
-                Bearing bearing = bearing_of(block, whole.w, contact, end, blocks, contacts);
-                const Vec2 from_whole = Vec2(blocks.motion[block].x, blocks.motion[block].y) - whole.centroid;
-                bearing.at += from_whole;
-                bearing.other += from_whole;
-                if (!test.take(contact, tie, bearing))
-                    return false;
-            }
-        }
+        if (ties.any_contact(block,
+                             [&](Index contact, Index other)
+                             {
+                                 return ties.do_touch(contact) && !std::ranges::binary_search(group, other) &&
+                                        (fails(block, contact, 0) || fails(block, contact, 1));
+                             }))
+            return false;
     return test.is_passed();
 }
 }  // namespace hdem

@@ -2,10 +2,8 @@
 /// Blocks that tip over or roll.
 
 #include "core/model/model.h"
+#include "core/motion/contact_tie.h"
 #include "core/motion/fast_blocks.h"
-#include "core/state/blocks.h"
-#include "core/state/contacts.h"
-#include "core/state/workspace.h"
 
 #include <vector>
 
@@ -19,6 +17,5 @@ namespace hdem
 /// face is damped: a block that rocks or hops comes to rest. So is what slides there while the force of the joint turns it back: it would tip if it stuck.
 /// @param group  ascending: blocks that stick to each other
 /// @param rule  a rim is faster; does a block that rolls count?
-[[nodiscard]] bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& rule, const Blocks& blocks,
-                        const Contacts& contacts, const BlockContacts& list);
+[[nodiscard]] bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& rule, const ContactTies& ties);
 }  // namespace hdem

@@ -9,7 +9,7 @@
 #include "core/model/case_def.h"
 #include "core/model/model.h"
 #include "core/motion/damping.h"
-#include "core/motion/moving_groups.h"
+#include "core/motion/fast_blocks.h"
 #include "core/motion/rest.h"
 #include "core/motion/step_control.h"
 #include "core/state/state.h"
