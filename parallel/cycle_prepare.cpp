@@ -7,7 +7,7 @@
 #include "core/motion/loads.h"
 #include "core/motion/rest.h"
 #include "core/motion/step_check.h"
-#include "core/support/bolt_forces.h"
+#include "core/support/installed_support.h"
 #include "parallel/cycle.h"
 #include "parallel/team.h"
 

@@ -12,6 +12,7 @@
 #include "core/stage/rules.h"
 #include "core/stress/drawn_joints.h"
 #include "core/support/bolt_forces.h"
+#include "core/support/installed_support.h"
 #include "core/support/liner_forces.h"
 #include "core/water/water_forces.h"
 #include "parallel/simulation.h"

@@ -2,10 +2,10 @@
 
 #include "core/model/edge_sources.h"
 #include "core/rock/block_cutter.h"
-#include "core/rock/block_outline.h"
 #include "core/rock/excavation.h"
 #include "core/rock/explicit_blocks.h"
 #include "core/rock/finite_traces.h"
+#include "core/rock/generated_blocks.h"
 #include "core/rock/joint_sets.h"
 #include "core/rock/line_stretches.h"
 #include "core/rock/problem_text.h"
@@ -14,44 +14,18 @@
 #include "core/rock/rock_warnings.h"
 #include "core/rock/side_walls.h"
 #include "core/rock/slivers.h"
-#include "core/rock/split_sides.h"
 #include "core/rock/start_mass.h"
 #include "core/rock/weld.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <set>
-#include <tuple>
-#include <unordered_set>
 #include <utility>
 
 namespace hdem
 {
 namespace
 {
-/// The domain, anticlockwise, and which of its edges hold blocks fast.
-struct Domain
-{
-    Polygon polygon;
-    std::set<Index> fixed_edges;
-    std::vector<std::set<Index>> boundary_edges;  ///< per [[boundary]]
-};
-
-Domain make_domain(const CaseDef& def)
-{
-    Domain domain{domain_polygon(def.domain), {}, {}};
-    const bool reversed = make_anticlockwise(domain.polygon);
-    domain.fixed_edges = edges_of(domain.polygon, reversed, def.domain.fixed, def.domain.fixed_edges);
-    for (const BoundaryDef& boundary : def.boundaries)
-    {
-        const std::vector<std::string> sides(boundary.side.empty() ? 0 : 1, boundary.side);
-        domain.boundary_edges.push_back(edges_of(domain.polygon, reversed, sides, boundary.edges));
-    }
-    return domain;
-}
-
 /// What was drawn of a through-going set.
 DrawnSet noted(const JointSetDef& set, const JointTraces& joints, const Polygon& domain, double tolerance)
 {
@@ -161,106 +135,6 @@ void cut_excavations(const CaseDef& def, CutMass& mass, RockMass& rock)
     merge_slivers(mass, def.generator.smallest_block_area, EdgeSources(def).set(0), rock);
     weld_vertices(mass, outlines);
 }
-
-RockBlock finished(CutBlock& from, const Domain& domain)
-{
-    RockBlock block;
-    block.excavation = from.excavation;
-    bool is_fixed = false;
-    for (CutPolygon& part : from.parts)
-    {
-        ConvexPart out{std::move(part.vertices), {}};
-        out.vertices.shrink_to_fit();
-        out.source.reserve(part.edges.size());
-        for (std::size_t i = 0; i < part.edges.size(); ++i)
-        {
-            const EdgeTag& edge = part.edges[i];
-            out.source.push_back(edge.source);
-            for (std::size_t side = 0; edge.source == edge_plain && side < domain.boundary_edges.size(); ++side)
-            {
-                if (domain.boundary_edges[side].count(edge.chord) > 0)
-                {
-                    block.sides.push_back({static_cast<Index>(side), out.vertices[i], out.vertices[next(i, out.vertices.size())]});
-                }
-            }
-            is_fixed = is_fixed || (edge.source == edge_plain && domain.fixed_edges.count(edge.chord) > 0);
-        }
-        block.parts.push_back(std::move(out));
-    }
-    block.fix_x = block.fix_y = block.fix_rotation = is_fixed;
-    return block;
-}
-
-/// Blocks in order of their excavation (none first), then from the bottom up by their centroids, then from the left; names count them.
-void add_generated(const CaseDef& def, const Domain& domain, const Regions& regions, CutMass& mass, RockMass& rock)
-{
-    struct Place
-    {
-        Index excavation;
-        Vec2 centroid;
-        std::size_t block;
-    };
-    std::vector<RockBlock> blocks;
-    std::vector<Place> places;
-    blocks.reserve(mass.blocks.size());
-    places.reserve(mass.blocks.size());
-    for (CutBlock& from : mass.blocks)
-    {
-        const std::string& material = regions.material(from);
-        make_sides_whole(from.parts, mass.tolerance);
-        split_sides(from.parts, mass.tolerance);
-        blocks.push_back(finished(from, domain));
-        blocks.back().material = material;
-        places.push_back({from.excavation, moments(blocks.back()).centroid, blocks.size() - 1});
-        from = {};  // a million of them need not wait
-    }
-    std::sort(places.begin(), places.end(),
-              [](const Place& a, const Place& b)
-              {
-                  return std::tie(a.excavation, a.centroid.y(), a.centroid.x(), a.block) <
-                         std::tie(b.excavation, b.centroid.y(), b.centroid.x(), b.block);
-              });
-    rock.blocks.reserve(mass.blocks.size() + def.blocks.size());
-    std::vector<std::size_t> inside(def.excavations.size(), 0);
-    for (const Place& place : places)
-    {
-        RockBlock& block = blocks[place.block];
-        if (block.excavation == no_index)
-        {
-            block.name = "b" + std::to_string(rock.blocks.size() + 1);
-        }
-        else
-        {
-            const auto number = static_cast<std::size_t>(block.excavation);
-            const ExcavationDef& excavation = def.excavations[number];
-            block.name = excavation.inside == InsideOutline::one_block ? excavation.name
-                                                                       : excavation.name + "." + std::to_string(++inside[number]);
-        }
-        rock.blocks.push_back(std::move(block));
-    }
-}
-
-/// A block that is the whole inside of an excavation is called as the user wants: others may have that name already.
-void check_names(const CaseDef& def, const RockMass& rock)
-{
-    const auto is_whole = [](const ExcavationDef& excavation) { return excavation.inside == InsideOutline::one_block; };
-    if (std::ranges::none_of(def.excavations, is_whole))
-    {
-        return;
-    }
-    std::unordered_set<std::string> names;
-    for (const RockBlock& block : rock.blocks)
-    {
-        if (!names.insert(block.name).second)
-        {
-            const auto excavation = std::ranges::find(def.excavations, block.name, &ExcavationDef::name);
-            throw InputError(Problem{.key = "excavation[" + std::to_string(excavation - def.excavations.begin()) + "].name",
-                                     .text = "excavation: name = \"" + block.name +
-                                             "\" (a block cut from the domain is called so, too). Choose another."});
-        }
-    }
-}
-
 }  // namespace
 
 AreaMoments moments(const RockBlock& block)
@@ -292,10 +166,10 @@ RockMass generate_rock_mass(const CaseDef& def)
         throw InputError(std::move(problems));
     }
     RockMass rock;
-    Domain domain;
+    DomainOutline domain;
     if (def.domain.given)
     {
-        domain = make_domain(def);
+        domain = outline_of_domain(def);
         rock.domain_area = signed_area(domain.polygon);
         CutMass mass = start_mass(def, domain.polygon, rock);
         const Regions regions(def, domain.polygon);
@@ -315,9 +189,9 @@ RockMass generate_rock_mass(const CaseDef& def)
             rock.sets.back().dead_ends = def.trace_cells.trace_dropped;
         }
         cut_excavations(def, mass, rock);
-        add_generated(def, domain, regions, mass, rock);
+        add_generated_blocks(def, domain, regions, mass, rock);
         check_area(rock);
-        check_names(def, rock);
+        check_block_names(def, rock);
         warn_of_small_blocks(def, rock);
     }
     const double mean_size = std::sqrt(rock.domain_area / static_cast<double>(std::max<std::size_t>(rock.blocks.size(), 1)));

@@ -3,7 +3,7 @@
 #include "core/boundary/resolve_boundaries.h"
 #include "core/motion/released_forces.h"
 #include "core/stage/load_changes.h"
-#include "core/support/bolt_forces.h"
+#include "core/support/installed_support.h"
 
 #include <algorithm>
 #include <utility>

@@ -25,11 +25,6 @@ double flow(double stiffness, double stretch, double limit, double& plastic, Bol
     return force;
 }
 
-double held(double force, double stiffness)
-{
-    return stiffness > 0.0 ? 0.5 * force * force / stiffness : 0.0;
-}
-
 /// Forces on the blocks of a link, at points seen from their centroids: `force` on the first one.
 class Pull
 {
@@ -125,7 +120,7 @@ void pull_anchored(const Bolt& bolt, const Blocks& blocks, AnchoredMemory& memor
     }
     const double long_by = stretch - memory.plastic;
     record.force = long_by > 0.0 ? flow(bolt.stiffness, stretch, bolt.yield, memory.plastic, record) : 0.0;
-    record.stored = held(record.force, bolt.stiffness);
+    record.stored = energy_in(record.force, bolt.stiffness);
     record.elongation = stretch - bolt.pretension / bolt.stiffness;
     if (!(record.force > 0.0))
         return;
@@ -147,7 +142,7 @@ void pull_local(const Bolt& bolt, const Blocks& blocks, LocalMemory* memory, Bol
         BoltRecord limits = record;
         const double axial = flow(bolt.stiffness, stretch, bolt.yield, own.plastic, limits);
         const double shear = flow(bolt.shear_stiffness, across, bolt.shear_strength, own.sheared, limits);
-        const double energy = held(axial, bolt.stiffness) + held(shear, bolt.shear_stiffness);
+        const double energy = energy_in(axial, bolt.stiffness) + energy_in(shear, bolt.shear_stiffness);
         if (record.status != BoltStatus::ruptured)
             record.status = limits.status;
         record.spent = limits.spent;
@@ -193,65 +188,7 @@ void pull_bar(const Bolt& bolt, const Blocks& blocks, const GroutedMemory& memor
         pull.damp(bolt.links[l], at, bolt.links[l].axial_stiffness, -reserve[l], reserve[l]);
     }
 }
-
-void install(const Bolt& bolt, State& state)
-{
-    std::vector<double>& history = state.support.history;
-    std::fill_n(history.begin() + bolt.history, bolt.history_size, 0.0);
-    const Blocks& blocks = state.blocks;
-    for (std::size_t l = 0; l < bolt.links.size(); ++l)
-    {
-        const LinkPlace at = place_of(bolt, bolt.links[l], blocks);
-        if (bolt.kind == BoltKind::anchored)
-            memory_of<AnchoredMemory>(bolt, history)[l].free = at.distance - bolt.pretension / bolt.stiffness;
-        else if (bolt.kind == BoltKind::local)
-        {
-            memory_of<LocalMemory>(bolt, history)[l].free = at.distance;
-            memory_of<LocalMemory>(bolt, history)[l].straight = at.across;
-        }
-        else
-            grouted_memory(bolt, history).opening[l] = at.distance;
-    }
-}
 }  // namespace
-
-bool has_support(const SupportState& support)
-{
-    return std::ranges::any_of(support.bolts, [](const BoltRecord& record) { return record.status != BoltStatus::planned; }) ||
-           std::ranges::any_of(support.liners, [](const LinerRecord& record) { return record.installed != 0; });
-}
-
-std::vector<Index> bolted_blocks(const Model& model, const State& state)
-{
-    std::vector<Index> blocks;
-    for (const BoltEnd& end : model.support.ends)
-        if (state.support.bolts[end.bolt].status != BoltStatus::planned && (blocks.empty() || blocks.back() != end.block))
-            blocks.push_back(end.block);
-    for (const LinerTie& tie : model.support.ties)
-        if (state.support.liners[tie.liner].installed != 0)
-            blocks.push_back(tie.block);
-    std::ranges::sort(blocks);
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    return blocks;
-}
-
-bool install_bolts(const Model& model, State& state)
-{
-    bool any = false;
-    for (std::size_t i = 0; i < model.support.bolts.size(); ++i)
-    {
-        const Bolt& bolt = model.support.bolts[i];
-        if (bolt.stage != state.stage)
-            continue;
-        install(bolt, state);
-        state.support.bolts[i] = {.status = BoltStatus::elastic,
-                                  .force = bolt.pretension,
-                                  .greatest_force = bolt.pretension,
-                                  .stored = held(bolt.pretension, bolt.stiffness)};
-        any = true;
-    }
-    return any;
-}
 
 void pull_bolts(const Model& model, State& state, double damping, std::vector<BlockPush>& pushes)
 {

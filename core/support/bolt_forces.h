@@ -15,17 +15,6 @@
 
 namespace hdem
 {
-/// Has any bolt or liner been installed?
-[[nodiscard]] bool has_support(const SupportState& support);
-
-/// Blocks of all bolts and liners that have been installed, ascending: these blocks never rest. Those that act no more count too, so that the answer does not depend
-/// on when a run was restarted.
-[[nodiscard]] std::vector<Index> bolted_blocks(const Model& model, const State& state);
-
-/// Install the bolts of the stage that has begun, at the present places of the blocks.
-/// @return  whether there are any
-bool install_bolts(const Model& model, State& state);
-
 /// Forces of the bolts in this cycle, in their order, with the velocities before the step. Also finds what slips, yields and ruptures.
 ///
 /// A block on a bolt that touches others by impulses has no other damping of its swinging along the bolt. There the links are damped by

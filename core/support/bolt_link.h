@@ -1,5 +1,5 @@
 #pragma once
-/// Where the two ends of a link are.
+/// Where the two ends of a link are, and what its spring holds.
 
 #include "core/model/model.h"
 
@@ -34,5 +34,11 @@ struct LinkPlace
     at.line = at.distance > 0.0 ? Vec2(apart / at.distance) : at.axis;
     at.across = apart.dot(turned_left(at.axis));
     return at;
+}
+
+/// Energy of a spring [J/m].
+[[nodiscard]] inline double energy_in(double force, double stiffness)
+{
+    return stiffness > 0.0 ? 0.5 * force * force / stiffness : 0.0;
 }
 }  // namespace hdem

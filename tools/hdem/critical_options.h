@@ -15,6 +15,9 @@ struct Vary
     double low = 0.0, high = 0.0;
 };
 
+/// Ends the command with a message on what it was asked for: throws InputError.
+[[noreturn]] void refuse(const std::string& text);
+
 /// "KEY=LOW:HIGH". Throws InputError.
 [[nodiscard]] Vary parse_vary(const std::string& text);
 /// "displacement:BLOCK>0.1", "rotation:*>5", "detached>0". Throws InputError.
