@@ -36,8 +36,6 @@ class SupportCheck : public CaseCheck
             check_reference(path + ".around", object, liner.around, "excavation", excavations_);
         else if (!given(path + ".path") && !problems_.has(path + ".path"))
             problems_.add(path, object, "around, path", "none is given", "Give around = \"NAME\" of an excavation, or path.");
-        else if (liner.path.size() < 2 && !problems_.has(path + ".path"))
-            problems_.add(path + ".path", object, "path", "has less than two points", "Give two or more.");
         for (std::size_t k = 1; k < liner.path.size(); ++k)
             if (liner.path[k] == liner.path[k - 1])
                 problems_.add(path + ".path", object, "path", fmt::format("points {} and {} are the same", k, k + 1),
@@ -55,8 +53,6 @@ class SupportCheck : public CaseCheck
                               "cycles must grow from row to row, and factors be above 0", "Write [[0, 0.1], [5000, 1.0]].");
                 break;
             }
-        if (given(path + ".hardening") && liner.hardening.empty() && !problems_.has(path + ".hardening"))
-            problems_.add(path + ".hardening", object, "hardening = []", "has no rows", "Give rows, or remove it.");
     }
 
     void check_arc(const std::optional<Vec2>& arc, const std::string& path, const std::string& object)

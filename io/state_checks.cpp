@@ -173,6 +173,8 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
     {
         if (m.block <= last || m.block >= blocks.size())
             return Damage{"/blocks/moving", "not ascending numbers of blocks"};
+        if (m.how > FreeMotion::dragged)
+            return Damage{"/blocks/moving", "an unknown motion"};
         if (!are_finite(m, fields::moving_along))
             return Damage{"/blocks/moving_along", "not a direction"};
         last = m.block;

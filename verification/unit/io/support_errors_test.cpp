@@ -49,6 +49,20 @@ TEST(SupportErrors, TellWhatIsWrongAndWhatToDo)
                        "14:1: bolt \"bolt1\": shear_stiffness", "is missing");
 }
 
+TEST(SupportErrors, TellOfKeysThatDoNotFitTogether)
+{
+    const std::string liner = "[[liner]]\nthickness = 0.1\nmodulus = 25e9\nnormal_stiffness = 1e9\n";
+    expect_one_problem(anchored + "area = 1e-4\nfree_length = 0.0\n", "18:15: bolt \"bolt1\": free_length",
+                       "a bolt that does not stretch has no force");
+    expect_one_problem(anchored + "stiffness = 0.0\n", "17:13: bolt \"bolt1\": stiffness", "the bolt would do nothing");
+    expect_one_problem(anchored + "area = 1e-4\nalong = 1.0\n", "18:9: bolt \"bolt1\": along", "belongs to a pattern");
+    expect_one_problem("[[bolt]]\nfrom = [1.0, 1.0]\nto = [1.0, 1.0]\narea = 1e-4\n", "16:6: bolt \"bolt1\": to",
+                       "is the same point as from");
+    expect_one_problem(liner + "path = [[0.0, 4.0]]\n", "18:8: liner \"liner1\": path", "has 1 points, a line has at least 2");
+    expect_one_problem(liner + "path = [[0.0, 4.0], [4.0, 4.0]]\nhardening = []\n", "19:13: liner \"liner1\": hardening",
+                       "has 0 points, a line has at least 2");
+}
+
 /// Names of bolts and linings follow the rules of all names: histories and results call them so.
 TEST(SupportErrors, TellOfNames)
 {

@@ -197,55 +197,6 @@ TEST(Stages, AreNotConvergedBeforeTheLeastCyclesNorAfterTheLimit)
     EXPECT_FALSE(result.at_rest);
 }
 
-std::string error_of(const CaseDef& scene)
-{
-    try
-    {
-        run_all(scene);
-    }
-    catch (const RunError& error)
-    {
-        return error.what();
-    }
-    return "none";
-}
-
-TEST(RunChecks, NameTheBlockWhoseMotionIsNotFinite)
-{
-    CaseDef scene = scenes::empty_scene(5000);
-    scenes::add_block(scene, "runaway", scenes::rectangle({0, 0}, {1, 1}));
-    scene.time.step = 1.0;
-    scene.loads = {{.blocks = {"runaway"}, .force = {1e308, 0.0}}};
-    const std::string error = error_of(scene);
-    EXPECT_THAT(error, HasSubstr("\"runaway\""));
-    EXPECT_THAT(error, HasSubstr("cycle 1000"));
-    EXPECT_THAT(error, HasSubstr("time.step"));
-}
-
-TEST(RunChecks, RefuseATimeStepThatVanishes)
-{
-    CaseDef scene = scenes::block_on_ground();
-    scene.materials[0].density = 1e-320;
-    const hdem::Setup setup = build_model(scene);
-    const std::vector<Problem> problems = Simulation(setup.model, setup.state).find_problems();
-    ASSERT_EQ(problems.size(), 1U);
-    EXPECT_THAT(problems[0].text, HasSubstr("time: step = 0 s"));
-}
-
-TEST(RunChecks, NameBothBlocksThatOverlapTooMuch)
-{
-    CaseDef scene = scenes::block_on_ground();
-    scene.joints[0].normal_stiffness = scene.joints[0].shear_stiffness = 1e5;  // the weight sinks in by 0.26 m
-    scene.contact.method = Method::force;
-    scene.stages[0].cycles = 5000;
-    const std::string error = error_of(scene);
-    EXPECT_THAT(error, HasSubstr("\"ground\""));
-    EXPECT_THAT(error, HasSubstr("\"block\""));
-    EXPECT_THAT(error, HasSubstr("contact.overlap_limit"));
-    scene.contact.overlap_limit = 0.6;
-    EXPECT_EQ(error_of(scene), "none");
-}
-
 /// One block is pushed, without gravity. What wakes no block that has stopped is more than the criterion allows, which goes by the load.
 TEST(Stages, ComeToRestWhereLoadsAreFarBelowWeights)
 {
@@ -263,34 +214,6 @@ TEST(Stages, ComeToRestWhereLoadsAreFarBelowWeights)
     scene.contact.method = Method::force;
     scene.stages = {{.name = "push", .until_converged = true, .max_cycles = 50'000}};
     EXPECT_TRUE(run_all(scene)[0].at_rest);
-}
-
-/// Edges that are beside each other have an overlap too, of any size.
-TEST(RunChecks, DoNotNameBlocksThatDoNotTouch)
-{
-    CaseDef scene = scenes::block_on_ground();
-    scenes::add_block(scene, "neighbour", scenes::rectangle({0.505, 0.0}, {1.5, 1.0}));
-    scene.stages[0].cycles = 10;
-    hdem::Setup setup = build_model(scene);
-    Simulation simulation(std::move(setup.model), std::move(setup.state));
-    run_stages(simulation, {});
-    State state = simulation.state();
-    for (Index i = 0; i < state.contacts.size(); ++i)
-    {
-        Contact contact = state.contacts.get(i);
-        contact.point[0].overlap = contact.point[0].regime == Regime::open ? 10.0 : 1.0;
-        state.contacts.put(i, contact);
-    }
-    try
-    {
-        refuse_overlap(simulation.model(), state);
-        FAIL();
-    }
-    catch (const RunError& error)
-    {
-        EXPECT_THAT(error.what(), HasSubstr("overlap = 1 m"));
-        EXPECT_THAT(error.what(), HasSubstr("\"ground\""));
-    }
 }
 }  // namespace
 }  // namespace hdem
