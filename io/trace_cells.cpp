@@ -1,97 +1,20 @@
-#include "core/geometry/convex_decomposition.h"
-#include "core/geometry/hole_joining.h"
 #include "core/geometry/polygon.h"
 #include "core/rock/fault_lines.h"
 #include "core/rock/line_stretches.h"
 #include "core/rock/weld.h"
+#include "io/cell_pieces.h"
+#include "io/geos.h"
 #include "io/lines_through_corners.h"
 #include "io/segment_index.h"
 #include "io/traces.h"
 
-#include <fmt/format.h>
-#include <geos_c.h>
-
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <memory>
 
 namespace hdem
 {
 namespace
 {
-/// The geometry library, with its last message.
-class Geos
-{
-  public:
-    Geos() : context_(GEOS_init_r()) { GEOSContext_setErrorMessageHandler_r(context_, remember, this); }
-    ~Geos() { GEOS_finish_r(context_); }
-    Geos(const Geos&) = delete;
-    Geos& operator=(const Geos&) = delete;
-
-    using Geometry = std::unique_ptr<GEOSGeometry, std::function<void(GEOSGeometry*)>>;
-
-    /// Owns it; throws when the library had none to give.
-    Geometry own(GEOSGeometry* geometry) const
-    {
-        if (geometry == nullptr)
-            throw InputError(
-                std::vector<Problem>{{Problem::Severity::error, "domain.traces_file",
-                                      fmt::format("[domain]: traces_file (cannot be cut: {}). Simplify the traces.", message_)}});
-        return {geometry, [context = context_](GEOSGeometry* g) { GEOSGeom_destroy_r(context, g); }};
-    }
-    [[nodiscard]] GEOSContextHandle_t get() const { return context_; }
-
-    [[nodiscard]] Geometry line(const Polygon& points) const
-    {
-        GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context_, static_cast<unsigned>(points.size()), 2);
-        for (unsigned i = 0; i < points.size(); ++i)
-            GEOSCoordSeq_setXY_r(context_, sequence, i, points[i].x(), points[i].y());
-        return own(GEOSGeom_createLineString_r(context_, sequence));
-    }
-    [[nodiscard]] Geometry lines(const std::vector<Polygon>& all) const
-    {
-        std::vector<GEOSGeometry*> parts;
-        for (const Polygon& points : all)
-            parts.push_back(line(points).release());
-        return own(GEOSGeom_createCollection_r(context_, GEOS_MULTILINESTRING, parts.data(), static_cast<unsigned>(parts.size())));
-    }
-    [[nodiscard]] Polygon points(const GEOSGeometry* line) const
-    {
-        const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(context_, line);
-        unsigned size = 0;
-        GEOSCoordSeq_getSize_r(context_, sequence, &size);
-        Polygon points(size);
-        for (unsigned i = 0; i < size; ++i)
-            GEOSCoordSeq_getXY_r(context_, sequence, i, &points[i].x(), &points[i].y());
-        return points;
-    }
-    /// Its points without the last, which is the first.
-    [[nodiscard]] Polygon ring(const GEOSGeometry* closed) const
-    {
-        Polygon ring = points(closed);
-        if (!ring.empty())
-            ring.pop_back();
-        return ring;
-    }
-
-    /// A point inside an area, or on a line.
-    [[nodiscard]] Vec2 point_on(const GEOSGeometry* geometry) const
-    {
-        const Geometry point = own(GEOSPointOnSurface_r(context_, geometry));
-        Vec2 place;
-        GEOSGeomGetX_r(context_, point.get(), &place.x());
-        GEOSGeomGetY_r(context_, point.get(), &place.y());
-        return place;
-    }
-
-  private:
-    static void remember(const char* message, void* self) { static_cast<Geos*>(self)->message_ = message; }
-
-    GEOSContextHandle_t context_;
-    std::string message_ = "no reason given";
-};
-
 void lengthen(Vec2& end, const Vec2& before, double by)
 {
     const Vec2 way = end - before;
@@ -145,28 +68,6 @@ void add_segments(const Polygon& points, std::int32_t source, std::vector<TraceS
         segments.push_back({points[i - 1], points[i], source});
 }
 
-/// Convex pieces of a cell with holes. Nothing where round-off leaves no way to a hole.
-std::vector<Polygon> pieces_around_holes(Polygon outside, const std::vector<Polygon>& holes)
-{
-    const auto polygon_of = [](Polygon ring)
-    {
-        const std::size_t n = ring.size();
-        return CutPolygon{std::move(ring), std::vector<EdgeTag>(n)};
-    };
-    std::vector<CutPolygon> clockwise;
-    for (Polygon hole : holes)
-    {
-        make_anticlockwise(hole);
-        std::ranges::reverse(hole);
-        clockwise.push_back(polygon_of(std::move(hole)));
-    }
-    std::vector<Polygon> pieces;
-    if (const std::optional<CutPolygon> whole = join_holes(polygon_of(std::move(outside)), std::move(clockwise)))
-        for (CutPolygon& part : convex_parts(*whole))
-            pieces.push_back(std::move(part.vertices));
-    return pieces;
-}
-
 /// Half of the length of a ring's edges counts as dropped: each of them has two sides.
 void drop_ring(const Polygon& ring, const SegmentIndex& segments, TraceCells& result)
 {
@@ -179,7 +80,7 @@ void drop_ring(const Polygon& ring, const SegmentIndex& segments, TraceCells& re
     }
 }
 
-/// Cells in the domain. One with holes comes in convex pieces. Where there are none, what is in the holes, a few blocks inside of one, is dropped.
+/// Cells in the domain. One with holes comes in convex pieces (cell_pieces.h). Where there are none, what is in the holes, a few blocks inside of one, is dropped.
 void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domain, TraceCells& result)
 {
     std::vector<Vec2> places;
@@ -196,7 +97,7 @@ void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domai
         std::vector<Polygon> holes;
         for (int h = 0; h < GEOSGetNumInteriorRings_r(geos.get(), cell); ++h)
             holes.push_back(geos.ring(GEOSGetInteriorRingN_r(geos.get(), cell, h)));
-        std::vector<Polygon> pieces = holes.empty() ? std::vector<Polygon>{outside} : pieces_around_holes(outside, holes);
+        std::vector<Polygon> pieces = holes.empty() ? std::vector<Polygon>{outside} : pieces_of_cell(geos, cell, outside, holes);
         if (pieces.empty())
         {
             pieces = {std::move(outside)};

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace hdem
@@ -203,16 +205,93 @@ class Remainder
     Tree blocking_;
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;
 };
+
+/// An edge at a place that a polygon passes more than once.
+struct EdgeThere
+{
+    Vec2 way;           ///< along it, away from there
+    bool leaves;        ///< the polygon goes on along it; else it arrives
+    std::size_t visit;  ///< the vertex
+
+    [[nodiscard]] bool is_upper() const { return way.y() > 0.0 || (way.y() == 0.0 && way.x() > 0.0); }
+};
+
+/// Anticlockwise; of two in one direction, as on a way to a hole, the arriving one comes first: what lies before it has been on its left.
+bool comes_before(const EdgeThere& a, const EdgeThere& b)
+{
+    if (a.is_upper() != b.is_upper())
+        return a.is_upper();
+    const double turn = cross(a.way, b.way);
+    return turn != 0.0 ? turn > 0.0 : std::pair(a.leaves, a.visit) < std::pair(b.leaves, b.visit);
+}
+
+/// Where the way around a polygon crosses itself in a vertex: lets it go on along the edge beside which the same area lies.
+/// @param leaves_at  for the vertex at which it arrives, that from which it goes on
+void untangle(const Polygon& polygon, const std::vector<std::size_t>& visits, std::vector<std::size_t>& leaves_at)
+{
+    const std::size_t n = polygon.size();
+    std::vector<EdgeThere> edges;
+    for (const std::size_t k : visits)
+    {
+        edges.push_back({polygon[next(k, n)] - polygon[k], true, k});
+        edges.push_back({polygon[previous(k, n)] - polygon[k], false, k});
+    }
+    std::ranges::sort(edges, comes_before);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        if (edges[e].leaves == edges[next(e, edges.size())].leaves)
+            return;  // areas on both sides of an edge: round-off
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        if (edges[e].leaves)
+            leaves_at[edges[next(e, edges.size())].visit] = edges[e].visit;
+}
+
+/// The polygons that a polygon consists of which touches itself in points.
+std::vector<CutPolygon> parts_that_touch(const CutPolygon& polygon)
+{
+    const std::size_t n = polygon.vertices.size();
+    std::vector<std::size_t> order(n), leaves_at(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    leaves_at = order;
+    const auto place = [&](std::size_t k) { return std::tuple(polygon.vertices[k].x(), polygon.vertices[k].y(), k); };
+    std::ranges::sort(order, {}, place);
+    for (auto begin = order.begin(); begin != order.end();)
+    {
+        const auto is_there = [&](std::size_t k) { return polygon.vertices[k] == polygon.vertices[*begin]; };
+        const auto end = std::find_if_not(begin, order.end(), is_there);
+        if (end - begin > 1)
+            untangle(polygon.vertices, {begin, end}, leaves_at);
+        begin = end;
+    }
+    std::vector<CutPolygon> parts;
+    std::vector<bool> is_taken(n, false);
+    for (std::size_t first = 0; first < n; ++first)
+    {
+        if (is_taken[first])
+            continue;
+        CutPolygon& part = parts.emplace_back();
+        for (std::size_t k = first; !is_taken[k]; k = leaves_at[next(k, n)])
+        {
+            is_taken[k] = true;
+            part.add(polygon.vertices[k], polygon.edges[k]);
+        }
+    }
+    return parts;
+}
 }  // namespace
 
 std::vector<CutPolygon> cut_ears(const CutPolygon& polygon)
 {
-    Remainder rest(polygon);
     std::vector<CutPolygon> triangles;
     triangles.reserve(polygon.vertices.size());
-    for (std::size_t left = polygon.vertices.size(); left > 3; --left)
-        triangles.push_back(rest.cut(rest.take_ear()));
-    triangles.push_back(rest.last_triangle());
+    for (const CutPolygon& part : parts_that_touch(polygon))
+    {
+        if (part.vertices.size() < 3)
+            continue;  // a way there and back
+        Remainder rest(part);
+        for (std::size_t left = part.vertices.size(); left > 3; --left)
+            triangles.push_back(rest.cut(rest.take_ear()));
+        triangles.push_back(rest.last_triangle());
+    }
     return triangles;
 }
 }  // namespace hdem

@@ -9,13 +9,15 @@ namespace hdem
 {
 namespace
 {
-/// Does the way from a to b meet an edge of the polygon at another place than its ends?
+/// Does the way from a to b meet an edge of the polygon at another place than its ends, or run along one?
 bool is_blocked(const CutPolygon& polygon, const Vec2& a, const Vec2& b)
 {
     for (std::size_t i = 0; i < polygon.vertices.size(); ++i)
     {
         const Vec2 &p = polygon.vertices[i], &q = polygon.vertices[next(i, polygon.vertices.size())];
         const bool has_end = p == a || p == b || q == a || q == b;
+        if ((p == a && q == b) || (p == b && q == a))
+            return true;
         const double of_p = cross(b - a, p - a), of_q = cross(b - a, q - a), of_a = cross(q - p, a - p), of_b = cross(q - p, b - p);
         if (!has_end && (of_p > 0.0) != (of_q > 0.0) && (of_a > 0.0) != (of_b > 0.0))
             return true;
@@ -34,6 +36,21 @@ bool leads_inside(const CutPolygon& polygon, std::size_t i, const Vec2& way)
                back = polygon.vertices[previous(i, n)] - polygon.vertices[i];
     return cross(out, back) > 0.0 ? cross(out, way) > 0.0 && cross(way, back) > 0.0
                                   : cross(back, way) < 0.0 || cross(way, out) < 0.0;
+}
+
+/// The same for all vertices at a place: one of them, if there are any.
+bool may_lead_from(const CutPolygon& polygon, const Vec2& place, const Vec2& way)
+{
+    bool any = false;
+    for (std::size_t i = 0; i < polygon.vertices.size(); ++i)
+    {
+        if (polygon.vertices[i] != place)
+            continue;
+        if (leads_inside(polygon, i, way))
+            return true;
+        any = true;
+    }
+    return !any;
 }
 
 /// The vertices of a polygon from vertex k on around, and that one once more.
@@ -57,7 +74,8 @@ bool join_hole(CutPolygon& outside, const CutPolygon& hole, const std::vector<Cu
         std::ranges::pop_heap(ways, std::greater<>());
         const auto [length2, i, j] = ways.back();
         const Vec2 &a = outside.vertices[i], &b = hole.vertices[j];
-        const auto blocks = [&](const CutPolygon& polygon) { return is_blocked(polygon, a, b); };
+        const auto blocks = [&](const CutPolygon& polygon)
+        { return is_blocked(polygon, a, b) || !may_lead_from(polygon, a, b - a) || !may_lead_from(polygon, b, a - b); };
         if (!leads_inside(outside, i, b - a) || !leads_inside(hole, j, a - b) || blocks(outside) || blocks(hole) ||
             std::ranges::any_of(others, blocks))
             continue;

@@ -71,7 +71,8 @@ void check_area(const RockMass& rock)
 {
     double sum = 0.0;
     for (const RockBlock& block : rock.blocks)
-        sum += area(block);
+        for (const ConvexPart& part : block.parts)
+            sum += std::abs(signed_area(part.vertices));  // parts in the wrong sense lie over others
     if (!(std::abs(sum - rock.domain_area) <= 1e-6 * rock.domain_area))
         throw InputError(Problem{
             .key = "domain",

@@ -153,6 +153,33 @@ TEST(TraceCells, ABlockAroundALoneRingComesInTriangles)
     EXPECT_EQ(std::ranges::count_if(cut.cells, [](const auto& cell) { return cell.size() > 1; }), 1);
 }
 
+/// Short traces that cross close hundreds of cells amid rock that hangs together. Islands touch each other and the sides in points.
+TEST(TraceCells, OfManyIslandsLieBesideEachOther)
+{
+    constexpr double size = 30.0, half_length = 2.0;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(-half_length, size + half_length), direction(0.0, 180.0);
+    for (int scene = 0; scene < 8; ++scene)
+    {
+        std::vector<Polygon> traces;
+        for (int t = 0; t < 330; ++t)
+        {
+            const Vec2 middle(place(random), place(random)), way = half_length * unit_direction(direction(random));
+            traces.push_back({middle - way, middle + way});
+        }
+        const TraceCells cut = cut_into_cells({{0, 0}, {size, 0}, {size, size}, {0, size}}, traces, 0.0);
+        EXPECT_GT(cut.cells.size(), 100U);
+        double sum = 0.0;
+        for (const std::vector<Polygon>& cell : cut.cells)
+            for (const Polygon& piece : cell)
+            {
+                EXPECT_GT(signed_area(piece), 0.0) << scene;
+                sum += std::abs(signed_area(piece));
+            }
+        EXPECT_NEAR(sum, size * size, 1e-6) << scene;
+    }
+}
+
 /// Random finite traces, joint sets and an excavation together: nothing is lost, and neighbours meet end to end.
 TEST(TraceCells, FillTheDomainTogetherWithSetsAndExcavations)
 {
