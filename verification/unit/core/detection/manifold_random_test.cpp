@@ -144,7 +144,7 @@ RC_GTEST_PROP(ContactForces, OfTwoBlocksAreOppositeInForceAndMoment, ())
     BlockPair pair = moving_pair(contact);
     const Forces f = forces_of(pair, contact, ContactLaw::springs);
     const double size = f.on_a.norm();
-    RC_ASSERT(size > 0.0);
+    RC_PRE(size > 0.0);  // one placement in some ten thousands: corners that pass each other bear nothing (corner_beside_corner.h)
     RC_ASSERT((f.on_a + f.on_b).norm() <= 1e-14 * size);  // the same number, added with both signs
     const auto about_origin = [&](Index block, const Vec2& force, double moment) {
         return moment + cross({pair.motion(block).x, pair.motion(block).y}, force);
