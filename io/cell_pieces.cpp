@@ -12,40 +12,23 @@ namespace hdem
 {
 namespace
 {
-CutPolygon with_edges(Polygon ring, const EdgeTag& edge)
+CutPolygon with_edges(Polygon ring)
 {
     const std::size_t n = ring.size();
-    return {std::move(ring), std::vector<EdgeTag>(n, edge)};
+    return {std::move(ring), std::vector<EdgeTag>(n)};
 }
 
-std::vector<CutPolygon> own_pieces(const Polygon& outside, const std::vector<Polygon>& holes)
+std::vector<CutPolygon> pieces_around(const Polygon& outside, const std::vector<Polygon>& holes)
 {
     std::vector<CutPolygon> clockwise;
     for (Polygon hole : holes)
     {
         make_anticlockwise(hole);
         std::ranges::reverse(hole);
-        clockwise.push_back(with_edges(std::move(hole), {}));
+        clockwise.push_back(with_edges(std::move(hole)));
     }
-    const std::optional<CutPolygon> whole = join_holes(with_edges(outside, {}), std::move(clockwise));
+    const std::optional<CutPolygon> whole = join_holes(with_edges(outside), std::move(clockwise));
     return whole ? convex_parts(*whole) : std::vector<CutPolygon>();
-}
-
-std::vector<CutPolygon> delaunay_pieces(const Geos& geos, const GEOSGeometry* cell)
-{
-    std::vector<CutPolygon> pieces;
-    GEOSGeometry* const triangles = GEOSConstrainedDelaunayTriangulation_r(geos.get(), cell);
-    if (triangles == nullptr)
-        return pieces;
-    const Geos::Geometry owned = geos.own(triangles);
-    for (int i = 0; i < GEOSGetNumGeometries_r(geos.get(), triangles); ++i)
-    {
-        Polygon triangle = geos.ring(GEOSGetExteriorRing_r(geos.get(), GEOSGetGeometryN_r(geos.get(), triangles, i)));
-        make_anticlockwise(triangle);
-        pieces.push_back(with_edges(std::move(triangle), {edge_internal, no_index}));
-    }
-    merge_convex_parts(pieces);
-    return pieces;
 }
 
 /// Do they lie beside each other, all in the right sense?
@@ -59,15 +42,12 @@ bool do_fill(const std::vector<CutPolygon>& pieces, double area)
 }
 }  // namespace
 
-std::vector<Polygon> pieces_of_cell(const Geos& geos, const GEOSGeometry* cell, const Polygon& outside,
-                                    const std::vector<Polygon>& holes)
+std::vector<Polygon> pieces_of_cell(const Polygon& outside, const std::vector<Polygon>& holes)
 {
     double area = std::abs(signed_area(outside));
     for (const Polygon& hole : holes)
         area -= std::abs(signed_area(hole));
-    std::vector<CutPolygon> found = own_pieces(outside, holes);
-    if (!do_fill(found, area))
-        found = delaunay_pieces(geos, cell);
+    std::vector<CutPolygon> found = pieces_around(outside, holes);
     std::vector<Polygon> pieces;
     if (do_fill(found, area))
         for (CutPolygon& piece : found)

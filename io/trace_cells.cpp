@@ -97,7 +97,7 @@ void add_cells(const Geos& geos, const GEOSGeometry* cells, const Polygon& domai
         std::vector<Polygon> holes;
         for (int h = 0; h < GEOSGetNumInteriorRings_r(geos.get(), cell); ++h)
             holes.push_back(geos.ring(GEOSGetInteriorRingN_r(geos.get(), cell, h)));
-        std::vector<Polygon> pieces = holes.empty() ? std::vector<Polygon>{outside} : pieces_of_cell(geos, cell, outside, holes);
+        std::vector<Polygon> pieces = holes.empty() ? std::vector<Polygon>{outside} : pieces_of_cell(outside, holes);
         if (pieces.empty())
         {
             pieces = {std::move(outside)};

@@ -6,6 +6,8 @@
 #include "verification/scenes/sample_joints.h"
 #include "verification/scenes/scenes.h"
 
+#include <gtest/gtest.h>
+
 #include <utility>
 
 namespace hdem::test
@@ -60,4 +62,24 @@ inline std::pair<Model, State> run_with_everything()
     state.statics = {{.stage = 1, .end = StaticEnd::balanced, .iterations = 7, .residual = 1e-9}};
     return {simulation.model(), std::move(state)};
 }
+
+/// One such state for all tests of a suite.
+class FullState : public testing::Test
+{
+  protected:
+    static void SetUpTestSuite()
+    {
+        auto [model, state] = run_with_everything();
+        model_ = new Model(std::move(model));
+        state_ = new State(std::move(state));
+    }
+    static void TearDownTestSuite()
+    {
+        delete model_;
+        delete state_;
+    }
+
+    static inline Model* model_ = nullptr;
+    static inline State* state_ = nullptr;
+};
 }  // namespace hdem::test

@@ -21,21 +21,9 @@ struct Harm
 };
 
 /// A state from a file is looked through before the cycle trusts it.
-class StateChecks : public testing::Test
+class StateChecks : public test::FullState
 {
   protected:
-    static void SetUpTestSuite()
-    {
-        auto [model, state] = test::run_with_everything();
-        model_ = new Model(std::move(model));
-        state_ = new State(std::move(state));
-    }
-    static void TearDownTestSuite()
-    {
-        delete model_;
-        delete state_;
-    }
-
     static void expect_found(const std::vector<Harm>& harms)
     {
         ASSERT_FALSE(find_damage(*model_, *state_).has_value());
@@ -49,9 +37,6 @@ class StateChecks : public testing::Test
             EXPECT_EQ(damage->reason, harm.reason) << harm.object;
         }
     }
-
-    static inline Model* model_ = nullptr;
-    static inline State* state_ = nullptr;
 };
 
 TEST_F(StateChecks, TellOfStagesThatDoNotFit)

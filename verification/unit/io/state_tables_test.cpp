@@ -90,21 +90,9 @@ void pick_from(State& state, bool told, Pick& pick)
         pick.look(term.name, state.ledger.*term.value);
 }
 
-class StateTables : public testing::Test
+class StateTables : public test::FullState
 {
   protected:
-    static void SetUpTestSuite()
-    {
-        auto [model, state] = test::run_with_everything();
-        model_ = new Model(std::move(model));
-        state_ = new State(std::move(state));
-    }
-    static void TearDownTestSuite()
-    {
-        delete model_;
-        delete state_;
-    }
-
     /// The state with one number changed.
     static State with_change(Pick& pick, bool told)
     {
@@ -120,9 +108,6 @@ class StateTables : public testing::Test
         pick_from(state, told, none);
         return none.at;
     }
-
-    static inline Model* model_ = nullptr;
-    static inline State* state_ = nullptr;
 };
 
 /// What a checkpoint gives back; nothing where it refuses the state as damaged, which it does only because it has read the change.
