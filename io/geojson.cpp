@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace hdem
 {
@@ -174,30 +173,25 @@ std::string name_in(Walker& walk, const Json& properties, const char* key)
 }
 
 /// fixed = true, or text as in files of WKT: "fixed", "x rotation". Shapefiles know no truth values: they come back as "true" or 1.
-bool read_fixed(const Json& value, BlockDef& block)
+bool read_fixed_property(const Json& value, BlockDef& block)
 {
     if (value.is_null() || value == Json(false) || value == Json("false") || value == Json(0))
         return true;
     if (value == Json(true) || value == Json("true") || value == Json(1))
         return block.fix_x = block.fix_y = block.fix_rotation = true;
-    if (!value.is_string())
-        return false;
-    std::istringstream words(value.get<std::string>());
-    for (std::string word; words >> word;)
-    {
-        if (word != "fixed" && word != "x" && word != "y" && word != "rotation")
-            return false;
-        block.fix_x = block.fix_x || word == "fixed" || word == "x";
-        block.fix_y = block.fix_y || word == "fixed" || word == "y";
-        block.fix_rotation = block.fix_rotation || word == "fixed" || word == "rotation";
-    }
-    return true;
+    return value.is_string() && read_fixed(value.get<std::string>(), block);
+}
+
+/// A list that has something in it.
+bool is_list(const Json& value)
+{
+    return value.is_array() && !value.empty();
 }
 
 /// A closed ring without its last point; empty when something is wrong, which is said.
 Polygon ring_of(Walker& walk, const Json& polygon)
 {
-    if (!polygon.is_array() || polygon.empty())
+    if (!is_list(polygon))
     {
         walk.complain("has no ring", "Export it once more.");
         return {};
@@ -207,8 +201,9 @@ Polygon ring_of(Walker& walk, const Json& polygon)
         walk.complain("has a hole", "Blocks have no holes: cut the ring into two polygons.");
         return {};
     }
+    const std::size_t said = walk.problems.size();
     Polygon ring = walk.points(polygon[0]);
-    if (ring.empty())
+    if (walk.problems.size() > said)
         return {};
     if (ring.size() < 4 || ring.front() != ring.back())
     {
@@ -248,11 +243,11 @@ TraceFile read_geojson_traces(const std::string& text, const std::string& file_n
                               const std::string type = Walker::text_of(geometry, "type");
                               if (type == "LineString")
                                   keep(geometry["coordinates"]);
-                              else if (type == "MultiLineString" && geometry["coordinates"].is_array())
+                              else if (type == "MultiLineString" && is_list(geometry["coordinates"]))
                                   for (const Json& line : geometry["coordinates"])
                                       keep(line);
                               else
-                                  walk.complain("is a " + printable(type) + ", not a LineString or MultiLineString",
+                                  walk.complain("is a " + printable(type) + ", not a LineString or MultiLineString with points",
                                                 "Export lines only.");
                           });
     result.problems = std::move(walk.problems);
@@ -274,8 +269,9 @@ PolygonFile read_geojson_blocks(const std::string& text, const std::string& file
             block.name += "." + std::to_string(part + 1);
         if (const std::string material = name_in(walk, properties, "material"); !material.empty())
             block.material = material;
-        if (!read_fixed(property_of(properties, "fixed"), block))
-            walk.complain("fixed does not say what is fixed", "Write true, \"fixed\", or a list of x, y, rotation.");
+        if (!read_fixed_property(property_of(properties, "fixed"), block))
+            walk.complain("fixed does not say what is fixed",
+                          "Write true, \"fixed\", or some of x, y, rotation as \"x rotation\".");
         if (!block.polygon.empty())
             result.blocks.push_back({std::move(block), 0});
     };
@@ -286,11 +282,11 @@ PolygonFile read_geojson_blocks(const std::string& text, const std::string& file
                               const Json& coordinates = geometry["coordinates"];
                               if (type == "Polygon")
                                   keep(coordinates, properties, 0);
-                              else if (type == "MultiPolygon" && coordinates.is_array())
+                              else if (type == "MultiPolygon" && is_list(coordinates))
                                   for (std::size_t i = 0; i < coordinates.size(); ++i)
                                       keep(coordinates[i], properties, i);
                               else
-                                  walk.complain("is a " + printable(type) + ", not a Polygon or MultiPolygon",
+                                  walk.complain("is a " + printable(type) + ", not a Polygon or MultiPolygon with rings",
                                                 "Export polygons only.");
                           });
     result.problems = std::move(walk.problems);

@@ -17,30 +17,6 @@ constexpr std::size_t most_problems = 50;
 constexpr std::size_t most_blocks = 20'000'000;
 
 /// Reads "fixed" or a list of x, y, rotation; false when it says something else.
-bool read_fixed(std::string_view text, BlockDef& block)
-{
-    if (text == "fixed")
-    {
-        block.fix_x = block.fix_y = block.fix_rotation = true;
-        return true;
-    }
-    while (!text.empty())
-    {
-        const auto end = text.find_first_of(" ,\t");
-        const std::string_view word = text.substr(0, end);
-        if (word == "x")
-            block.fix_x = true;
-        else if (word == "y")
-            block.fix_y = true;
-        else if (word == "rotation")
-            block.fix_rotation = true;
-        else if (!word.empty())
-            return false;
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    }
-    return true;
-}
-
 /// One line of the file; returns what is wrong with it, or "".
 std::string read_line(std::string_view line, BlockDef& block)
 {
@@ -116,6 +92,30 @@ std::variant<Polygon, std::string> parse_wkt(std::string_view text)
         return "the ring is not closed). Repeat the first point at the end.";
     polygon.pop_back();
     return polygon;
+}
+
+bool read_fixed(std::string_view text, BlockDef& block)
+{
+    if (text == "fixed")
+    {
+        block.fix_x = block.fix_y = block.fix_rotation = true;
+        return true;
+    }
+    while (!text.empty())
+    {
+        const auto end = text.find_first_of(" ,\t");
+        const std::string_view word = text.substr(0, end);
+        if (word == "x")
+            block.fix_x = true;
+        else if (word == "y")
+            block.fix_y = true;
+        else if (word == "rotation")
+            block.fix_rotation = true;
+        else if (!word.empty())
+            return false;
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    return true;
 }
 
 PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::size_t first_number)

@@ -38,6 +38,9 @@ struct PolygonFile
 /// @param file_name for messages
 PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::size_t first_number = 0);
 
+/// What is fixed: "fixed", or some of the words x, y, rotation between spaces or commas. False for other words.
+bool read_fixed(std::string_view text, BlockDef& block);
+
 /// Polygon of one WKT text without its closing vertex, or what is wrong with it. Only POLYGON with one ring is taken.
 std::variant<Polygon, std::string> parse_wkt(std::string_view text);
 

@@ -20,6 +20,19 @@ std::set<Index> held_in(const Model& model, Index stage)
     return held;
 }
 
+/// Does `fix` of a stage up to this one hold the block? The last stage that names it decides.
+bool is_fixed_by_stages(const Model& model, Index block, Index stage)
+{
+    bool is_fixed = false;
+    for (Index i = 0; i <= stage; ++i)
+    {
+        const StageDef& def = model.stages[i];
+        is_fixed = is_fixed || std::ranges::count(def.fix, model.name[block]) > 0;
+        is_fixed = is_fixed && std::ranges::count(def.free, model.name[block]) == 0;
+    }
+    return is_fixed;
+}
+
 /// Greatest distance by which present blocks of the side, in front of a wall, stand out of the edge as drawn; 0 if there are none [m].
 double outermost(const Boundary& boundary, const BoundaryWall& wall, const Blocks& blocks)
 {
@@ -60,6 +73,7 @@ BoundaryChange boundary_change(const Model& model, Index from, Index to)
     }
     const std::set<Index> before = held_in(model, from), after = held_in(model, to);
     std::ranges::set_difference(before, after, std::back_inserter(change.freed));
+    std::erase_if(change.freed, [&](Index block) { return is_fixed_by_stages(model, block, to); });
     std::ranges::set_difference(after, before, std::back_inserter(change.held));
     return change;
 }

@@ -13,7 +13,7 @@ struct BoundaryChange
 {
     std::vector<std::uint8_t> ends;  ///< per block: is it a wall that ends? Empty without one
     std::vector<Index> begins;       ///< walls
-    std::vector<Index> freed;        ///< blocks of fixed sides
+    std::vector<Index> freed;        ///< blocks of fixed sides, unless `fix` of a stage holds them
     std::vector<Index> held;
 
     [[nodiscard]] bool any() const { return !ends.empty() || !begins.empty() || !freed.empty() || !held.empty(); }

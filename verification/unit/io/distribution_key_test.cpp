@@ -74,6 +74,11 @@ TEST(DistributionKey, SaysWhatIsWrongAndWhere)
         {"spacing = {mean = 1, distribution = \"exponental\"}\n",
          "9:37: joint set \"set1\": spacing.distribution = \"exponental\" (unknown "
          "choice; did you mean 'exponential'?). Choose from \"uniform\""},
+        {"spacing = {mean = 1, distribution = 7}\n", "spacing.distribution = 7 m (expected text in quotes"},
+        {"spacing = {mean = \"1\", distribution = \"exponential\"}\n", "spacing.mean = \"1\" (expected a number"},
+        {"spacing = {distribution = \"uniform\", least = 1}\n", "(uniform: least and most are missing, and there is no mean"},
+        {"spacing = {distribution = \"uniform\", mean = 1}\n", "(uniform: least and most are missing, and there is no sd"},
+        {"spacing = {mean = inf, distribution = \"exponential\"}\n", "spacing.mean = inf m (must be > 0"},
         {"spacing = {mean = -1, distribution = \"exponential\"}\n", "spacing.mean = -1 m (must be > 0"},
         {"spacing = {mean = 1, distribution = \"normal\", sd = 0.2, kapa = 3}\n",
          "spacing.kapa = 3 m (unknown key; did you mean 'kappa'?)"},

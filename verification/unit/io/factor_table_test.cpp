@@ -45,6 +45,12 @@ TEST(FactorTable, SaysWhereItIsWrong)
     EXPECT_THAT(problem_of("cycle,factor\n0,0\n5,1e300\n"), HasSubstr("too great"));
     EXPECT_THAT(problem_of("cycle,factor\n0,0\n"), HasSubstr("has 1 rows). Give two at least"));
     EXPECT_THAT(problem_of(""), HasSubstr("has 0 rows"));
+    EXPECT_THAT(problem_of("cycle,factor\n0,0\n" + std::string(3'000'000, '0')), HasSubstr("line is longer"));
+    std::string rows = "cycle,factor\n";
+    for (int i = 0; i < 1'000'000; ++i)
+        rows += std::to_string(i) + ",1\n";
+    EXPECT_EQ(problem_of(rows), "none");
+    EXPECT_THAT(problem_of(rows + "1000000,1\n"), StartsWith("push.csv:1000002: factors: line (more than 1000000 rows)"));
 }
 
 TEST(FactorTable, OfWhatAStageSetsIsReadBesideTheCase)

@@ -84,6 +84,19 @@ TEST(GeoJson, PolygonsAreBlocks)
     EXPECT_TRUE(file.blocks[1].block.fix_x && !file.blocks[1].block.fix_y && file.blocks[1].block.fix_rotation);
 }
 
+TEST(GeoJson, PartsOfAPolygonAreBlocksOfTheirOwn)
+{
+    const PolygonFile file = read_geojson_blocks(R"({"type": "Feature", "properties": {"name": "pair", "fixed": "y, rotation"},
+         "geometry": {"type": "MultiPolygon", "coordinates": [[[[0, 0], [1, 0], [1, 1], [0, 0]]], [[[2, 0], [3, 0], [3, 1], [2, 0]]]]}})",
+                                                 "b.geojson", 0);
+    EXPECT_THAT(file.problems, IsEmpty());
+    ASSERT_THAT(file.blocks, SizeIs(2));
+    EXPECT_EQ(file.blocks[0].block.name, "pair");
+    EXPECT_EQ(file.blocks[1].block.name, "pair.2");
+    for (const PolygonFile::Line& line : file.blocks)
+        EXPECT_TRUE(!line.block.fix_x && line.block.fix_y && line.block.fix_rotation);
+}
+
 TEST(GeoJson, SaysWhatIsWrongAndWhere)
 {
     const auto trace = [](const std::string& text)
@@ -103,6 +116,12 @@ TEST(GeoJson, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(trace(R"({"type": "GeometryCollection", "geometries": [{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}]})"),
                 HasSubstr("ogr2ogr -explodecollections"));
     EXPECT_THAT(trace("[1, 2]"), HasSubstr("has no coordinates"));
+    EXPECT_THAT(line("7"), HasSubstr("coordinates are not a list"));
+    for (const char* none : {"7", "[]"})
+        EXPECT_THAT(trace(R"({"type": "MultiLineString", "coordinates": )" + std::string(none) + "}"),
+                    HasSubstr("is a MultiLineString, not a LineString or MultiLineString with points"))
+            << none;
+    EXPECT_THAT(trace(R"({"type": "FeatureCollection", "features": 7})"), HasSubstr("has no coordinates"));
     const auto block = [](const std::string& rings, const std::string& fixed)
     {
         const PolygonFile file = read_geojson_blocks(R"({"type": "Feature", "properties": {"fixed": )" + fixed +
@@ -115,6 +134,16 @@ TEST(GeoJson, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "2"), HasSubstr("fixed does not say what is fixed"));
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "\"z\""), HasSubstr("fixed does not say what is fixed"));
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 1]]]", "false"), HasSubstr("its ring is not closed"));
+    EXPECT_THAT(block("[[[0, 0], [1, 0], [0, 0]]]", "false"), HasSubstr("its ring is not closed"));
+    EXPECT_THAT(block("[[]]", "false"), HasSubstr("its ring is not closed"));
+    for (const char* rings : {"[]", "7"})
+        EXPECT_THAT(block(rings, "false"), HasSubstr("feature 1 (has no ring)")) << rings;
+    for (const char* other : {R"({"type": "Point", "coordinates": [1, 2]})", R"({"type": "MultiPolygon", "coordinates": []})"})
+    {
+        const PolygonFile file = read_geojson_blocks(other, "b.geojson");
+        ASSERT_THAT(file.problems, SizeIs(1)) << other;
+        EXPECT_THAT(file.problems[0].text, HasSubstr(", not a Polygon or MultiPolygon with rings")) << other;
+    }
     EXPECT_THAT(block("[[[0, 0], [9, 0], [9, 9], [0, 0]], [[2, 1], [3, 1], [3, 2], [2, 1]]]", "false"), HasSubstr("has a hole"));
 }
 

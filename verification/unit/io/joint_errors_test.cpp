@@ -48,6 +48,9 @@ TEST(JointErrors, TellOfNormalSpringsThatDoNotFit)
     expect_said({(bandis + "normal_stiffness = 7e9\nclosure_cycle = 2").c_str(), "closure_cycle",
                  "belongs to rock_strength, which is not given). Remove it."});
     expect_said({bandis.c_str(), "normal_stiffness", "is missing, and so is rock_strength). Add one of the two."});
+    // Walls so weak and smooth that the formula of the initial stiffness ends below 0.
+    expect_said({"law = \"barton_bandis\"\nresidual_friction_angle_deg = 25\njrc = 1\njcs = 1e6\nrock_strength = 1e6",
+                 "rock_strength", "gives an initial stiffness of -4.4e+09 Pa/m"});
 }
 
 TEST(JointErrors, TellOfStrengthsThatDoNotFit)
@@ -78,6 +81,14 @@ TEST(JointErrors, TellOfStrengthsThatDoNotFit)
     };
     for (const Mistake& mistake : mistakes)
         expect_said(mistake);
+}
+
+TEST(JointErrors, TellOfSpringsThatALawOfASharedLibraryHasItself)
+{
+    const std::string library = "law = \"law.so\"\nnormal_stiffness = 7e9\nfriction_angle_deg = 30\n";
+    for (const char* spring : {"greatest_closure = 1e-4", "normal_exponent = 0.5"})
+        expect_said({(library + spring).c_str(), std::string(spring).substr(0, std::string(spring).find(' ')).c_str(),
+                     "does not belong to a law of a shared library, which has its own normal spring). Remove it."});
 }
 
 TEST(JointErrors, TellOfWhatImpulsesCannotCompute)

@@ -102,17 +102,21 @@ TEST(PolygonFile, WritesWhatItReads)
          .fix_x = true,
          .fix_y = true,
          .fix_rotation = true},
-        {.name = "b", .polygon = {{0, 0}, {1, 0}, {1, 1}}, .material = "clay", .fix_rotation = true}};
+        {.name = "b", .polygon = {{0, 0}, {1, 0}, {1, 1}}, .material = "clay", .fix_rotation = true},
+        {.name = "c", .polygon = {{0, 0}, {1, 0}, {1, 1}}, .material = "clay", .fix_x = true},
+        {.name = "d", .polygon = {{0, 0}, {1, 0}, {1, 1}}, .material = "clay", .fix_y = true, .fix_rotation = true},
+        {.name = "e", .polygon = {{0, 0}, {1, 0}, {1, 1}}, .material = "clay"}};
     std::ostringstream out;
     write_polygons(out, blocks);
     const PolygonFile file = read(out.str());
-    ASSERT_EQ(file.blocks.size(), 2U) << out.str();
-    for (std::size_t i = 0; i < 2; ++i)
+    ASSERT_EQ(file.blocks.size(), blocks.size()) << out.str();
+    for (std::size_t i = 0; i < blocks.size(); ++i)
     {
         EXPECT_EQ(file.blocks[i].block.name, blocks[i].name);
         EXPECT_EQ(file.blocks[i].block.material, blocks[i].material);
         EXPECT_EQ(file.blocks[i].block.polygon, blocks[i].polygon);
         EXPECT_EQ(file.blocks[i].block.fix_x, blocks[i].fix_x);
+        EXPECT_EQ(file.blocks[i].block.fix_y, blocks[i].fix_y);
         EXPECT_EQ(file.blocks[i].block.fix_rotation, blocks[i].fix_rotation);
     }
 }

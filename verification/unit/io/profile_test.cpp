@@ -56,6 +56,14 @@ TEST(Profile, SaysWhatIsWrongAndWhere)
                 HasSubstr("topo.csv:1: profile: line (expected the heading x,y or two finite numbers"));
     EXPECT_THAT(problem("y,x\n1,2\n2,2\n"), HasSubstr("expected the heading x,y or two finite numbers, got \"y,x\""));
     EXPECT_EQ(problem("\xef\xbb\xbfX [m],Y [m]\n1,2\n2,2\n"), "");
+    EXPECT_THAT(problem("0,1\n1,1e9\n"), HasSubstr("topo.csv:2: profile: line (the point is farther than"));
+    EXPECT_THAT(problem(std::string(3'000'000, '0')), HasSubstr("line is longer"));
+    std::string long_one;
+    for (int i = 0; i < 20'000; ++i)
+        long_one += std::to_string(i) + ",1\n";
+    EXPECT_EQ(problem(long_one), "");
+    EXPECT_THAT(problem(long_one + "20000,1\n"),
+                HasSubstr("topo.csv:20001: profile: line (more than 20000 points). Leave some out."));
 
     const test::ScratchFolder folder("profile_keys");
     std::ofstream(folder / "topo.csv") << slope;

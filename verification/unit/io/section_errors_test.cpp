@@ -53,6 +53,14 @@ TEST(SectionErrors, TellOfKeysThatTheDomainDoesNotKnow)
     });
 }
 
+TEST(SectionErrors, TellOfCellsWithoutADomain)
+{
+    expect_each_said({
+        {"[[block]]\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\nfixed = true\n[voronoi]\nsize = 0.5\n", "[voronoi]: [voronoi]",
+         "fills the domain only, and there is no [domain]). Give a [domain]."},
+    });
+}
+
 TEST(SectionErrors, TellOfLoadsThatEndBeforeTheyBegin)
 {
     const std::string load = rectangle + "[[load]]\nblocks = [\"*\"]\nacceleration = [1.0, 0.0]\n";

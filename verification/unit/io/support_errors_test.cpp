@@ -63,6 +63,18 @@ TEST(SupportErrors, TellOfKeysThatDoNotFitTogether)
                        "has 0 points, a line has at least 2");
 }
 
+/// Static solutions leave bolts and linings out: where they are asked for, that is said.
+TEST(SupportErrors, TellThatStaticSolutionsDoNotKnowSupport)
+{
+    std::string text = head + anchored + "area = 1e-4\n";
+    text.replace(text.find("cycles = 10"), 11, "until = \"converged\"\nsolver = \"static\"");
+    const auto warnings = read_case_text(text, "case.toml").warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0].text,
+                AllOf(StartsWith("case.toml:14:10: warning: stage \"stand\": solver = \"static\""),
+                      HasSubstr("has no effect: static solutions do not know bolts and liners). Remove this key.")));
+}
+
 /// Names of bolts and linings follow the rules of all names: histories and results call them so.
 TEST(SupportErrors, TellOfNames)
 {

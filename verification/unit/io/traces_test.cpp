@@ -68,6 +68,8 @@ TEST(TraceFile, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(problem("MULTILINESTRING((0 0, 1 1))"), HasSubstr("on a line of its own"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1 nan)"), HasSubstr("expected a finite number, got \"nan)\""));
     EXPECT_THAT(problem("LINESTRING(0 0 0, 1 1 1)"), HasSubstr("A point has two coordinates"));
+    EXPECT_THAT(problem("LINESTRING Z (0 0 0, 1 1 1)"), HasSubstr("(expected ( after LINESTRING, got \"Z"));
+    EXPECT_THAT(problem("LINESTRING EMPTY"), HasSubstr("(expected ( after LINESTRING"));
     EXPECT_THAT(problem("LINESTRING(0 0)"), HasSubstr("a trace has at least 2"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1 1, 1 1)"), HasSubstr("points 2 and 3 are the same"));
     EXPECT_THAT(problem("LINESTRING(0 0, 1e9 1)"), HasSubstr("farther than"));
@@ -79,6 +81,15 @@ TEST(TraceFile, SaysWhatIsWrongAndWhere)
     EXPECT_THAT(of_gdal.problems[0].text,
                 HasSubstr("t.csv:1: trace: line (is the heading of a table with shapes in WKT). Make GeoJSON"));
     EXPECT_THAT(problem("a,1,2\na,3,x", "t.csv"), HasSubstr("got \"x\""));
+    EXPECT_THAT(problem("a,1,2\n,3,4", "t.csv"), HasSubstr("t.csv:2: trace: line (the row has no name). Write name,x,y."));
+    EXPECT_THAT(problem("a,1,2\na,3,1e9", "t.csv"), HasSubstr("farther than"));
+    EXPECT_THAT(problem(std::string(3'000'000, '0')), HasSubstr("line is longer"));
+    std::string nonsense;
+    for (int i = 0; i < 1000; ++i)
+        nonsense += "nonsense\n";
+    const TraceFile many = read(nonsense, "t.wkt");
+    EXPECT_THAT(many.problems, SizeIs(51));
+    EXPECT_THAT(many.problems.back().text, HasSubstr("too many problems, the rest was not read"));
     EXPECT_THAT(problem("a,1,2\nb,3,4\nb,5,6", "t.csv"), HasSubstr("t.csv:1: trace: line (has 1 point"));
 }
 

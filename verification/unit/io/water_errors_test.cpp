@@ -1,10 +1,12 @@
 #include "core/rock/build_model.h"
 #include "io/pressure_table.h"
 #include "verification/unit/io/case_text.h"
+#include "verification/unit/small_run.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace hdem
@@ -64,6 +66,17 @@ TEST(WaterErrors, TellWhatIsWrongAndWhatToDo)
     // Pressures that are given need no weight.
     expect_one_problem("[water]\npressure = \"none.csv\"\n[gravity]\nvector = [0.0, 0.0]\n", "14:12: [water]: pressure",
                        "none.csv");
+}
+
+/// Pressures of a file stay as they are: a level given by a stage would be forgotten.
+TEST(WaterErrors, TellOfLevelsOfStagesBesideAFileOfPressures)
+{
+    for (const char* given : {"water_level = 3.0\n", "water_table = [[0, 3], [4, 2]]\n"})
+        EXPECT_THAT(
+            problems_of(head + given + "[water]\npressure = \"none.csv\"\n"),
+            testing::Contains(AllOf(HasSubstr("case.toml:13:"), HasSubstr("stage \"stand\": water_"),
+                                    HasSubstr("has no effect: water.pressure gives the pressure). Remove one of the two."))))
+            << given;
 }
 
 /// relax_cycles: the change of the water comes evenly; it needs no excavation.
@@ -139,6 +152,35 @@ TEST(WaterErrors, OfAFileOfPressuresNameItsLine)
                     ElementsAre(StartsWith("p.csv:1: pressures: line (expected the heading x,y,pressure or three finite numbers")))
             << heading;
     EXPECT_THAT(problems("0,0,1\n1,0,1\n"), ElementsAre(HasSubstr("three at least")));
+    EXPECT_THAT(problems(good + "1,1e9,5\n"), ElementsAre(AllOf(StartsWith("p.csv:6:"), HasSubstr("farther than"))));
+    EXPECT_THAT(problems(good + std::string(3'000'000, '0')), ElementsAre(HasSubstr("line is longer")));
+    std::string rows;
+    for (int i = 0; i < 100'000; ++i)
+        rows += std::to_string(i % 1000) + "," + std::to_string(i / 1000) + ",1\n";
+    EXPECT_THAT(problems(rows), testing::IsEmpty());
+    EXPECT_THAT(problems(rows + "-1,0,1\n"), ElementsAre(AllOf(StartsWith("p.csv:100001:"), HasSubstr("more than 100000 rows"))));
+}
+
+TEST(WaterPressures, AreReadBesideTheCaseAndFromWhatIsStored)
+{
+    const test::ScratchFolder folder("pressures");
+    const std::string text = head + "[water]\npressure = \"p.csv\"\n";
+    std::ofstream(folder / "p.csv") << "0,0,1e5\n4,0,1e5\n0,4,0\n";
+    const CaseFile read = read_case_text(text, folder / "case.toml");
+    ASSERT_EQ(read.def.water.pressures.size(), 3U);
+    EXPECT_EQ(read.def.water.pressures[1], (std::array{4.0, 0.0, 1e5}));
+    ASSERT_EQ(read.files.count("p.csv"), 1U) << "a checkpoint takes it along";
+    std::ofstream(folder / "p.csv") << "0,0,1e5\n4,0,-1\n0,4,0\n";
+    EXPECT_EQ(read_case_text(text, folder / "case.toml", {}, &read.files).def.water.pressures, read.def.water.pressures);
+    try
+    {
+        static_cast<void>(read_case_text(text, folder / "case.toml"));
+        ADD_FAILURE();
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_THAT(error.problems().front().text, AllOf(HasSubstr("p.csv:2: pressures: line"), HasSubstr("suction")));
+    }
 }
 }  // namespace
 }  // namespace hdem

@@ -1,4 +1,5 @@
 #include "core/contact/contact_report.h"
+#include "core/model/liner_growth.h"
 #include "core/rock/build_model.h"
 #include "io/case_reader.h"
 #include "parallel/reference_state.h"
@@ -199,6 +200,85 @@ TEST(SafetyFactor, StiffeningKeepsForces)
         EXPECT_LT(simulation.state().blocks.displacement(b).norm(), 1e-9);
     const ContactReport before = report_contact(soft.state, 0), after = report_contact(simulation.state(), 0);
     EXPECT_NEAR(after.normal_force, before.normal_force, 1e-4 * before.normal_force);
+}
+
+/// Rock of four blocks under stress, with a side that is pressed more and more and a lining that hardens.
+const std::string pressed_rock = R"(
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 1e10
+shear_stiffness = 1e9
+friction_angle_deg = 30.0
+[contact]
+method = "force"
+[domain]
+width = 4.0
+height = 4.0
+fixed = ["bottom"]
+[[joint_set]]
+dip_deg = 0.0
+spacing = 2.0
+[[joint_set]]
+dip_deg = 90.0
+spacing = 2.0
+[insitu]
+surface = 4.0
+ratio = 0.5
+)";
+
+TEST(SafetyFactor, StiffeningKeepsForcesOfRockUnderStress)
+{
+    const Case c = started(pressed_rock + "[[stage]]\nuntil = \"converged\"\n");
+    const Moment stiff = stiffened_state(c.reference.moment, 3.0);
+    ASSERT_TRUE(stiff.state.contacts.has_preload);
+    Simulation simulation(trial_model(stiff, {.stiffness = 3.0}), stiff.state, 1);
+    simulation.begin_stage(0);
+    simulation.advance(100);
+    for (Index b = 0; b < stiff.model.blocks(); ++b)
+        EXPECT_LT((simulation.state().blocks.displacement(b) - c.reference.moment.state.blocks.displacement(b)).norm(), 1e-9);
+    const double before = report_contact(c.reference.moment.state, 0).normal_force;
+    EXPECT_GT(before, 1e3);
+    EXPECT_NEAR(report_contact(simulation.state(), 0).normal_force, before, 1e-4 * before);
+}
+
+/// Trials begin the stage anew, but what grows with time stays at what it has come to.
+TEST(SafetyFactor, TrialsKeepLoadsAsTheyHaveBecome)
+{
+    const CaseDef def = read_case_text(pressed_rock + R"(
+[[boundary]]
+side = "top"
+kind = "stress"
+stress = [1e6, 0.0]
+table = [[0, 0], [1000, 1]]
+[[liner]]
+path = [[4.0, 3.5], [4.0, 0.5]]
+thickness = 0.1
+modulus = 25e9
+normal_stiffness = 1e9
+pressure = 2e4
+pressure_cycles = 1200
+hardening = [[0, 0.1], [1200, 1.0]]
+[[stage]]
+cycles = 600
+)",
+                                       "case.toml")
+                            .def;
+    hdem::Setup setup = build_model(def);
+    Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+    run_stages(simulation, {});
+    ASSERT_EQ(simulation.state().cycle, 600);
+    const Model trial = trial_model({simulation.model(), simulation.state()}, {});
+    for (const std::int64_t cycles : {0, 1, 600, 5000})
+        EXPECT_DOUBLE_EQ(trial.boundaries[0].factor.at(cycles, trial.time_step), 0.6) << cycles;
+    const Liner& liner = trial.support.liners[0];
+    EXPECT_DOUBLE_EQ(liner.pressure, 1e4);
+    for (const std::int64_t age : {0, 600, 5000})
+    {
+        EXPECT_DOUBLE_EQ(grown_share(liner.pressure_cycles, age), 1.0);
+        EXPECT_DOUBLE_EQ(hardening_at(liner, age), 0.55) << age;
+    }
+    EXPECT_EQ(liner.stage, no_index) << "it is not installed once more";
 }
 
 TEST(SafetyFactor, TrialsThatHaveEndedAreNotRunAgain)

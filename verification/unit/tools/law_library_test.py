@@ -76,6 +76,7 @@ class LawLibrary(unittest.TestCase):
         self.library.unlink()
         self.assertIn("cannot be read", self.hdem("check", "case.toml").stderr)
         for source, says in (("int nothing;", "has no function hdem_joint_law_version"),
+                             ("int hdem_joint_law_version(void){return 1;}", "has no function hdem_joint_law)"),
                              ("int hdem_joint_law_version(void){return 99;} void hdem_joint_law(const void* p){(void)p;}",
                               "is for version 99")):
             (self.folder / "law.c").write_text(source, encoding="utf-8")

@@ -83,6 +83,31 @@ TEST(Boundary, FixedSideThatEndsFreesItsBlocks)
     EXPECT_LT(ledger_residual(run), 1e-9);
 }
 
+/// `fix` holds until `free`, whatever sides do.
+TEST(Boundary, FixedSideThatEndsDoesNotFreeWhatAStageHolds)
+{
+    for (const std::size_t stage_of_fix : {0U, 1U})
+    {
+        CaseDef scene = square_pattern(3.0, 3.0);
+        scene.boundaries = {side("bottom", BoundaryKind::fixed), side("top", BoundaryKind::fixed)};
+        scene.boundaries[1].stages = {"first", "held"};
+        scene.stages = {{.name = "first", .cycles = 10},
+                        {.name = "held", .cycles = 10},
+                        {.name = "off", .cycles = 10},
+                        {.name = "free", .cycles = 10}};
+        scene.stages[stage_of_fix].fix = {"b8"};
+        scene.stages[3].free = {"b8"};
+        CaseRun run(scene);
+        for (const Index stage : {1, 2, 3})
+        {
+            run.advance(10);
+            run.simulation.begin_stage(stage);
+            EXPECT_EQ(run.state().blocks.is_free(run.slot("b8")), stage == 3) << stage_of_fix << " " << stage;
+            EXPECT_EQ(run.state().blocks.is_free(run.slot("b7")), stage >= 2) << stage_of_fix << " " << stage;
+        }
+    }
+}
+
 TEST(Boundary, FixedSideHoldsWhatIsToBeExcavated)
 {
     CaseDef scene = square_pattern(3.0, 3.0);
