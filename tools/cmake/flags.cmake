@@ -47,7 +47,7 @@ target_compile_options(hdem_flags INTERFACE
     -Wno-missing-field-initializers -Wno-psabi    # {.density = 2700.0} leaves the rest at its defaults, which is what they are for
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>    # g++ 12 finds overlaps in std::string's operator+ that cannot be
     $<$<BOOL:${HDEM_WERROR}>:-Werror>)
-target_link_options(hdem_flags INTERFACE ${HDEM_SANITIZE_FLAGS})
+target_link_options(hdem_flags INTERFACE ${HDEM_SANITIZE_FLAGS} $<$<BOOL:${HDEM_COVERAGE}>:--coverage>)
 
 # One line for the provenance of results; see core/version.h.
 string(JOIN " " HDEM_FLAGS_TEXT

@@ -21,8 +21,10 @@ namespace hdem
 /// The answer, line by line.
 [[nodiscard]] std::vector<std::string> closing_lines(const FosOutcome& outcome, const Model& model);
 
-/// What users must know of the answer.
-[[nodiscard]] std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& reference, const State& last);
+/// Blocks that were let fall in trials that count; the user's numbers.
+[[nodiscard]] std::vector<Index> all_let_fall(const SafetyFactor& factor);
+/// Do corners that touch in a point bear a part of it?
+[[nodiscard]] bool leans_on_corners(const FosOutcome& outcome);
 
 /// A trial as it stands there.
 [[nodiscard]] nlohmann::ordered_json trial_json(const FactorTrial& trial, const Model& model);

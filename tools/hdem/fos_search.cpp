@@ -4,6 +4,7 @@
 #include "core/motion/equilibrium.h"
 #include "io/printable.h"
 #include "tools/hdem/fos_report.h"
+#include "tools/hdem/fos_warnings.h"
 
 #include <fmt/format.h>
 

@@ -53,6 +53,45 @@ TEST(SectionErrors, TellOfKeysThatTheDomainDoesNotKnow)
     });
 }
 
+TEST(SectionErrors, TellOfWhatAStageCannotSet)
+{
+    const auto later = [](const std::string& set)
+    { return rectangle + "[material.clay]\ndensity = 2000.0\n[[stage]]\nname = \"later\"\ncycles = 10\nset = [" + set + "]\n"; };
+    const std::string angle = "[joint.rough]\nmaterials = [\"rock\", \"clay\"]\nnormal_stiffness = 7e9\nshear_stiffness = 5e8\n"
+                              "friction_angle_deg = 30.0\ndilation_angle_deg = 5.0\n";
+    expect_each_said({
+        {later(R"("joint.default.initially = \"broken\"")"), "set = \"joint.default.initially = ...\"",
+         "contacts bear by it already"},
+        {later(R"("joint.default.materials = [\"rock\", \"clay\"]")"), "set = \"joint.default.materials = ...\"",
+         "contacts bear by it already"},
+        {later(
+             R"("joint.default.law = \"slip_weakening\"", "joint.default.residual_friction_angle_deg = 20", "joint.default.wear_length = 1")"),
+         "set = \"joint.default.law = ...\"", "contacts bear by it already"},
+        {later("\"joint.rough.dilation_angle_deg = 3\"") + "set_cycles = 5\n" + angle, "set = \"joint.rough: dilation_angle_deg\"",
+         "only strengths change over set_cycles or a table"},
+        {later("\"material.rock.density = 2600\"") + "set_cycles = 5\n", "set = \"material...\"",
+         "only strengths of joints change over set_cycles or a table"},
+    });
+}
+
+/// Each stage goes on from what the one before it has set.
+TEST(SectionErrors, ADensityMayBeSetTwice)
+{
+    std::string text = head + rectangle;
+    const std::pair<const char*, const char*> later[] = {{"a", "3000"}, {"b", "2000"}, {"c", "2000"}};
+    for (const auto& [name, density] : later)
+        text += std::string("[[stage]]\nname = \"") + name + "\"\ncycles = 10\nset = [\"material.rock.density = " + density +
+                "\"]\n";
+    const std::vector<StageDef> stages = test::read(text).stages;
+    ASSERT_EQ(stages.size(), 4U);
+    EXPECT_TRUE(stages[0].materials.empty());
+    ASSERT_EQ(stages[1].materials.size(), 1U);
+    EXPECT_EQ(stages[1].materials[0].density, 3000.0);
+    ASSERT_EQ(stages[2].materials.size(), 1U);
+    EXPECT_EQ(stages[2].materials[0].density, 2000.0);
+    EXPECT_TRUE(stages[3].materials.empty()) << "nothing changes there";
+}
+
 TEST(SectionErrors, TellOfCellsWithoutADomain)
 {
     expect_each_said({

@@ -133,6 +133,15 @@ class Fos(unittest.TestCase):
             text = hdem("fos", CASES / "plane.toml", "-o", self.folder, "--set", f"factor_of_safety.{key[0]}={key[1]}", code=2)
             self.assertIn(why, text)
 
+    def test_warns_of_a_displacement_that_rock_reaches_as_it_deforms(self):
+        for displacement, is_small in ((1e-6, True), (0.01, False)):
+            text = hdem("fos", CASES / "slab.toml", "-o", self.folder, "--overwrite", "--set", "factor_of_safety.check_stiffness=1",
+                        "--set", f"factor_of_safety.displacement={displacement}")
+            warning = f"factor_of_safety.displacement = {displacement:g} m is less than twice the elastic deformation of the joints of block slab"
+            self.assertEqual(warning in text, is_small, text)
+            if is_small:
+                self.assertRegex(text, r"m before it came to rest, more than 1e-06 m")
+
     def test_where_nothing_fails_no_picture_of_it_is_offered(self):
         words = ("fos", CASES / "slab.toml", "-o", self.folder, "--set", "factor_of_safety.check_stiffness=1", "--set", "gravity.tilt_deg=30")
         self.assertIn("blocks that fail: hdem plot", hdem(*words))
@@ -217,6 +226,13 @@ until = "converged"
         self.assertEqual(hdem(*arguments, "--set", "stage[0].max_cycles=1200"), text, "also of trials that are remembered")
         hdem(*arguments)
         self.assertEqual(json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))["warnings"], [])
+
+    def test_critical_tilt_of_a_column_by_its_rotation(self):
+        for tilts, answer_deg in (("0:40", 14.036), ("-40:0", -14.036)):    # arc tan 1/4
+            hdem("critical", CASES / "slab.toml", "--set", "block[1].polygon=[[0,0],[1,0],[1,4],[0,4]]", "--set", "joint.default.friction_angle_deg=50",
+                 "--vary", f"gravity.tilt_deg={tilts}", "--fails", "rotation:slab>5", "-o", self.folder, "--overwrite", "-q")
+            found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+            self.assertAlmostEqual(found["critical"], answer_deg, delta=0.15)
 
     def test_critical_friction_fails_at_the_low_end(self):
         hdem("critical", CASES / "slab.toml", "--vary", "joint.default.friction_angle_deg=10:50", "--fails", "displacement:*>0.1", "-o", self.folder, "-q")
