@@ -4,6 +4,9 @@
 #include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace hdem
 {
 namespace
@@ -141,6 +144,28 @@ TEST_P(FactorisationThreads, NameTheSameBlockWhenTheMatrixIsNotDefinite)
         EXPECT_EQ(one, many);
         EXPECT_TRUE(one == bad[0] || one == bad[1]) << one;
     }
+}
+
+/// What divides the rock in the middle is factored last, by all threads together.
+TEST_P(FactorisationThreads, NameABlockOfWhatDividesTheRock)
+{
+    const ContactGraph graph = test::rock_graph(90, 80);
+    const Eigen::VectorXd b = test::random_vector(3 * graph.blocks());
+    Vec2 middle = Vec2::Zero();
+    for (const Vec2& place : graph.places)
+        middle += place / static_cast<double>(graph.blocks());
+    std::vector<Index> blocks(static_cast<std::size_t>(graph.blocks()));
+    std::iota(blocks.begin(), blocks.end(), Index{0});
+    std::ranges::sort(blocks, {}, [&](Index block) { return (graph.places[block] - middle).cwiseAbs().minCoeff(); });
+    BlockMatrix matrix = test::contact_matrix(graph);
+    for (int i = 0; i < 24; ++i)
+    {
+        const Matrix3 good = matrix.diagonal(blocks[i]);
+        matrix.diagonal(blocks[i])(2, 2) = -1.0;
+        EXPECT_EQ(run(graph, matrix, b, GetParam()).failed, blocks[i]);
+        matrix.diagonal(blocks[i]) = good;
+    }
+    EXPECT_EQ(run(graph, matrix, b, GetParam()).failed, no_index);
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, FactorisationThreads, testing::Values(2, 3, 8));

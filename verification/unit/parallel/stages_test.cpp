@@ -115,6 +115,28 @@ TEST(Stages, EndAtRestWhereNothingIsFree)
     EXPECT_EQ(results[1].cycles, 1000) << "convergence.least_cycles";
 }
 
+/// What is excavated may be a single block: that on it falls, at once or as its force is taken off.
+TEST(Stages, MayExcavateABlockByItsName)
+{
+    for (const std::int64_t relax : {0, 500})
+    {
+        CaseDef scene = scenes::stack(3);
+        scene.stages = {{.name = "stand", .until_converged = true},
+                        {.name = "dig", .until_converged = true, .max_cycles = 100'000, .excavate = {"block2"}}};
+        scene.stages[1].relax_cycles = relax;
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state));
+        const std::vector<StageResult> results = run_stages(simulation, {});
+        EXPECT_TRUE(results[1].at_rest) << relax;
+        const Model& model = simulation.model();
+        const Blocks& blocks = simulation.state().blocks;
+        EXPECT_EQ(blocks.present[model.find_block("block2")], 0);
+        EXPECT_LT(blocks.displacement(model.find_block("block1")).norm(), 1e-4);
+        EXPECT_NEAR(blocks.displacement(model.find_block("block3")).y(), -1.0, 1e-4) << relax;
+        EXPECT_EQ(simulation.state().next_to_excavation.size(), 2U);
+    }
+}
+
 TEST(Stages, LastAsManyCyclesOrSecondsAsTheySay)
 {
     CaseDef scene = scenes::block_on_ground();
