@@ -47,6 +47,46 @@ CaseDef tunnel_in_weak_rock(double friction_angle_deg, double cohesion)
     return scene;
 }
 
+/// Bricks between two columns that are held in x and do not turn; one brick of the lowest course is taken out.
+CaseDef bricks_between_rollers(RestSolver solver)
+{
+    constexpr int side = 16;
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = Method::force;
+    scene.joints[0].cohesion = 1e6;
+    scenes::add_fixed_block(scene, "ground", scenes::rectangle({-1.0, -1.0}, {side + 1.0, 0.0}));
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i)
+        {
+            const std::string name = "b" + std::to_string(i) + "_" + std::to_string(j);
+            BlockDef& block = scenes::add_block(scene, name, scenes::rectangle({i, j}, {i + 1.0, j + 1.0}));
+            block.fix_x = block.fix_rotation = i == 0 || i == side - 1;
+        }
+    scene.stages = {{.name = "weight", .until_converged = true, .max_cycles = 100'000, .solver = solver},
+                    {.name = "dig", .until_converged = true, .max_cycles = 100'000, .solver = solver, .excavate = {"b8_0"}}};
+    return scene;
+}
+
+TEST(StaticWays, BlocksHeldInOneDirectionMoveInTheOther)
+{
+    std::vector<Vec2> sunk;
+    for (const RestSolver solver : {RestSolver::statics, RestSolver::dynamics})
+    {
+        hdem::Setup setup = build_model(bricks_between_rollers(solver));
+        Simulation bricks(std::move(setup.model), std::move(setup.state));
+        const std::vector<StageResult> results = run_stages(bricks, {});
+        EXPECT_EQ(results[1].statics.has_value(), solver == RestSolver::statics);
+        const Blocks& blocks = bricks.state().blocks;
+        sunk.push_back(blocks.displacement(bricks.model().find_block("b8_1")));
+        const Index held = bricks.model().find_block("b0_8");
+        EXPECT_EQ(blocks.displacement(held).x(), 0.0);
+        EXPECT_LT(blocks.displacement(held).y(), 0.0);
+        EXPECT_EQ(blocks.motion[held].angle, 0.0);
+    }
+    EXPECT_LT(sunk[1].y(), -1e-5);
+    EXPECT_LT((sunk[0] - sunk[1]).norm(), 0.01 * sunk[1].norm()) << sunk[0].y() << " " << sunk[1].y();
+}
+
 /// Here a search that begins again finds a balance that slow removal of the tunnel does not come to: by cycles over 5000 and over 50 000 cycles 116 blocks are lost.
 TEST(StaticWays, ABalanceFoundAfterBeginningAgainIsLookedForInParts)
 {
