@@ -19,7 +19,7 @@ RUNS = int(sys.argv[4]) if sys.argv[3:4] == ["--runs"] else 24
 TUNNEL = TOOLS / "guide/cases/first_tunnel.toml"
 
 
-def wait_until(condition, seconds=60.0):
+def wait_until(condition, seconds=600.0):    # under sanitizers a run takes minutes
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
