@@ -20,8 +20,7 @@ constexpr const char* about =
     "where it touches the rock, without force. Tractions of kind stress keep their direction: a model that is compressed on all "
     "sides and held by one block soon turns over once something moves. Let rollers hold two of its sides. Where a boundary ends, "
     "its wall is taken away, its traction ends, or its blocks are freed (not those that `fix` of a stage holds), at once or over "
-    "the "
-    "stage's relax_cycles.";
+    "the stage's relax_cycles.";
 
 void assign_stress(void* object, const TomlNode& value, const KeySpec&)
 {

@@ -96,16 +96,13 @@ std::variant<Polygon, std::string> parse_wkt(std::string_view text)
 
 bool read_fixed(std::string_view text, BlockDef& block)
 {
-    if (text == "fixed")
-    {
-        block.fix_x = block.fix_y = block.fix_rotation = true;
-        return true;
-    }
     while (!text.empty())
     {
         const auto end = text.find_first_of(" ,\t");
         const std::string_view word = text.substr(0, end);
-        if (word == "x")
+        if (word == "fixed")
+            block.fix_x = block.fix_y = block.fix_rotation = true;
+        else if (word == "x")
             block.fix_x = true;
         else if (word == "y")
             block.fix_y = true;

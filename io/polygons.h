@@ -38,7 +38,7 @@ struct PolygonFile
 /// @param file_name for messages
 PolygonFile read_polygons(std::istream& in, const std::string& file_name, std::size_t first_number = 0);
 
-/// What is fixed: "fixed", or some of the words x, y, rotation between spaces or commas. False for other words.
+/// What is fixed: "fixed" (all), or some of x, y, rotation; words with spaces or commas between them. False for other words.
 bool read_fixed(std::string_view text, BlockDef& block);
 
 /// Polygon of one WKT text without its closing vertex, or what is wrong with it. Only POLYGON with one ring is taken.

@@ -129,7 +129,7 @@ TEST(GeoJson, SaysWhatIsWrongAndWhere)
                                                      "b.geojson");
         return file.problems.empty() ? "" : file.problems.front().text;
     };
-    for (const char* fixed : {"false", "\"false\"", "0", "null", "true", "\"true\"", "1"})
+    for (const char* fixed : {"false", "\"false\"", "0", "null", "true", "\"true\"", "1", "\"fixed \"", "\"x, y\""})
         EXPECT_EQ(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", fixed), "") << fixed;
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "2"), HasSubstr("fixed does not say what is fixed"));
     EXPECT_THAT(block("[[[0, 0], [1, 0], [1, 1], [0, 0]]]", "\"z\""), HasSubstr("fixed does not say what is fixed"));
