@@ -2,32 +2,35 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace hdem
 {
 namespace
 {
-volatile std::sig_atomic_t interrupted_by = 0;
-volatile std::sig_atomic_t checkpoint_wanted = 0;
+// Any thread may be the one that handles a signal: a process that was stopped hands it to whichever wakes first.
+std::atomic<int> interrupted_by = 0;
+std::atomic<bool> checkpoint_wanted = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free, "a handler may not wait for a lock");
 
 extern "C" void note_interrupt(int signal)
 {
-    if (interrupted_by != 0 && interrupted_by != SIGHUP)
+    const int before = interrupted_by.exchange(signal);
+    if (before != 0 && before != SIGHUP)
         ::_exit(128 + signal);
-    interrupted_by = signal;
 }
 
 /// The terminal or the connection is gone. A hangup often comes together with a SIGTERM: the two do not hurry the program.
 extern "C" void note_hangup(int signal)
 {
-    if (interrupted_by == 0)
-        interrupted_by = signal;
+    int before = 0;
+    interrupted_by.compare_exchange_strong(before, signal);
 }
 
 extern "C" void note_checkpoint_request(int)
 {
-    checkpoint_wanted = 1;
+    checkpoint_wanted = true;
 }
 
 void handle(int signal, void (*handler)(int))
@@ -60,13 +63,12 @@ int interrupt()
 
 const char* interrupt_name()
 {
-    return interrupted_by == SIGTERM ? "SIGTERM" : interrupted_by == SIGHUP ? "SIGHUP" : "SIGINT";
+    const int signal = interrupted_by;
+    return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT";
 }
 
 bool checkpoint_requested()
 {
-    const bool wanted = checkpoint_wanted != 0;
-    checkpoint_wanted = 0;
-    return wanted;
+    return checkpoint_wanted.exchange(false);
 }
 }  // namespace hdem
