@@ -19,7 +19,7 @@ def problems_of(part, own):
     found = sorted(set(re.findall(r"\bvfn?m(?:add|sub)\w*", code)))
     # The linker keeps one copy of a function that several objects have: it must not be one of these.
     found += [line for line in names.splitlines()
-              if re.search(r" [WVu] ", line) and not re.search(own, line) and "DW.ref.__gxx_personality" not in line]
+              if re.search(r" [WVu] ", line) and not re.search(own, line) and not re.search(r"DW\.ref\.__g(xx|cc)_personality", line)]
     return code, found
 
 
