@@ -10,7 +10,14 @@ namespace hdem
 namespace
 {
 /// Above, a copy takes much memory, and a frame is rarely worth more than a few cycles.
-constexpr Index most_blocks_copied = 20'000;
+constexpr std::size_t most_copied = 20'000;
+
+/// Blocks and stages; a stage takes as long to copy as some blocks: 20 000 of them 3 ms, more than a frame of a small model.
+bool is_worth_a_copy(const Model& model)
+{
+    constexpr std::size_t blocks_a_stage = 10;
+    return static_cast<std::size_t>(model.blocks()) + blocks_a_stage * model.stages.size() <= most_copied;
+}
 
 /// With more stages than this a frame at the end of a stage comes so many cycles after the last one at the earliest: it takes as long as fifty.
 constexpr std::size_t many_stages = 1000;
@@ -148,7 +155,7 @@ void RunRecorder::write_frame(const Model& model, const State& state)
     if (!frames_.frames().empty() && frames_.frames().back().cycle == state.cycle)
         return;
     last_frame_cycle_ = state.cycle;
-    if (model.blocks() > most_blocks_copied)
+    if (!is_worth_a_copy(model))
         frames_.write(model, state);
     else
         frame_ = std::async(std::launch::async, [this, model, state] { frames_.write(model, state); });

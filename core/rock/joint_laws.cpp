@@ -272,15 +272,17 @@ void add_laws(const CaseDef& def, const JointSurroundings& around, JointTable& t
 
 std::vector<StageLaws> laws_of_stages(const CaseDef& def, const JointSurroundings& around)
 {
-    std::vector<StageLaws> stages;
-    CaseDef changed;
-    changed.stages = def.stages;
-    for (const StageDef& stage : def.stages)
+    std::vector<StageLaws> stages(def.stages.size());
+    for (std::size_t i = 0; i < stages.size(); ++i)
     {
+        if (def.stages[i].joints.empty())
+            continue;
+        CaseDef changed;
+        changed.joints = def.stages[i].joints;
+        changed.stages = {def.stages[i]};
         JointTable table;
-        changed.joints = stage.joints;
         add_laws(changed, around, table);
-        stages.push_back({std::move(table.laws), std::move(table.rows)});
+        stages[i] = {std::move(table.laws), std::move(table.rows)};
     }
     return stages;
 }
