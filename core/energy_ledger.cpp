@@ -1,7 +1,7 @@
 #include "core/energy_ledger.h"
 
 #include "core/contact/contact_report.h"
-#include "core/detection/edge_touch.h"
+#include "core/kernels.h"
 #include "core/motion/equilibrium.h"
 
 #include <algorithm>
@@ -38,22 +38,14 @@ StoredEnergy stored_energy(const Model& model, const State& state)
         if (state.blocks.is_free(i))
             stored.one_step_fall += 0.5 * model.mass[i] * fall * fall;
     }
-    double held = 0.0;
     for (Index i = 0; i < state.contacts.size(); ++i)
-    {
-        if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]))
-        {
-            if (is_closed_contact(state, i))
-                stored.one_step_fall += one_step_push(state, state.contacts.get(i));
-            continue;
-        }
-        const Contact contact = state.contacts.get(i);
-        const SpringEnergy springs = spring_energy(model, state.blocks, contact);
-        held += held_energy(model, contact);
-        stored.elastic_shear += springs.shear;
-        stored.pending += springs.pending;
-    }
-    stored.elastic_normal = held - state.ledger.coasting - stored.elastic_shear;
+        if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]) && is_closed_contact(state, i))
+            stored.one_step_fall += one_step_push(state, state.contacts.get(i));
+    SpringEnergies springs;
+    kernels().add_spring_energies(model, state.blocks, state.contacts, springs);
+    stored.elastic_shear = springs.shear;
+    stored.pending = springs.pending;
+    stored.elastic_normal = springs.held - state.ledger.coasting - stored.elastic_shear;
     return stored;
 }
 
@@ -68,36 +60,6 @@ double held_energy(const Model& model, const Contact& contact)
             held += 0.5 * point.normal_force * (point.overlap - point.rest_overlap) +
                     (point.shear_force != 0.0 ? 0.5 * point.shear_force * point.shear_force / shear_stiffness : 0.0);
     return held;
-}
-
-SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact)
-{
-    const BlockMotion& ref = blocks.motion[contact.ref];
-    const BlockMotion& inc = blocks.motion[contact.inc];
-    const EdgeTouch touch = touch_edges(contact.edges, ref, inc);
-    const CoulombSlip& joint = model.joints.laws[contact.law];
-    const double shear_stiffness = joint.shear_stiffness * contact.last_length;
-    const double dt = blocks.step.last;
-    SpringEnergy energy;
-    for (int k = 0; k < 2; ++k)
-    {
-        // Ways with the velocities of now as they were when the forces acted.
-        const PointHistory& point = contact.point[k];
-        const TouchPoint& p = touch.point[k];
-        const TurningRate<double> turning(p, touch.slope, ref.w, inc.w);
-        energy.normal -= 0.5 * point.tilt_force * (surface_velocity(p, ref.w, inc.w) - turning.surface * dt) * dt;
-        if (point.regime != Regime::stick && point.regime != Regime::slip)
-            continue;
-        const double next = point.overlap + (p.v_m - turning.m * dt) * dt - point.rest_overlap;
-        const double stretch = point.shear_force / shear_stiffness - (p.v_t - 0.5 * turning.t * dt) * dt;
-        const double normal = 0.5 * point.normal_force * next;
-        const double held = std::max(point.overlap - point.rest_overlap, 0.0) * std::max(next, 0.0);
-        energy.normal += normal;
-        if (!model.joints.has_memory(contact.law))
-            energy.pending += normal - 0.5 * joint.normal_stiffness * contact.last_length * held;
-        energy.shear += 0.5 * point.shear_force * stretch;
-    }
-    return energy;
 }
 
 double residual(const EnergyLedger& ledger, const StoredEnergy& stored)

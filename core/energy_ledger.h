@@ -12,7 +12,7 @@ struct StoredEnergy
     double kinetic = 0.0;
     double elastic_normal = 0.0;
     double elastic_shear = 0.0;
-    double pending = 0.0;        ///< of elastic_normal, see SpringEnergy
+    double pending = 0.0;        ///< of elastic_normal, see SpringEnergies
     double one_step_fall = 0.0;  ///< kinetic energy that gravity and impulses give in one step, for scale
     [[nodiscard]] double total() const { return kinetic + elastic_normal + elastic_shear; }
 };
@@ -28,17 +28,15 @@ struct StoredEnergy
 /// Energy in the springs of one contact at the time of its last forces, 1/2 F u + 1/2 F_S^2 / (K_S L), whatever has moved since [J].
 [[nodiscard]] double held_energy(const Model& model, const Contact& contact);
 
-/// Energy in the springs of one contact, at the same half step [J]. Exact to second order in the rotation of a step, so stored_energy takes only the split
-/// into its terms from here.
-struct SpringEnergy
+/// Sums over closed force points [J].
+struct SpringEnergies
 {
-    double normal = 0.0;
-    double shear = 0.0;
-    /// normal less 1/2 K L u(t)+ u(t + dt)+, u+ = max(u, 0): not 0 only where the spring closes or opens (contact/closing.h).
+    double held = 0.0;  ///< as held_energy
+    double shear =
+        0.0;  ///< 1/2 F_S u_S at the same half step. Exact to second order in the rotation of a step, so only the split into terms is taken from here
+    /// 1/2 F_N u(t + dt) less 1/2 K L u(t)+ u(t + dt)+, u+ = max(u, 0): not 0 only where the spring closes or opens (contact/closing.h).
     double pending = 0.0;
-    [[nodiscard]] double total() const { return normal + shear; }
 };
-[[nodiscard]] SpringEnergy spring_energy(const Model& model, const Blocks& blocks, const Contact& contact);
 
 /// A force changes the velocity by half before and half after its time, so that its work in a cycle is exactly
 ///

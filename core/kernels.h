@@ -3,6 +3,7 @@
 ///
 ///     contact/contacts_by_four.cpp, contact/joint_points.cpp    laws of contacts, four at a time
 ///     contact/load_sums.cpp                                     forces on blocks
+///     contact/spring_energies.cpp                               energies of springs
 ///     motion/integrator_kernels.cpp                             velocities and positions
 ///     statics/front_kernels.cpp, statics/front_solve.cpp        dense part of the static solver's factorisation
 ///
@@ -10,6 +11,7 @@
 
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
+#include "core/energy_ledger.h"
 #include "core/motion/integrator.h"
 #include "core/statics/front.h"
 
@@ -26,6 +28,8 @@ struct Kernels
     /// RunningSums::add. block_of: the block whose sum takes a load, of `loads` one by one.
     void (*add_loads)(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
                       ContactLoads& kept);
+    /// Of stored_energy.
+    void (*add_spring_energies)(const Model& model, const Blocks& blocks, const Contacts& contacts, SpringEnergies& sums);
     /// update_velocities.
     void (*advance_velocities)(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
     /// update_positions.

@@ -5,6 +5,7 @@
 #include "core/contact/contacts_by_four.cpp"
 #include "core/contact/joint_points.cpp"
 #include "core/contact/load_sums.cpp"
+#include "core/contact/spring_energies.cpp"
 #include "core/motion/integrator_kernels.cpp"
 #include "core/statics/front_kernels.cpp"
 #include "core/statics/front_solve.cpp"

@@ -14,6 +14,7 @@ void sum_loads(IndexRange range, const Model& model, const BlockContacts& list, 
                const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
 void add_loads(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
                ContactLoads& kept);
+void add_spring_energies(const Model& model, const Blocks& blocks, const Contacts& contacts, SpringEnergies& sums);
 void advance_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
 Travel advance_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo);
 Index eliminate_diagonal(const Strip& strip, const double* smallest, double* factor);
@@ -22,8 +23,8 @@ void subtract_strip(const FrontShape& shape, Index strip, IndexRange panels, dou
 void substitute_forward(const FrontShape& shape, const double* factor, double* x);
 void substitute_backward(const FrontShape& shape, const double* factor, double* x);
 
-inline constexpr Kernels kernels_here{evaluate_by_four,   sum_loads,          add_loads,        advance_velocities,
-                                      advance_positions,  eliminate_diagonal, eliminate_panels, subtract_strip,
-                                      substitute_forward, substitute_backward};
+inline constexpr Kernels kernels_here{evaluate_by_four,   sum_loads,          add_loads,          add_spring_energies,
+                                      advance_velocities, advance_positions,  eliminate_diagonal, eliminate_panels,
+                                      subtract_strip,     substitute_forward, substitute_backward};
 }  // namespace HDEM_LANES
 }  // namespace hdem

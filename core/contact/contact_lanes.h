@@ -151,6 +151,14 @@ static_assert(std::endian::native == std::endian::little);
     std::memcpy(to, &bytes, sizeof bytes);
 }
 
+/// Points that bore a spring's force.
+[[nodiscard]] inline Mask are_springs(const std::uint8_t* regime)
+{
+    const WordLanes now = load_bytes(regime);
+    const auto is = [&](Regime one) { return now == byte_ones * static_cast<std::uint32_t>(one); };
+    return mask_of(WordLanes(is(Regime::stick) | is(Regime::slip)));
+}
+
 /// Points that were in the impulse regime.
 [[nodiscard]] inline Mask were_impulses(const std::uint8_t* regime, Mask)
 {

@@ -17,19 +17,26 @@ double kinetic_energy(const Model& model, const Blocks& blocks, Index block)
            0.5 * model.inertia[block] * motion.w * motion.w;
 }
 
-double reference_acceleration(Index block, const Model& model, const Vec2& load)
+namespace
 {
-    const double greatest = std::max(model.gravity.norm(), load.norm() / model.mass[block]);
-    return greatest > 0.0 ? greatest : earth_gravity;
-}
-
-double unbalance(Index block, const Model& model, const Blocks& blocks)
+/// Of the components that can move [N].
+double net_force(Index block, const Blocks& blocks)
 {
     const BlockInertia& inertia = blocks.inertia[block];
     const BlockForce& force = blocks.force[block];
-    const Vec2 net(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0);
-    const double moment = inertia.inverse_inertia > 0.0 ? std::abs(force.moment) : 0.0;
-    return (net.norm() + moment / model.radius[block]) / model.mass[block];
+    return Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0).norm();
+}
+
+double unbalance_with(double net_force, Index block, const Model& model, const Blocks& blocks)
+{
+    const double moment = blocks.inertia[block].inverse_inertia > 0.0 ? std::abs(blocks.force[block].moment) : 0.0;
+    return (net_force + moment / model.radius[block]) / model.mass[block];
+}
+}  // namespace
+
+double unbalance(Index block, const Model& model, const Blocks& blocks)
+{
+    return unbalance_with(net_force(block, blocks), block, model, blocks);
 }
 
 double clear_unbalance(Index block, const Model& model, const Blocks& blocks)
@@ -92,25 +99,24 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
 {
     const Blocks& blocks = state.blocks;
     std::vector<ForceSum> loads = loads_on(range, model, state);
+    const double gravity = model.gravity.norm();
     const bool only_standing = which == ConvergenceBlocks::standing;
     for (Index i = range.begin; i < range.end; ++i)
     {
         if (!blocks.is_free(i) || (only_standing && blocks.is_loose(i, model.convergence.loose_distance)))
             continue;
-        const BlockInertia& inertia = blocks.inertia[i];
-        const BlockForce& force = blocks.force[i];
         ForceSum& loaded = loads[i - range.begin];
-        const Vec2 load = loaded.net();
+        const double greatest = std::max(gravity, loaded.net().norm() / model.mass[i]);
+        const double scale = greatest > 0.0 ? greatest : earth_gravity;
         sums.kinetic_energy += kinetic_energy(model, blocks, i);
-        sums.unbalanced_force += Vec2(inertia.inverse_mass_x > 0.0 ? force.x : 0.0, inertia.inverse_mass_y > 0.0 ? force.y : 0.0)
-                                     .norm();
+        const double net = net_force(i, blocks);
+        sums.unbalanced_force += net;
         loaded.add(model.mass[i] * model.gravity);
         sums.applied_force += loaded.net().norm();
         sums.free_mass += model.mass[i];
         sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
-        const double scale = reference_acceleration(i, model, load);
         if (sums.unbalanced.block == no_index ||
-            unbalance(i, model, blocks) > scale * sums.unbalanced.value)  // the clear one is no greater
+            unbalance_with(net, i, model, blocks) > scale * sums.unbalanced.value)  // the clear one is no greater
             sums.unbalanced.add(clear_unbalance(i, model, blocks) / scale, i);
         sums.fastest.add(rim_speed(i, model, blocks), i);
     }

@@ -8,9 +8,6 @@ namespace hdem
 {
 inline constexpr double earth_gravity = 9.81;  ///< scale of forces where there is no gravity [m/s2]
 
-/// Scale of the forces on a block from outside, as an acceleration [m/s2]: the greater of gravity and `load` over mass; the earth's gravity if both are 0.
-[[nodiscard]] double reference_acceleration(Index block, const Model& model, const Vec2& load);
-
 /// Net force and moment on a block as an acceleration of its rim, by the components that can move [m/s2]. Impulses count as J / dt.
 [[nodiscard]] double unbalance(Index block, const Model& model, const Blocks& blocks);
 
@@ -46,8 +43,9 @@ struct Equilibrium
     double applied_force = 0.0;     ///< sum over blocks of the absolute sum of weight and loads of the last cycle [N]
     double free_mass = 0.0;         ///< [kg]
     double greatest_speed = 0.0;    ///< of a centroid [m/s]
-    Worst unbalanced;               ///< `clear_unbalance` over reference_acceleration [-]
-    Worst fastest;                  ///< rim_speed [m/s]
+    /// `clear_unbalance` over the greater of gravity and the block's loads over its mass; over the earth's gravity if both are 0 [-].
+    Worst unbalanced;
+    Worst fastest;  ///< rim_speed [m/s]
 
     /// Mean unbalanced force over mean applied force; without any applied force over the weight that the free blocks would have on earth.
     [[nodiscard]] double unbalanced_force_ratio() const

@@ -147,6 +147,12 @@ class Contacts
     {
         return has_memory ? memory_lane[i / lanes].point[end].opening[i % lanes] : 0.0;
     }
+    /// That the springs of a law with a memory held at the last forces [J].
+    [[nodiscard]] double held_energy(Index i) const
+    {
+        const auto& point = memory_lane[i / lanes].point;
+        return point[0].energy[i % lanes] + point[1].energy[i % lanes];
+    }
     [[nodiscard]] double& rest_overlap(int end, Index i) { return lane[i / lanes].rest_overlap[end][i % lanes]; }
     [[nodiscard]] double& normal_force(int end, Index i) { return lane[i / lanes].normal_force[end][i % lanes]; }
     [[nodiscard]] double& shear_force(int end, Index i) { return lane[i / lanes].shear_force[end][i % lanes]; }

@@ -55,7 +55,7 @@ void expect_same(const Pass& a, const Pass& b, const std::string& what)
     EXPECT_EQ(a.tally.slack, b.tally.slack) << what;
 }
 
-/// Forces on blocks and what they move by.
+/// Forces on blocks, what they move by, and energies of springs.
 void expect_same_motion(const CaseRun& run, const Pass& pass, const std::string& what)
 {
     const State& state = run.state();
@@ -78,6 +78,10 @@ void expect_same_motion(const CaseRun& run, const Pass& pass, const std::string&
     EXPECT_EQ(std::memcmp(&works[0], &works[1], sizeof works[0]), 0) << what;
     EXPECT_EQ(travel[0].way, travel[1].way) << what;
     EXPECT_EQ(travel[0].speed_squared, travel[1].speed_squared) << what;
+    SpringEnergies energies[2];
+    plain_kernels().add_spring_energies(run.model(), state.blocks, state.contacts, energies[0]);
+    kernels().add_spring_energies(run.model(), state.blocks, state.contacts, energies[1]);
+    EXPECT_EQ(std::memcmp(&energies[0], &energies[1], sizeof energies[0]), 0) << what;
 }
 
 Index expect_same_bits(const CaseRun& run, const std::string& what)
