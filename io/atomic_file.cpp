@@ -27,7 +27,7 @@ const char* advice(int error)
     case EACCES:
     case EPERM:
     case EROFS:
-        return "Give a folder that may be written with -o.";
+        return "Give a folder that may be written: with -o, or in the name of the file.";
     default:
         return "Check the disk, or write to another folder with -o.";
     }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace hdem
@@ -35,6 +36,14 @@ class CaseCheck
   protected:
     [[nodiscard]] bool given(const std::string& key) const { return source_.given(key); }
 
+    /// An entry of this kind has no name, or a wrong one: it may be the one that is meant.
+    [[nodiscard]] bool has_wrong_names(const std::string& what) const
+    {
+        static constexpr const char* kinds[] = {"excavation", "block", "stage", "fault", "history", "bolt", "liner"};
+        return std::ranges::any_of(kinds, [&](const char* kind)
+                                   { return what.find(kind) != std::string::npos && problems_.has_in_entries(kind, "name"); });
+    }
+
     /// Two keys of one table of which only one may be given; complains at the second.
     void exclude(const std::string& path, const std::string& object, const char* first, const char* second)
     {
@@ -46,7 +55,7 @@ class CaseCheck
     void check_reference(const std::string& key, const std::string& object, const std::string& name, const std::string& what,
                          const Names& known)
     {
-        if (known.contains(name))
+        if (known.contains(name) || has_wrong_names(what))
             return;
         const std::string near = did_you_mean(name, {known.begin(), known.end()});
         const std::string field = key.substr(key.rfind('.') + 1);

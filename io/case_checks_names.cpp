@@ -72,7 +72,8 @@ class NameCheck : public CaseCheck
             if (name.empty() || name == "*" || name == "." || name == ".." || name.size() > 200 || name.front() == ' ' ||
                 name.back() == ' ' || !plain)
                 problems_.add(key, object, said, "cannot be a name",
-                              "Choose 1 to 200 characters without ; and /, that do not start or end with a blank.");
+                              "Choose 1 to 200 characters without ;, / and line ends, that do not start or end with a blank; not "
+                              "*, . or .. alone.");
             else if (const auto [other, added] = taken.emplace(name, object); !added)
                 problems_.add(key, object, said, fmt::format("{} has this name already", other->second), "Choose another.");
         }

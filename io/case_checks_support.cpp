@@ -109,6 +109,8 @@ class SupportCheck : public CaseCheck
                                        {"shear_strength", false, false, true},
                                        {"active_length", false, false, true}};
         static constexpr const char* kinds[] = {"anchored", "grouted", "local"};
+        if (problems_.has(path + ".kind"))
+            return;  // which keys are right is not known
         const char* kind = kinds[static_cast<int>(bolt.kind)];
         for (const Key& key : keys)
         {

@@ -2,6 +2,7 @@
 #include "io/case_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -49,6 +50,16 @@ class UnitCheck : public CaseCheck
         if (density > 0.0 && (density < 500.0 || density > 2e3))
             problems_.warn("water.density", "[water]", fmt::format("density = {:.6g}", density), "water has 1000 kg/m3",
                            "Give it in kg/m3, not in t/m3 or kN/m3.");
+        const bool is_upright = def_.gravity.x() == 0.0 && def_.gravity.y() < 0.0;
+        const auto [lowest, highest] = heights_of_rock();
+        if (!def_.water.level || !is_upright || lowest > highest)
+            return;
+        const std::string said = fmt::format("level = {:.6g}", *def_.water.level);
+        if (*def_.water.level <= lowest)
+            problems_.warn("water.level", "[water]", said, "all rock lies above it: it presses on nothing",
+                           "Give the y of the water table in the axes of the model, not a depth.");
+        if (*def_.water.level > highest + 1000.0)
+            problems_.warn("water.level", "[water]", said, "more than a kilometre above all rock", "Give it in m.");
     }
 
     void check_joint(const JointDef& joint)
@@ -88,10 +99,23 @@ class UnitCheck : public CaseCheck
             problems_.warn(path + "yield", object, fmt::format("yield = {:.6g}", *bolt.yield),
                            fmt::format("a stress of {:.2g} MPa in the bar", 1e-6 * *bolt.yield / bolt.area),
                            "Give the force in N, not in kN.");
+        if (bolt.kind == BoltKind::grouted && bolt.bond_stiffness > 0.0 && bolt.bond_stiffness < 1e5)
+            problems_.warn(path + "bond_stiffness", object, fmt::format("bond_stiffness = {:.6g}", bolt.bond_stiffness),
+                           "grout has 1e7 to 1e10 N/m for a metre of bar", "Give it in N/m/m, not in MN or GN.");
+        if (bolt.kind == BoltKind::grouted && bolt.bond_strength > 0.0 && bolt.bond_strength < 2e3)
+            problems_.warn(path + "bond_strength", object, fmt::format("bond_strength = {:.6g}", bolt.bond_strength),
+                           "grout has 1e5 to 1e6 N for a metre of bar", "Give it in N/m, not in kN/m.");
     }
+
+    static constexpr const char* small_stress = "less than a centimetre of rock weighs";
+    [[nodiscard]] static bool is_small_stress(double stress) { return stress > 0.0 && stress < 200.0; }
 
     void check_liner(const LinerDef& liner, const std::string& path)
     {
+        if (liner.compressive_strength && *liner.compressive_strength > 0.0 && *liner.compressive_strength < 1e5)
+            problems_.warn(path + "compressive_strength", fmt::format("liner \"{}\"", printable(liner.name)),
+                           fmt::format("compressive_strength = {:.6g}", *liner.compressive_strength), "shotcrete has 1e7 to 6e7 Pa",
+                           "Give it in Pa, not in MPa.");
         if (liner.modulus > 0.0 && liner.modulus < 1e8)
             problems_.warn(path + "modulus", fmt::format("liner \"{}\"", printable(liner.name)),
                            fmt::format("modulus = {:.6g}", liner.modulus), "concrete has 1e10 to 4e10 Pa, steel 2e11 Pa",
@@ -101,28 +125,39 @@ class UnitCheck : public CaseCheck
     /// In [insitu] compression is negative, at a boundary positive: a sign that is easily mistaken.
     void check_boundary(const BoundaryDef& boundary, const std::string& path)
     {
-        const bool presses = def_.insitu.stress && def_.insitu.stress->xx < 0.0 && def_.insitu.stress->yy < 0.0;
-        if (boundary.kind == BoundaryKind::stress && boundary.stress && boundary.stress->x() < 0.0 && presses)
-            problems_.warn(path + "stress", fmt::format("boundary \"{}\"", printable(boundary.name)),
-                           fmt::format("stress = [{:.4g}, {:.4g}]", boundary.stress->x(), boundary.stress->y()),
-                           "it pulls at rock that is under compression",
-                           "Compression is positive here, though it is negative in [insitu].");
+        const std::string object = fmt::format("boundary \"{}\"", printable(boundary.name));
+        if (boundary.kind == BoundaryKind::stress && boundary.stress)
+        {
+            const Vec2& stress = *boundary.stress;
+            const std::string said = fmt::format("stress = [{:.4g}, {:.4g}]", stress.x(), stress.y());
+            if (stress.x() < 0.0)
+                problems_.warn(path + "stress", object, said, "it pulls at the rock",
+                               "Compression is positive here, though it is negative in [insitu].");
+            else if (is_small_stress(stress.norm()) && boundary.stress_gradient.isZero(0.0))
+                problems_.warn(path + "stress", object, said, small_stress, "Give it in Pa, not in MPa.");
+        }
+        if (boundary.kind == BoundaryKind::servo && is_small_stress(boundary.target))
+            problems_.warn(path + "target", object, fmt::format("target = {:.4g}", boundary.target), small_stress,
+                           "Give it in Pa, not in MPa.");
     }
 
-    [[nodiscard]] double lowest_rock() const
+    /// Lowest and highest y of what the case gives; the lowest above the highest where it gives nothing.
+    [[nodiscard]] std::array<double, 2> heights_of_rock() const
     {
-        double lowest = std::numeric_limits<double>::infinity();
-        const auto add = [&](const Polygon& polygon)
-        {
-            for (const Vec2& v : polygon)
-                lowest = std::min(lowest, v.y());
-        };
+        constexpr double endless = std::numeric_limits<double>::infinity();
+        std::array<double, 2> range{endless, -endless};
+        const auto add = [&](double y) { range = {std::min(range[0], y), std::max(range[1], y)}; };
         if (def_.domain.given && def_.domain.polygon.empty())
-            lowest = def_.domain.origin.y();
-        add(def_.domain.polygon);
+        {
+            add(def_.domain.origin.y());
+            add(def_.domain.origin.y() + def_.domain.height);
+        }
+        for (const Vec2& v : def_.domain.polygon)
+            add(v.y());
         for (const BlockDef& block : def_.blocks)
-            add(block.polygon);
-        return lowest;
+            for (const Vec2& v : block.polygon)
+                add(v.y());
+        return range;
     }
 
     void check_insitu()
@@ -133,7 +168,7 @@ class UnitCheck : public CaseCheck
                 "insitu.stress", "[insitu]",
                 fmt::format("stress = [{:.4g}, {:.4g}, {:.4g}]", insitu.stress->xx, insitu.stress->yy, insitu.stress->xy),
                 "tension in all directions", "Compression is negative here.");
-        if (insitu.surface && *insitu.surface <= lowest_rock())
+        if (insitu.surface && *insitu.surface <= heights_of_rock()[0])
             problems_.warn("insitu.surface", "[insitu]", fmt::format("surface = {:.6g}", *insitu.surface),
                            "all rock lies above it: there is no stress anywhere",
                            "Give the y of the ground in the axes of the model, not a depth.");

@@ -128,6 +128,8 @@ std::string write(TomlNode& document, const std::vector<Step>& steps, TomlNode v
         const bool absent_list = section != nullptr && section->kind == SectionKind::array && node->find(name) == nullptr;
         if (absent_list && steps.size() > 1)
             return fmt::format("the case has no [[{}]]", name);
+        if (index && node->find(name) == nullptr)
+            return fmt::format("the case gives no {}: set all of it, not one of its numbers", printable(name));
         node = &member(*node, name, at);
         if (index)
         {

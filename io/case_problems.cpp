@@ -139,6 +139,15 @@ void CaseProblems::warn(const std::string& key, const std::string& object, const
         problems_.push_back({Problem::Severity::warning, key, fmt::format("{}: {} ({}). {}", object, said, why, remedy)});
 }
 
+bool CaseProblems::has_in_entries(const std::string& section, const std::string& key) const
+{
+    const std::string start = section + "[", end = "]." + key;
+    for (auto found = keys_.lower_bound(start); found != keys_.end() && found->starts_with(start); ++found)
+        if (found->ends_with(end) && found->find(']') == found->size() - end.size())
+            return true;
+    return false;
+}
+
 std::vector<Problem> CaseProblems::errors() const
 {
     std::vector<Problem> result;

@@ -26,6 +26,8 @@ class CaseProblems
     void expect_instead(const std::string& key) { keys_.insert(key); }
 
     [[nodiscard]] bool has(const std::string& key) const { return keys_.contains(key); }
+    /// Of any entry of a list of tables: has_in_entries("stage", "name") asks for stage[0].name, stage[1].name and so on.
+    [[nodiscard]] bool has_in_entries(const std::string& section, const std::string& key) const;
     [[nodiscard]] std::vector<Problem> errors() const;
     [[nodiscard]] std::vector<Problem> warnings() const;
 

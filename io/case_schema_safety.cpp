@@ -12,7 +12,8 @@ constexpr const char* about =
     "strength of every law is divided (cohesion, tan φ, tension, residual values, the whole envelope of curved laws); dilation, "
     "stiffness, in-situ stress and the forces of water do not change. Each trial begins from the same state of rest under great "
     "strength, and uses springs and quasi-static damping whatever the case's method. A trial is stable when the rock comes to rest "
-    "and no block has moved farther than `displacement`. It has failed when a block has moved farther and does not slow down.";
+    "and no block has moved farther than `displacement`. It has failed when a block has moved farther and does not slow down, or "
+    "has come to rest farther off.";
 
 void assign_displacement(void* object, const TomlNode& value, const KeySpec&)
 {
@@ -28,7 +29,8 @@ SectionSpec factor_of_safety_section()
     KeySpec displacement = spec(
         {.name = "displacement",
          .unit = "m",
-         .effect = "A block that moves farther than this in a trial, and does not slow down, has failed. `\"auto\"`: 0.02 of the "
+         .effect = "A block that moves farther than this in a trial, and does not slow down, has failed; so has one that comes to "
+                   "rest farther off: where bolts or steps stop blocks, this limit decides the factor. `\"auto\"`: 0.02 of the "
                    "block's size (root of its area), at least ten times the elastic deformation of its joints and four times the "
                    "stretch that its bolts still need to yield.",
          .example = "0.1",

@@ -92,7 +92,7 @@ void check_version(const Hdf5Reader& file, const std::string& name)
 
 /// Calls `read`; whatever it finds wrong with the file becomes an error of the input.
 template <typename Read>
-auto checked(const Read& read)
+auto checked(const std::filesystem::path& file, const Read& read)
 {
     try
     {
@@ -100,9 +100,12 @@ auto checked(const Read& read)
     }
     catch (const RunError& error)
     {
-        throw InputError(Problem{.key = {},
-                                 .text = std::string(error.what()) +
-                                         " Give another checkpoint, e.g. checkpoint.previous.h5 of the same folder."});
+        const std::filesystem::path previous = previous_checkpoint_file(file.parent_path());
+        const bool has_other = previous.filename() != file.filename() && std::filesystem::exists(previous);
+        throw InputError(
+            Problem{.key = {},
+                    .text = std::string(error.what()) + (has_other ? " Give another checkpoint: " + previous.string() + "."
+                                                                   : " Give another checkpoint, or begin the run anew.")});
     }
 }
 }  // namespace
@@ -132,22 +135,23 @@ void write_checkpoint(const std::filesystem::path& folder, const RunRecord& reco
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& file)
-    : file_(checked([&] { return Hdf5Reader(file); })),
+    : file_(checked(file, [&] { return Hdf5Reader(file); })),
       name_(file.string())
 {
-    checked(
-        [&]
-        {
-            check_version(file_, name_);
-            record_ = read_record(file_);
-            model_hash_ = file_.attribute<std::uint64_t>("/", "model_hash", {}).front();
-            cycle_ = file_.attribute<std::int64_t>("/state", "cycle", {}).front();
-        });
+    checked(file,
+            [&]
+            {
+                check_version(file_, name_);
+                record_ = read_record(file_);
+                model_hash_ = file_.attribute<std::uint64_t>("/", "model_hash", {}).front();
+                cycle_ = file_.attribute<std::int64_t>("/state", "cycle", {}).front();
+            });
 }
 
 State CheckpointReader::state(Model& model) const
 {
     return checked(
+        name_,
         [&]
         {
             if (model_hash(model) != model_hash_)

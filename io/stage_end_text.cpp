@@ -166,6 +166,12 @@ ReadStageEnd read_stage_end(const std::string& text)
     Parts parts;
     const bool fits = split(text, parts);
     const Known* const known = fits ? find_known(parts.quantity) : nullptr;
+    if (fits && parts.quantity == "converged")
+    {
+        read.why = "converged takes no limit and no time: its criteria are those of [convergence]";
+        read.remedy = "Write \"converged\", and give convergence.hold_time.";
+        return read;
+    }
     if (known == nullptr)
     {
         read.why = fits ? fmt::format("no end of a stage is called {}", parts.quantity) : "is no end of a stage";
@@ -212,7 +218,7 @@ max_cycles = 200000
 | `... within W for T s` | all values of displacement, speed or a history in this time lie within a band of width W; a value outside begins a new band |
 | `time > T`, `cycles > N` | the stage has lasted so long |
 
-- `for T s` or `for N cycles` may follow each of them but the last: it must then hold for so long at every check. Checks are at multiples of convergence.check_every cycles.
+- `for T s` or `for N cycles` may follow each of them but the first and the last: it must then hold for so long at every check. Checks are at multiples of convergence.check_every cycles.
 - Rock that settles meets `speed <`, `unbalanced_force_ratio <`, `within` and `quiet`. These wait, as `converged` does, until loads, sides, `set_cycles` and pressures behind liners
   no longer change, the forces of `relax_cycles` are gone, and convergence.least_cycles have passed. The others do not wait; what still changes is named at the end.
 - A stage that waits for motion only (`displacement >`, `speed >`, `history`) also ends when [convergence] holds, no load changes and no motion is prescribed: nothing can happen any more.

@@ -157,6 +157,8 @@ class StageJoints
         CaseDef again;
         CaseProblems problems;
         read_again_(document_, again, problems);
+        if (!keeps_what_bears(stage, again.joints))
+            return;
         take_over_case(stage, problems.errors(), changes);
         if (located_.empty())
             take_joints(stage, again.joints);
@@ -180,19 +182,28 @@ class StageJoints
         return def_.materials;
     }
 
+    /// Told first: what else a new law needs does not matter.
+    bool keeps_what_bears(std::size_t stage, const std::vector<JointDef>& joints)
+    {
+        const std::vector<JointDef>& before = joints_before(stage);
+        for (std::size_t j = 0; j < joints.size(); ++j)
+            if (const std::string stays = changed_for_good(before[j], joints[j]); !stays.empty())
+            {
+                fail(stage, fmt::format("joint.{}.{} = ...", joints[j].name, stays), "contacts bear by it already",
+                     fmt::format("Give it in [joint.{}]; a stage may change other numbers of the law.", joints[j].name));
+                return false;
+            }
+        return true;
+    }
+
     void take_joints(std::size_t stage, const std::vector<JointDef>& joints)
     {
         const std::vector<JointDef>& before = joints_before(stage);
         for (std::size_t j = 0; j < joints.size(); ++j)
         {
             const JointDef &was = before[j], &is = joints[j];
-            const std::string stays = changed_for_good(was, is);
-            if (!stays.empty())
-                return fail(stage, fmt::format("joint.{}.{} = ...", is.name, stays), "contacts bear by it already",
-                            "Change numbers of the law only.");
             if (needs_memory(was) != needs_memory(is))
-                return fail(stage, fmt::format("joint.{}. ...", is.name),
-                            "the joint has no memory of slip and breaking before this stage",
+                return fail(stage, "joint." + is.name, "the joint has no memory of slip and breaking before this stage",
                             "Give residual_cohesion in [joint." + is.name + "] too, so that it has one from the start.");
             const std::string at_once = changed_at_once(was, is);
             if (sets_over_time(def_.stages[stage]) && !at_once.empty())

@@ -100,6 +100,13 @@ ConditionResult run_to_condition(Simulation& simulation, const FailureCondition&
     const std::vector<StageResult> stages = run_stages(simulation, observers, &keeper);
     ConditionResult result = watch.result();
     result.met_ends = result.fails || std::ranges::all_of(stages, &StageResult::met_end);
+    const StageResult& last = stages.back();
+    const State& state = simulation.state();
+    if (!result.fails && last.met_end() && !last.at_rest)
+        for (const Index block : simulation.model().slot_of_user)
+            if (watch.asks_for(simulation.model().user_number[block]) && state.blocks.is_free(block) &&
+                !is_supported(block, simulation.model(), state))
+                (last.sought_rest ? result.still_moves : result.ends_moving) = true;
     for (const StageResult& stage : stages)
         result.still_moves = result.still_moves ||
                              (!result.fails && !stage.met_end() &&

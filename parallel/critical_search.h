@@ -29,8 +29,10 @@ struct ConditionResult
     double greatest = 0.0;  ///< of the quantity
     std::string block;      ///< that has it
     std::int64_t cycles = 0;
-    bool met_ends = true;      ///< false: a stage ended at its max_cycles
-    bool still_moves = false;  ///< one of the blocks in question was not at rest there: it may be on its way to the limit
+    bool met_ends = true;  ///< false: a stage ended at its max_cycles
+    /// A stage that sought rest ended without it, and one of the blocks in question was not at rest: it may be on its way to the limit.
+    bool still_moves = false;
+    bool ends_moving = false;  ///< the same where the last stage sought no rest
     bool was_stopped = false;  ///< by the stop token: no answer
 };
 

@@ -158,7 +158,8 @@ class TrialRun
             return end(TrialEnd::stable, "at rest");
         trial_.failing = {far.block};
         end(TrialEnd::failed, "block " + name(far.block) + " moved " + with_digits("%.3g", far.moved) +
-                                  " m before it came to rest, more than " + with_digits("%.3g", far.limit) + " m");
+                                  " m before it came to rest, more than " + with_digits("%.3g", far.limit) +
+                                  " m (factor_of_safety.displacement)");
     }
 
     const TrialRule& rule_;

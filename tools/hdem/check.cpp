@@ -9,6 +9,7 @@
 #include "parallel/simulation.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
+#include "tools/hdem/patience.h"
 #include "tools/hdem/run_report.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace hdem
 {
@@ -107,9 +109,13 @@ int check_command(const CheckOptions& options)
     std::vector<Override> overrides;
     for (const std::string& text : options.overrides)
         overrides.push_back(parse_override(text));
+    std::optional<Patience> patience(
+        std::in_place,
+        Patience::Settings{.work = "the case is read and its model built", .begin = Patience::Clock::now(), .max_wall = {}});
     const LoadedCase loaded = load_case(options.case_file, overrides);
     Simulation simulation(loaded.setup.model, loaded.setup.state);
     const std::vector<Problem> problems = simulation.find_problems();
+    patience.reset();
     const Model& model = simulation.model();
     const State& state = simulation.state();
 

@@ -26,6 +26,14 @@ namespace
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+std::vector<Override> overrides_of(const CriticalOptions& options)
+{
+    std::vector<Override> overrides;
+    for (const std::string& text : options.overrides)
+        overrides.push_back(parse_override(text));
+    return overrides;
+}
+
 struct Run
 {
     double at = 0.0;
@@ -83,16 +91,21 @@ class Critical
     /// Of runs that were too short.
     [[nodiscard]] std::vector<std::string> warnings() const
     {
-        std::vector<std::string> moving, others;
+        std::vector<std::string> moving, ends_moving, others;
         for (const Run& run : counted_)
-            if (!run.result.met_ends)
-                (run.result.still_moves ? moving : others).push_back(fmt::format("{:.6g}", run.at));
+            if (const ConditionResult& r = run.result; !r.met_ends || r.still_moves || r.ends_moving)
+                (r.still_moves ? moving : (r.met_ends ? ends_moving : others)).push_back(fmt::format("{:.6g}", run.at));
         std::vector<std::string> warnings;
         if (!moving.empty())
+            warnings.push_back(fmt::format(
+                "a stage that seeks rest ended while a block in question was not at rest, and the run counts as "
+                "one that fails, at {} = {}. Give more max_cycles; leave out ends that come before the limit of --fails.",
+                vary_.key, fmt::join(moving, ", ")));
+        if (!ends_moving.empty())
             warnings.push_back(
-                fmt::format("max_cycles ended a stage while a block in question was not at rest, and the run counts as "
-                            "one that fails, at {} = {}. Give more max_cycles.",
-                            vary_.key, fmt::join(moving, ", ")));
+                fmt::format("the last stage ended while a block in question still moved, and the run counts as one that stands, at "
+                            "{} = {}. Give more time, or until = \"converged\", if the block may still pass the limit.",
+                            vary_.key, fmt::join(ends_moving, ", ")));
         if (!others.empty())
             warnings.push_back(
                 fmt::format("max_cycles ended a stage before it met its end, and the run counts as one that stands, since "
@@ -151,12 +164,11 @@ class Critical
                           .block = known->value("block", ""),
                           .cycles = known->value("cycles", std::int64_t{0}),
                           .met_ends = known->value("met_ends", true),
-                          .still_moves = known->value("still_moves", false)};
+                          .still_moves = known->value("still_moves", false),
+                          .ends_moving = known->value("ends_moving", false)};
         else
         {
-            std::vector<Override> overrides;
-            for (const std::string& text : options_.overrides)
-                overrides.push_back(parse_override(text));
+            std::vector<Override> overrides = overrides_of(options_);
             overrides.push_back({vary_.key, fmt::format("{:.17g}", x)});
             LoadedCase loaded = load_case(options_.case_file, overrides);
             Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state), threads_.for_share(threads));
@@ -182,7 +194,8 @@ class Critical
                        {"block", run.result.block},
                        {"cycles", run.result.cycles},
                        {"met_ends", run.result.met_ends},
-                       {"still_moves", run.result.still_moves}});
+                       {"still_moves", run.result.still_moves},
+                       {"ends_moving", run.result.ends_moving}});
         }
         const std::lock_guard lock(mutex_);
         ended_[x] = run;
@@ -222,11 +235,17 @@ class Critical
     std::vector<Run> counted_;
 };
 
+/// A key of whole numbers, as a seed, is refused before the ends of the range are run.
+void try_value_between(const CriticalOptions& options, const Vary& vary)
+{
+    std::vector<Override> overrides = overrides_of(options);
+    overrides.push_back({vary.key, fmt::format("{:.6g}", vary.low + 0.381966 * (vary.high - vary.low))});
+    static_cast<void>(read_case_file(options.case_file, overrides));
+}
+
 std::string question_of(const CriticalOptions& options)
 {
-    std::vector<Override> overrides;
-    for (const std::string& text : options.overrides)
-        overrides.push_back(parse_override(text));
+    const std::vector<Override> overrides = overrides_of(options);
     const CaseFile file = read_case_file(options.case_file, overrides);
     std::string sum = file.source.text() + fmt::format("\n{}\n{}\n{}", fmt::join(options.overrides, "\n"),
                                                        options.vary.substr(0, options.vary.find('=')), options.fails);
@@ -243,6 +262,7 @@ int critical_command(const CriticalOptions& options)
         refuse(fmt::format("--tolerance {}: (is not below the width of the range, {}: nothing would be looked for). Give less.",
                            *options.tolerance, vary.high - vary.low));
     const FailureCondition condition = parse_condition(options.fails);
+    try_value_between(options, vary);
     const std::string question = question_of(options);
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
                                                    : fs::path(options.folder);

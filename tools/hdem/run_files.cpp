@@ -30,7 +30,7 @@ std::unique_ptr<Log> begin_log(const RunStart& start, const RunOptions& options)
 {
     const std::vector<std::string> notes = clear_for_run(start, options.overwrite);
     auto log = std::make_unique<Log>(start.folder / "run.log", options.quiet,
-                                     start.restarted ? Log::Begin::behind_the_last_run : Log::Begin::anew);
+                                     start.restarted && !start.moved ? Log::Begin::behind_the_last_run : Log::Begin::anew);
     for (const std::string& note : notes)
         log->line(note);
     return log;

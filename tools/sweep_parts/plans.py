@@ -1,6 +1,7 @@
 """The plan of a sweep: which values each run has."""
 import itertools
 import json
+import math
 import random
 import subprocess
 from decimal import Decimal, InvalidOperation
@@ -73,16 +74,32 @@ def bisection(options):
     return {"bisect": {"key": key, "low": low, "high": high, "tolerance": options.tolerance, "fails": options.fails}}
 
 
+MOST_TEXTS = 50    # of one key that are tried; each costs a check
+
+
+def as_number(value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return None
+    return number if math.isfinite(number) else None
+
+
 def extremes(keys, rows):
-    """Numbers of the first run and of those in which a key has its least or its greatest value: a value out of range is among them."""
-    numbers = {0}
+    """Numbers of the first run and of those in which a key has its least or its greatest number, or a text for the first time: a wrong value is among them."""
+    tried = {0}
     for place, _ in enumerate(keys):
-        try:
-            column = [float(row[place]) for row in rows]
-        except (TypeError, ValueError):
-            continue
-        numbers |= {column.index(min(column)), column.index(max(column))}
-    return sorted(numbers)
+        values = [(as_number(row[place]), index) for index, row in enumerate(rows)]
+        numbers = [(value, index) for value, index in values if value is not None]
+        if numbers:
+            least, greatest = min(value for value, _ in numbers), max(value for value, _ in numbers)
+            tried |= {next(index for value, index in numbers if value == one) for one in (least, greatest)}
+        texts = {}
+        for value, index in values:
+            if value is None:
+                texts.setdefault(str(rows[index][place]), index)
+        tried |= set(list(texts.values())[:MOST_TEXTS])
+    return sorted(tried)
 
 
 def try_run(options, number, values):

@@ -83,7 +83,7 @@ class Faults(unittest.TestCase):
             folder.chmod(0o555)
             _, message = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 1, message)
-        self.assertRegex(message, r"error: .*: cannot be written \(Permission denied\)\. Give a folder that may be written with -o\.")
+        self.assertRegex(message, r"error: .*: cannot be written \(Permission denied\)\. Give a folder that may be written: with -o")
         self.assertEqual(run_folder.broken_files(folder), [])
         again = subprocess.run([program, "run", "--restart", folder], capture_output=True, text=True, check=False, **user)
         self.assertEqual(again.returncode, 1, again.stdout)

@@ -50,6 +50,8 @@ TEST(CaseWarnings, WarnsOfNumbersThatAreMeantInAnotherUnit)
 {
     const std::string bolt = two_blocks + "[[bolt]]\nfrom = [0.5, 0.5]\nto = [0.5, -0.5]\n";
     const std::string stress = two_blocks + "[insitu]\n", water = two_blocks + "[water]\nlevel = 0\n";
+    const std::string side = two_blocks + "[domain]\nwidth = 5\nheight = 5\norigin = [20, 20]\n[[boundary]]\nside = \"top\"\n";
+    const std::string grouted = bolt + "kind = \"grouted\"\narea = 4.9e-4\n";
     struct Slip
     {
         std::string text, says;
@@ -73,7 +75,17 @@ TEST(CaseWarnings, WarnsOfNumbersThatAreMeantInAnotherUnit)
          "liner \"liner1\": modulus = 25 (concrete has"},
         {stress + "stress = [-1e6, -2e6, 0]\n" + "[domain]\nwidth = 5\nheight = 5\norigin = [20, 20]\n" +
              "[[boundary]]\nside = \"top\"\nkind = \"stress\"\nstress = [-2e6, 0]\n",
-         "boundary \"boundary1\": stress = [-2e+06, 0] (it pulls at rock that is under compression). Compression is positive here"},
+         "boundary \"boundary1\": stress = [-2e+06, 0] (it pulls at the rock). Compression is positive here"},
+        {side + "kind = \"stress\"\nstress = [-1, 0]\n", "stress = [-1, 0] (it pulls at the rock)"},
+        {side + "kind = \"stress\"\nstress = [5, 0]\n", "stress = [5, 0] (less than a centimetre of rock weighs). Give it in Pa"},
+        {side + "kind = \"servo\"\ntarget = 2\n", "target = 2 (less than"},
+        {two_blocks + "[[liner]]\npath = [[0, 0], [1, 0]]\nthickness = 0.2\nmodulus = 25e9\nnormal_stiffness = 1e10\n"
+                      "compressive_strength = 30\n",
+         "compressive_strength = 30 (shotcrete has"},
+        {grouted + "bond_stiffness = 10\nbond_strength = 3e5\n", "bond_stiffness = 10 (grout has"},
+        {grouted + "bond_stiffness = 1e9\nbond_strength = 300\n", "bond_strength = 300 (grout has"},
+        {with(water, "level = 0", "level = 1e6"), "17:9: warning: [water]: level = 1e+06 (more than a kilometre above"},
+        {with(water, "level = 0", "level = -100"), "level = -100 (all rock lies above it"},
         {stress + "stress = [1e6, 2e6, 0]\n", "17:10: warning: [insitu]: stress = [1e+06, 2e+06, 0] (tension in all directions"},
         {stress + "surface = -150\nratio = 0.7\n", "17:11: warning: [insitu]: surface = -150 (all rock lies above it"},
         {stress + "surface = 150\nratio = 70\n", "18:9: warning: [insitu]: ratio = 70 ("},
@@ -88,6 +100,9 @@ TEST(CaseWarnings, WarnsOfNumbersThatAreMeantInAnotherUnit)
                                  bolt + "area = 4.9e-4\nyield = 2e5\n",
                                  stress + "stress = [-1e6, 1e5, 0]\n",
                                  stress + "surface = 150\nratio = 3\n",
+                                 side + "kind = \"stress\"\nstress = [1e6, 0]\n",
+                                 grouted + "bond_stiffness = 1e9\nbond_strength = 3e5\n",
+                                 with(water, "level = 0", "level = 400"),
                                  water + "density = 1030\n"};
     for (const std::string& text : meant)
         EXPECT_EQ(warnings(text), "") << text;

@@ -73,6 +73,8 @@ TEST(StageEndText, SaysWhatIsWrong)
                  {"displacement > 1 m", "is no end of a stage"},
                  {"displacement within 1", "for how long"},
                  {"displacement > nan", "is no end of a stage"},
+                 {"converged for 0.1 s", "takes no limit and no time"},
+                 {"converged > 1", "takes no limit and no time"},
                  {"velocity > 1", "no end of a stage is called velocity"},
                  {"time < 1", "time only grows"},
                  {"unbalanced_force_ratio > 1", "it is great when the stage begins"},

@@ -221,11 +221,30 @@ until = "converged"
         short = [trial["value"] for trial in found["trials"] if not trial["met_ends"]]
         self.assertLess(found["critical"], 40.1, "slow slabs had no time, and are no proof that the slope stands")
         self.assertTrue(short and all(trial["verdict"] == "undecided" and trial["fails"] for trial in found["trials"] if not trial["met_ends"]), found["trials"])
-        self.assertIn("warning: max_cycles ended a stage while a block in question was not at rest", text)
+        self.assertIn("warning: a stage that seeks rest ended while a block in question was not at rest", text)
         self.assertIn(f"{short[0]:.6g}", found["warnings"][0])
         self.assertEqual(hdem(*arguments, "--set", "stage[0].max_cycles=1200"), text, "also of trials that are remembered")
         hdem(*arguments)
         self.assertEqual(json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))["warnings"], [])
+
+    def test_critical_says_which_runs_ended_while_a_block_moved(self):
+        """A stage may end before the limit is reached: by another end, or by its cycles."""
+        arguments = ("critical", CASES / "slab.toml", "--vary", "gravity.tilt_deg=20:60", "-o", self.folder, "--overwrite")
+        hdem(*arguments, "--fails", "displacement:slab>0.205", "--set", 'stage[0].until=["converged", "displacement:slab > 0.2"]')
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(found["critical"], 40.0, delta=0.2)
+        self.assertIn("a stage that seeks rest ended while a block in question was not at rest", found["warnings"][0])
+        case = self.folder.parent / "timed.toml"
+        case.write_text((CASES / "slab.toml").read_text(encoding="utf-8").split("[[stage]]")[0] + "[[stage]]\nduration = 0.3\n", encoding="utf-8")
+        hdem("critical", case, *arguments[2:], "--fails", "displacement:slab>0.1")
+        found = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.assertGreater(found["critical"], 41.0, "it slides too slowly")
+        self.assertRegex(found["warnings"][0], "the last stage ended while a block in question still moved, and the run counts as one that stands, at gravity.tilt_deg = 4")
+
+    def test_critical_refuses_whole_numbers_before_it_runs(self):
+        text = hdem("critical", CASES / "slab.toml", "--vary", "generator.seed=1:2", "--fails", "displacement:slab>0.1", "-o", self.folder, code=2)
+        self.assertIn("whole number", text)
+        self.assertFalse((self.folder / "trials.json").exists())
 
     def test_critical_tilt_of_a_column_by_its_rotation(self):
         for tilts, answer_deg in (("0:40", 14.036), ("-40:0", -14.036)):    # arc tan 1/4

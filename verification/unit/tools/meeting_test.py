@@ -246,6 +246,16 @@ class WhileAModelIsBuilt(InAFolder):
         self.assertIn("the case is read and its model built: 2 s", said)
         self.assertIn("--max-wall: the time was over while the case is read", said)
 
+    def test_check_says_on_a_terminal_how_long_it_takes(self):
+        screen, terminal = os.openpty()
+        with subprocess.Popen([HDEM, "check", self.case], cwd=self.root, stdout=subprocess.DEVNULL, stderr=terminal) as program:
+            time.sleep(4)
+            program.kill()
+        os.close(terminal)
+        said = os.read(screen, 100000).decode()
+        os.close(screen)
+        self.assertIn("the case is read and its model built: 2 s", said)
+
     def test_a_signal_ends_it(self):
         program = self.start(self.case, "-o", self.root / "out")
         time.sleep(0.5)

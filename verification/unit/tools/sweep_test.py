@@ -175,6 +175,10 @@ class Sweep(unittest.TestCase):
         code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "joint.default.cohesion=3,2,-1,4", "--program", HDEM)
         self.assertEqual(code, 2, "the least of the values: " + said)
         self.assertIn("hdem refuses run 3:\nerror: --set joint.default.cohesion=-1", said)
+        for varied, wrong in (("joint.default.cohesion=0,abc,1e4", "cohesion=abc"), ("contact.method=force,hybird,hybrid", "method=hybird")):
+            code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", varied, "--program", HDEM)
+            self.assertEqual(code, 2, "each text once: " + said)
+            self.assertRegex(said, f"hdem refuses run 2:\nerror: --set [a-z.]*{wrong}")
         code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", "generator.sed=1:3", "--program", "nowhere")
         self.assertEqual(code, 0, "planned where hdem is not: " + said)
 
