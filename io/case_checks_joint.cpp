@@ -212,6 +212,31 @@ std::string key_that_breaks(const JointDef& joint)
     return joint.tension && *joint.tension > 0.0 && joint.residual_tension.value_or(0.0) < *joint.tension ? "tension" : "";
 }
 
+/// Without cohesion, strength grows with the stress, and a point that slips under the smallest weight falls to its residual friction for good.
+bool breaks_without_stress(const JointDef& joint)
+{
+    return joint.law == JointLaw::coulomb && joint.initially != JointStart::broken && joint.cohesion == 0.0 &&
+           joint.residual_friction_angle_deg && *joint.residual_friction_angle_deg < joint.friction_angle_deg;
+}
+
+/// While springs swing for the first time, shear and normal forces are not in the ratio in which rest has them, however slowly the weight grows.
+void warn_of_joints_that_break_without_stress(const CaseDef& def, CaseProblems& problems)
+{
+    if (def.gravity.norm() == 0.0)
+        return;
+    for (const StageDef* stage : stages_with_empty_springs(def))
+        for (const JointDef& joint : def.joints)
+            if (breaks_without_stress(joint) && ends_at_rest(*stage) && stage->set.empty())
+                problems.warn(
+                    fmt::format("joint.{}.residual_friction_angle_deg", joint.name),
+                    fmt::format("joint \"{}\"", printable(joint.name)), "residual_friction_angle_deg",
+                    fmt::format("holds for good where a point slips, and stage \"{}\" begins without stress: in the first "
+                                "swings points may slip that bear at rest, also while relax_cycles lets the weight grow",
+                                printable(stage->name)),
+                    "Begin with residual_friction_angle_deg = friction_angle_deg, and set the lower one in a later stage; "
+                    "or give [insitu].");
+}
+
 /// A weight that acts at once is felt up to 1 + sqrt((1 - alpha) / (1 + alpha)) times: 1.33 at alpha = 0.8. What breaks then stays broken.
 void warn_of_joints_that_break_at_once(const CaseDef& def, CaseProblems& problems)
 {
@@ -239,6 +264,7 @@ void check_joint_keys(const CaseDef& def, const CaseSource& source, CaseProblems
     for (const JointDef& joint : def.joints)
         JointCheck(def, source, problems, joint).check();
     warn_of_joints_that_break_at_once(def, problems);
+    warn_of_joints_that_break_without_stress(def, problems);
     const auto remembers = std::ranges::find_if(def.joints, needs_memory);
     for (std::size_t i = 0; i < def.stages.size() && remembers != def.joints.end(); ++i)
         if (asks_for_statics(def.stages[i]))

@@ -146,6 +146,12 @@ class SupportCheck : public CaseCheck
         if (bolt.yield && bolt.pretension > *bolt.yield)
             problems_.add(path + ".pretension", object, fmt::format("pretension = {}", bolt.pretension),
                           fmt::format("is above yield = {}", *bolt.yield), "Give less, or a stronger bolt.");
+        const double strain = bolt.area > 0.0 ? bolt.pretension / (bolt.modulus * bolt.area) : 0.0;
+        if (bolt.rupture_strain && strain >= *bolt.rupture_strain)
+            problems_.add(
+                path + ".pretension", object, fmt::format("pretension = {}", bolt.pretension),
+                fmt::format("strains the bar by {:.3g}, and it ruptures at rupture_strain = {}", strain, *bolt.rupture_strain),
+                "Give less, or a greater rupture_strain.");
     }
 
     void check_statics()

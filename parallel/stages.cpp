@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace hdem
 {
@@ -62,6 +63,15 @@ std::optional<StaticResult> static_result(const Model& model, const State& state
     return result;
 }
 
+/// When a stage ends.
+std::vector<std::string> what_goes_on(const Model& model, const State& state, bool at_rest)
+{
+    std::vector<std::string> all = changes_to_come(model, state);
+    if (at_rest)
+        std::ranges::move(motions_that_go_on(model, state), std::back_inserter(all));
+    return all;
+}
+
 class StageRunner
 {
   public:
@@ -100,7 +110,7 @@ class StageRunner
         result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (broken_off_)
             return result;
-        result.to_come = changes_to_come(simulation_.model(), state);
+        result.to_come = what_goes_on(simulation_.model(), state, result.at_rest);
         if (result.cycles >= least_cycles_checked || def_ == &simulation_.model().stages.back())
             simulation_.check_state();
         if (result.sought_rest && !result.met_end())
@@ -235,7 +245,7 @@ std::vector<StageResult> earlier_results(const Model& model, const State& state)
                            .ended_by = outcome.ended_by,
                            .value = outcome.value,
                            .time = outcome.time,
-                           .to_come = changes_to_come(model, then),
+                           .to_come = what_goes_on(model, then, outcome.at_rest),
                            .not_at_rest = blocks_of_stage(state.not_at_rest, stage),
                            .statics = static_result(model, state, stage)});
         begin += outcome.cycles;

@@ -188,6 +188,27 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
     return found;
 }
 
+std::vector<std::string> motions_that_go_on(const Model& model, const State& state)
+{
+    std::vector<std::string> found;
+    for (const Load& load : model.loads)
+    {
+        const std::int64_t since = cycles_since(load.factor.since, state);
+        const bool acts = since >= load.from && since <= load.until && !has_faded(load.factor, model, state);
+        const bool moves = load.velocity_x.value_or(0.0) != 0.0 || load.velocity_y.value_or(0.0) != 0.0 ||
+                           load.angular_velocity.value_or(0.0) != 0.0;
+        if (acts && moves)
+            found.push_back("load \"" + load.name + "\" moves its blocks on");
+    }
+    for (const Boundary& boundary : model.boundaries)
+        if (boundary.acts(state.stage) && boundary.kind == BoundaryKind::velocity && !boundary.velocity.isZero(0.0) &&
+            !has_faded(boundary.factor, model, state))
+            found.push_back("boundary \"" + boundary.name + "\" moves on");
+    if (model.is_driven)
+        found.emplace_back("fixed blocks move on with their velocity");
+    return found;
+}
+
 bool do_tractions_change(const Model& model, const State& state)
 {
     Changes changes(model, state);

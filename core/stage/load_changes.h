@@ -24,6 +24,10 @@ namespace hdem
 /// @param state  of the stage's last cycle; only its cycles and stages are read
 [[nodiscard]] std::vector<std::string> changes_to_come(const Model& model, const State& state);
 
+/// Prescribed motions that go on when a stage has come to rest, each as text: forces may still grow by them.
+/// @param state  as for changes_to_come
+[[nodiscard]] std::vector<std::string> motions_that_go_on(const Model& model, const State& state);
+
 /// Do tractions on sides change in the running stage from now on?
 [[nodiscard]] bool do_tractions_change(const Model& model, const State& state);
 

@@ -103,10 +103,11 @@ std::vector<std::string> fos_warnings(const FosOutcome& outcome, const Moment& r
                                        "once breaks more than one that grows: give the first stage relax_cycles, or give [insitu].",
                                        broken));
     if (!outcome.gave_way.empty() && outcome.def.begin == FactorStart::last_stage && f.as_given.stands && *f.as_given.stands > 1.0)
-        warnings.push_back(
-            "they fell by their own strength, but stand at a factor above 1 where the rock first comes to rest under great "
-            "strength: what "
-            "holds them depends on how the stress gets there. Count on less than 1, or let the stage relax slowly (relax_cycles).");
+        warnings.push_back("they did not come to rest by their own strength, but stand at a factor above 1 where the rock first "
+                           "comes to rest under "
+                           "great strength: what holds them depends on how the stress gets there, or the stage was too short. "
+                           "Count on less than 1, "
+                           "or let the stage relax slowly (relax_cycles) and give it more max_cycles.");
     if (const Trial* const first = f.first_failure(); first != nullptr && first->end == TrialEnd::undecided)
         warnings.push_back(
             fmt::format("the trial at F = {:.4f} is undecided and counts as failed ({}).", first->factor, first->reason));

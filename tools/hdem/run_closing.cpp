@@ -113,7 +113,7 @@ std::vector<std::string> stage_table(const RunSummary& s, const Model& model)
             end += fmt::format(" ({:.5g})", *stage.end_value);
         if (!stage.met_end)
             end += ": none of its ends was met";
-        const bool is_over = i + 1 == s.stages.size() && stage.at_rest && stage.to_come.empty() && !model.is_driven &&
+        const bool is_over = i + 1 == s.stages.size() && stage.at_rest && stage.to_come.empty() &&
                              model.convergence.blocks == ConvergenceBlocks::all;
         if (stage.ended_by == "at rest" || is_over)
             end += ": no load changes, nothing more can happen";

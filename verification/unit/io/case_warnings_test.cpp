@@ -151,6 +151,23 @@ TEST(CaseWarnings, WarnsOfJointsThatAWeightBreaksThatActsAtOnce)
     EXPECT_EQ(warnings(with(two_blocks, "= 30.0\n", "= 30.0\ncohesion = 1e5\ntension = 3e4\n")), "");
 }
 
+/// In the first swings the ratio of shear to normal force is not that of rest, at however small a weight.
+TEST(CaseWarnings, WarnsOfResidualFrictionThatBeginsWithoutStress)
+{
+    const std::string rest = with(two_blocks, "cycles = 10", "until = \"converged\"");
+    const auto joint = [&](const std::string& keys) { return with(rest, "= 30.0\n", "= 30.0\n" + keys); };
+    const std::string lower = joint("residual_friction_angle_deg = 20\n");
+    for (const char* more : {"", "relax_cycles = 5000\n"})
+        EXPECT_THAT(warnings(lower + more),
+                    testing::HasSubstr("joint \"default\": residual_friction_angle_deg (holds for good where a point slips"));
+    EXPECT_EQ(warnings(joint("residual_friction_angle_deg = 30\n")), "");
+    EXPECT_EQ(warnings(joint("residual_friction_angle_deg = 20\ncohesion = 1e4\n")), "");
+    EXPECT_EQ(warnings(lower + "[insitu]\nstress = [-1e6, -1e6, 0]\n"), "");
+    EXPECT_EQ(warnings(with(two_blocks, "= 30.0\n", "= 30.0\nresidual_friction_angle_deg = 20\n")), "") << "a stage of cycles";
+    const std::string later = "[[stage]]\nset = [\"joint.default.residual_friction_angle_deg=20\"]\nuntil = \"converged\"\n";
+    EXPECT_EQ(warnings(joint("residual_friction_angle_deg = 30\n") + later), "");
+}
+
 TEST(CaseWarnings, WarnsAboutAShareOfTheStableStepThatNoStageTakes)
 {
     const auto warnings = [](const std::string& stage, const std::string& more = "")

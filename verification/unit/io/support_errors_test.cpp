@@ -42,6 +42,8 @@ TEST(SupportErrors, TellWhatIsWrongAndWhatToDo)
     expect_one_problem(anchored + "area = 1e-4\nplate = true\n", "18:9: bolt \"bolt1\": plate", "does not belong to kind anchored");
     expect_one_problem(anchored + "area = 1e-4\nyield = 1e4\npretension = 2e4\n", "19:14: bolt \"bolt1\": pretension",
                        "above yield");
+    expect_one_problem(anchored + "area = 1e-4\npretension = 1e5\nrupture_strain = 0.004\n", "18:14: bolt \"bolt1\": pretension",
+                       "strains the bar by 0.005");
     expect_one_problem("[[bolt]]\nfrom = [1.0, 1.0]\narea = 1e-4\n", "14:1: bolt \"bolt1\": to", "is missing");
     expect_one_problem("[[bolt]]\naround = \"shaft\"\nlength = 2.0\nalong = 1.0\narea = 1e-4\n", "15:10: bolt \"bolt1\": around",
                        "shaft");

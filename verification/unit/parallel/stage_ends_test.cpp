@@ -204,6 +204,26 @@ TEST(StageEnds, SayWhatIsStillToCome)
     EXPECT_THAT(results[1].to_come, ElementsAre("load \"load2\" begins in cycle 500", "load \"load3\" changes until cycle 220"));
 }
 
+/// The criteria of rest know nothing of what a block that moves on will meet.
+TEST(StageEnds, AtRestSayWhichMotionsGoOn)
+{
+    const auto to_come = [](const CaseDef& scene) { return run_all(scene)[0].to_come; };
+    CaseDef scene = scenes::block_on_ground();
+    scenes::add_fixed_block(scene, "pusher", scenes::rectangle({-2.0, 0.0}, {-1.0, 1.0}));
+    scene.stages = {{.name = "rest", .until_converged = true}};
+    EXPECT_THAT(to_come(scene), IsEmpty());
+    scene.loads = {{.name = "push", .blocks = {"pusher"}, .velocity_x = 1e-4}};
+    EXPECT_THAT(to_come(scene), ElementsAre("load \"push\" moves its blocks on"));
+    scene.loads[0].velocity_x = 0.0;
+    EXPECT_THAT(to_come(scene), IsEmpty()) << "it holds them";
+    scene.loads[0].velocity_x = 1e-4;
+    scene.loads[0].interval = {.until_cycle = 50};
+    EXPECT_THAT(to_come(scene), IsEmpty());
+    scene.loads = {};
+    scene.blocks.back().velocity = {1e-4, 0.0};
+    EXPECT_THAT(to_come(scene), ElementsAre("fixed blocks move on with their velocity"));
+}
+
 TEST(StageEnds, AreTheSameOnAnyNumberOfThreads)
 {
     CaseDef scene = scenes::joints(12.0, 12.0, 1.0, 3.0);
