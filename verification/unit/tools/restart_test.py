@@ -135,6 +135,26 @@ class Restart(unittest.TestCase):
         self.assertEqual(run_folder.run(HDEM, self.case, "-o", folder, "--overwrite").returncode, 0)
         self.assertEqual(run_folder.run(HDEM, self.case, "-o", folder).returncode, 0, "a finished one may be replaced")
 
+    def test_in_a_folder_of_another_run_the_log_begins_anew(self):
+        cut, other = self.root / "cut", self.root / "other"
+        run_folder.run(HDEM, self.case, "-o", cut, "--max-wall", "0.1s")
+        run_folder.run(HDEM, self.case, "-o", other, "--set", "stage[1].cycles=7")
+        done = run_folder.run(HDEM, "--restart", cut / "checkpoint.h5", "-o", other)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        log = (other / "run.log").read_text(encoding="utf-8")
+        self.assertNotIn("stage[1].cycles=7", log)
+        self.assertEqual(log.count("state hash"), 1, log)
+
+    def test_advice_names_a_checkpoint_that_is_there(self):
+        alone = self.root / "alone"
+        alone.mkdir()
+        (alone / "checkpoint.h5").write_bytes(b"no checkpoint")
+        said = run_folder.run(HDEM, "--restart", alone / "checkpoint.h5", "-o", self.root / "never").stderr
+        self.assertIn("Give another checkpoint, or begin the run anew.", said)
+        (alone / "checkpoint.previous.h5").write_bytes(b"nor this")
+        said = run_folder.run(HDEM, "--restart", alone / "checkpoint.h5", "-o", self.root / "never").stderr
+        self.assertIn(f"Give another checkpoint: {alone / 'checkpoint.previous.h5'}.", said)
+
     def test_a_damaged_checkpoint_gives_way_to_the_one_before(self):
         folder, program = self.begin("damaged", "--set", "output.checkpoint_every=100", "--quiet")
         while not (folder / "checkpoint.previous.h5").exists():
