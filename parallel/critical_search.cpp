@@ -100,17 +100,15 @@ ConditionResult run_to_condition(Simulation& simulation, const FailureCondition&
     const std::vector<StageResult> stages = run_stages(simulation, observers, &keeper);
     ConditionResult result = watch.result();
     result.met_ends = result.fails || std::ranges::all_of(stages, &StageResult::met_end);
+    const auto is_one_in_question = [&](const std::vector<Index>& users)
+    { return std::ranges::any_of(users, [&](Index user) { return watch.asks_for(user); }); };
     const StageResult& last = stages.back();
-    const State& state = simulation.state();
-    if (!result.fails && last.met_end() && !last.at_rest)
-        for (const Index block : simulation.model().slot_of_user)
-            if (watch.asks_for(simulation.model().user_number[block]) && state.blocks.is_free(block) &&
-                !is_supported(block, simulation.model(), state))
-                (last.sought_rest ? result.still_moves : result.ends_moving) = true;
+    const bool ends_otherwise = !result.fails && last.met_end() && !last.at_rest;
+    const bool moves = ends_otherwise && is_one_in_question(blocks_not_at_rest(simulation));
+    result.ends_moving = moves && !last.sought_rest;
+    result.still_moves = moves && last.sought_rest;
     for (const StageResult& stage : stages)
-        result.still_moves = result.still_moves ||
-                             (!result.fails && !stage.met_end() &&
-                              std::ranges::any_of(stage.not_at_rest, [&](Index user) { return watch.asks_for(user); }));
+        result.still_moves = result.still_moves || (!result.fails && !stage.met_end() && is_one_in_question(stage.not_at_rest));
     result.cycles = simulation.state().cycle;
     result.was_stopped = stop.stop_requested() && !result.fails;
     return result;

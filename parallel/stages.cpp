@@ -114,7 +114,7 @@ class StageRunner
         if (result.cycles >= least_cycles_checked || def_ == &simulation_.model().stages.back())
             simulation_.check_state();
         if (result.sought_rest && !result.met_end())
-            result.not_at_rest = moving_blocks();
+            result.not_at_rest = blocks_not_at_rest(simulation_);
         for (Observer* const observer : observers_)
             observer->end_stage(simulation_.model(), state);
         return result;
@@ -189,16 +189,6 @@ class StageRunner
         return are_forces_released(simulation_.model(), state) || state.cycle < steady_from(simulation_.model(), state);
     }
 
-    /// The user's numbers, ascending.
-    [[nodiscard]] std::vector<Index> moving_blocks() const
-    {
-        std::vector<Index> moving;
-        for (const Index block : simulation_.model().slot_of_user)
-            if (simulation_.state().blocks.is_free(block) && !is_supported(block, simulation_.model(), simulation_.state()))
-                moving.push_back(simulation_.model().user_number[block]);
-        return moving;
-    }
-
     [[nodiscard]] std::int64_t next_stop(std::int64_t now) const
     {
         const ConvergenceDef& criteria = simulation_.model().convergence;
@@ -263,6 +253,16 @@ StageOutcome outcome_of(const StageResult& result)
             .time = result.time};
 }
 }  // namespace
+
+std::vector<Index> blocks_not_at_rest(const Simulation& simulation)
+{
+    const Model& model = simulation.model();
+    std::vector<Index> moving;
+    for (const Index block : model.slot_of_user)
+        if (simulation.state().blocks.is_free(block) && !is_supported(block, model, simulation.state()))
+            moving.push_back(model.user_number[block]);
+    return moving;
+}
 
 std::vector<StageResult> run_stages(Simulation& simulation, std::span<Observer* const> observers, Keeper* keeper,
                                     const StagePart& part)

@@ -50,6 +50,9 @@ struct StageResult
     std::optional<StaticResult> statics;
 };
 
+/// Free blocks that are not supported now: the user's numbers, ascending.
+[[nodiscard]] std::vector<Index> blocks_not_at_rest(const Simulation& simulation);
+
 /// Which stages a call runs.
 struct StagePart
 {
