@@ -66,7 +66,7 @@ struct BartonBandis
         greatest_roughness,  ///< greatest i [rad]
         peak_displacement,   ///< delta_p [m]
         per_displacement,    ///< 1 / delta_p [1/m]
-        damage,              ///< 1 / M
+        per_damage,          ///< 1 / M
         scaled_roughness,    ///< JRC_n, for reports
         strength_share       ///< 1; under strength reduction by F 1/F: tau_max is multiplied by it
     };
@@ -110,7 +110,7 @@ struct BartonBandis
         n[log_strength] = log(in.wall_strength * power(scale, -0.03 * in.roughness));
         n[greatest_roughness] = radians(70.0) - n[residual_friction];
         n[peak_displacement] = in.length / 500.0 * power(n[scaled_roughness] / in.length, 0.33);
-        n[damage] = 1.0 / in.damage;
+        n[per_damage] = 1.0 / in.damage;
         n[strength_share] = 1.0;
         n[shear_stiffness] = max(in.shear_stiffness, steepest(n, in.normal_stress));
         return with_inverses(n);
@@ -132,7 +132,7 @@ struct BartonBandis
         double most = 0.0;
         for (int k = 0; k < 3; ++k)
         {
-            const double t = tan(friction_angle(n, end[k], i)), dilation = tan(mobilised(end[k]) * i * n[damage]);
+            const double t = tan(friction_angle(n, end[k], i)), dilation = tan(mobilised(end[k]) * i * n[per_damage]);
             most = max(most, normal * slope[k] * (1.0 + t * t) / (n[peak_displacement] * (1.0 - dilation / t)));
         }
         return most;
@@ -142,7 +142,7 @@ struct BartonBandis
     template <typename R>
     [[nodiscard]] static R dilation_between(const BasicJointNumbers<R>& n, R from, R to, R i)
     {
-        return tan(mobilised(R(0.5) * (from + to) * n[per_displacement]) * i * n[damage]);
+        return tan(mobilised(R(0.5) * (from + to) * n[per_displacement]) * i * n[per_damage]);
     }
 
     /// dw/du_p over the same step. Under constant stress, the share 1 - (d tau_max/d delta) / K_S of d delta is slip. Dilation takes no more work than slip gives.

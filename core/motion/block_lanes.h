@@ -13,6 +13,8 @@
 
 namespace hdem
 {
+inline namespace HDEM_LANES
+{
 /// Run `work(first, count)` for groups of four of `range`; the last may have fewer. For full groups `count` is a compile-time constant, so that its tests vanish.
 template <typename Work>
 void for_groups(IndexRange range, const Work& work)
@@ -120,4 +122,5 @@ struct JointColumns
         p.v[i] = from[i];
     return p;
 }
+}  // namespace HDEM_LANES
 }  // namespace hdem

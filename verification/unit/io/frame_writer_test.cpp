@@ -18,7 +18,6 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
 
-constexpr Index ground = 0;
 constexpr Index l = 1;
 constexpr Index block = 2;
 

@@ -135,7 +135,7 @@ TEST(BartonBandis, OpensAsFarBetweenStiffWalls)
             {
                 const double x = (k + 0.5) / fine * end / peak;
                 const double i = BartonBandis::roughness_angle(n, stiffness * (closure + opening));
-                opening += std::tan(BartonBandis::mobilised(x) * i * n[BartonBandis::damage]) * end / fine;
+                opening += std::tan(BartonBandis::mobilised(x) * i * n[BartonBandis::per_damage]) * end / fine;
             }
             const double normal = stiffness * (closure + opening);
             shear = normal * std::tan(BartonBandis::friction_angle(n, end / peak, BartonBandis::roughness_angle(n, normal)));
