@@ -23,7 +23,7 @@ bool falls(Report& report, const Variant& variant, int pieces, double cohesion)
                                                       set("blocks_file", fmt::format("walls{}.wkt", pieces)),
                                                       {"load[0].blocks", '[' + names + ']'},
                                                       set("joint.default.cohesion", cohesion)});
-    // A thousandth of the weight too little lets it fall with at least 0.2 of a thousandth of g: 4 mm/s after 2 s.
+    // A thousandth of the weight too little lets it fall with at least 0.2 of a thousandth of g: 1 mm/s after 0.5 s.
     return run.column("block.velocity_y").back() < -1e-4;
 }
 
