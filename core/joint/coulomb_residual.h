@@ -142,7 +142,8 @@ struct CoulombResidual
         const R closure = step.closure + w;
         const BasicCurvePoint<R> whole = Curve::at(n, closure);
         const R peak = max(n[cohesion] + n[friction] * whole.stress, zero);
-        const auto pulled = whole.stress<-n[tension], sheared = magnitude(trial)> peak;
+        const auto pulled = whole.stress < -n[tension];
+        const auto sheared = magnitude(trial) > peak;
         const auto breaks = intact & (pulled | sheared);
         const auto weak = breaks | !intact;
         const BasicCurvePoint<R> rest = torn(n, closure, whole);
