@@ -97,6 +97,8 @@ void MovingGroups::take_joint(Index contact, bool outside, Group& group, const C
         }
         const double normal = contacts.normal_force(end, contact), shear = contacts.shear_force(end, contact);
         const double load = normal * normal + shear * shear;
+        const EdgeTouch touch = ties.touch(contact);
+        slides_.push_back({load, false, touch.ex, touch.ey});
         if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
         {
             group.load = load;
@@ -105,11 +107,38 @@ void MovingGroups::take_joint(Index contact, bool outside, Group& group, const C
     }
 }
 
+/// A block that slides on its springs hops: a joint that is hardly open closes again soon.
+void MovingGroups::take_gap(Index contact, const ContactTies& ties)
+{
+    constexpr double hardly = 1e-3;  // of the distance from the centroid
+    const EdgeTouch touch = ties.touch(contact);
+    const auto is_near = [](const TouchPoint& p)
+    { return p.overlap * std::abs(p.overlap) > -hardly * hardly * (p.ref_t * p.ref_t + p.ref_m * p.ref_m); };
+    if (touch.length > 0.0 && (is_near(touch.point[0]) || is_near(touch.point[1])))
+        slides_.push_back({0.0, true, touch.ex, touch.ey});
+}
+
+/// Do joints lead in another direction than the most loaded one? Those count that bear a good part of its load, or are hardly open.
+bool MovingGroups::have_directions(const Group& group, const ContactTies& ties) const
+{
+    constexpr double least_sine = 0.1, least_share = 0.05;
+    if (group.contact == no_index)
+        return false;
+    const EdgeTouch main = ties.touch(group.contact);
+    return std::ranges::any_of(slides_,
+                               [&](const Slide& s)
+                               {
+                                   return (s.is_gap || s.load > least_share * least_share * group.load) &&
+                                          std::abs(main.ex * s.along_y - main.ey * s.along_x) > least_sine;
+                               });
+}
+
 /// All that moves together with a member that is not held, and the joint on which they slide.
 void MovingGroups::gather(Index member, const ContactTies& ties)
 {
     const auto number = static_cast<Index>(groups_.size());
     Group group;
+    slides_.clear();
     members_[member].group = number;
     queue_.assign(1, member);
     while (!queue_.empty())
@@ -119,18 +148,27 @@ void MovingGroups::gather(Index member, const ContactTies& ties)
         ties.for_contacts(now.block,
                           [&](Index contact, Index next)
                           {
-                              if (!ties.do_touch(contact))
-                                  return;
-                              now.touches = true;
                               const Index other = place_[next];
+                              if (!ties.do_touch(contact))
+                              {
+                                  if (other == no_index)
+                                      take_gap(contact, ties);
+                                  return;
+                              }
+                              now.touches = true;
                               take_joint(contact, other == no_index, group, ties);
-                              if (other == no_index || members_[other].group != no_index || !ties.are_together(contact))
+                              if (other == no_index || !ties.are_together(contact))
+                                  return;
+                              const auto& regime = ties.contacts.regime;
+                              group.turns = group.turns || (regime[0][contact] == 0) != (regime[1][contact] == 0);
+                              if (members_[other].group != no_index)
                                   return;
                               members_[other].group = number;
                               group.is_alone = false;
                               queue_.push_back(other);
                           });
     }
+    group.turns = group.contact != no_index && (group.turns || have_directions(group, ties));
     groups_.push_back(group);
 }
 
@@ -202,7 +240,7 @@ MovingBlock MovingGroups::motion_of(const Member& member, const ContactTies& tie
     if (member.tips)
         return {member.block, FreeMotion::tips, 1.0F, 0.0F};
     const Index contact = groups_[member.group].contact;
-    const bool slides = contact != no_index;
+    const bool slides = contact != no_index && !groups_[member.group].turns;
     const EdgeTouch touch = slides ? ties.touch(contact) : EdgeTouch();
     const FreeMotion how = !member.touched ? FreeMotion::flies : (slides ? FreeMotion::slides : FreeMotion::tips);
     return {member.block, how, static_cast<float>(touch.ex), static_cast<float>(touch.ey)};
@@ -224,6 +262,8 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         member.touched = member.touched || member.held;
     flood<&Member::touched>(ties, [&](Index contact) { return ties.do_touch(contact); });
     find_groups(ties);
+    for (Group& group : groups_)
+        group.turns = group.turns && !rule.seeks_rest;
     find_tipping(model, rule, ties);
     before_.swap(moving);
     moving.clear();
@@ -232,7 +272,7 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         if (member.held || !member.touches)
             return false;  // (what touches nothing is not damped in any case)
         const Group& group = groups_[member.group];
-        return !member.touched || group.rides || (!group.is_alone && group.contact != no_index);
+        return !member.touched || group.rides || group.turns || (!group.is_alone && group.contact != no_index);
     };
     for (const Member& member : members_)
         if (member.tips || is_free(member))

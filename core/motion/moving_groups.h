@@ -21,9 +21,11 @@ namespace hdem
 ///
 ///   that touch nothing outside of the group        are not damped
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
+///   the same, if they must turn as they slide      are not damped, but where rest is sought
 ///   others                                         as each block by itself
 ///
-/// Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
+/// A group must turn if these joints have several directions (a bar that slides down between two planes), or if its members hold each other in one point (two slabs
+/// that lean on each other): then it moves across each of the joints, too. Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
 /// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
 /// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor are, but where rest is sought, a group that tips so and a block
@@ -63,6 +65,13 @@ class MovingGroups
         Index contact = no_index;
         bool rides = false;    ///< slides on a fast block
         bool is_alone = true;  ///< it has one member
+        bool turns = false;    ///< it must, as it slides
+    };
+    struct Slide
+    {
+        double load = 0.0;                    ///< squared [N2]
+        bool is_gap = false;                  ///< it is open, but hardly
+        double along_x = 1.0, along_y = 0.0;  ///< direction of the joint [-]
     };
     void take_members(const std::vector<Index>& fast, Index blocks);
     void look_outside(const ContactTies& ties);
@@ -73,13 +82,16 @@ class MovingGroups
     void find_tipping(const Model& model, const GroupRule& rule, const ContactTies& ties);
     [[nodiscard]] bool gather_together(const ContactTies& ties, std::vector<Index>& group);
     void gather(Index member, const ContactTies& ties);
-    static void take_joint(Index contact, bool outside, Group& group, const ContactTies& ties);
+    void take_joint(Index contact, bool outside, Group& group, const ContactTies& ties);
+    void take_gap(Index contact, const ContactTies& ties);
+    [[nodiscard]] bool have_directions(const Group& group, const ContactTies& ties) const;
     [[nodiscard]] MovingBlock motion_of(const Member& member, const ContactTies& ties) const;
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;
     std::vector<Group> groups_;
-    std::vector<Index> queue_;  ///< members
+    std::vector<Slide> slides_;  ///< joints to the outside of the group that is gathered
+    std::vector<Index> queue_;   ///< members
     std::vector<MovingBlock> before_;
     DraggedBlocks dragged_;
 };

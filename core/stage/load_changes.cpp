@@ -169,7 +169,12 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
                 found.push_back(name + " begins in cycle " + std::to_string(later(zero_of(load.factor, state), load.from)));
         }
         else
+        {
             add_factor(name, load.factor);
+            const bool ends = load.from < load.until && load.until < std::numeric_limits<std::int64_t>::max();
+            if (is_last && ends && since >= 0)
+                found.push_back(name + " ends in cycle " + std::to_string(later(zero_of(load.factor, state), load.until)));
+        }
     }
     for (const Boundary& boundary : model.boundaries)
         if (boundary.acts(state.stage))

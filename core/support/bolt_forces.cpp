@@ -1,5 +1,6 @@
 #include "core/support/bolt_forces.h"
 
+#include "core/motion/damping.h"
 #include "core/support/bolt_link.h"
 #include "core/support/bolt_memory.h"
 #include "core/support/grouted_bolt.h"
@@ -239,6 +240,8 @@ void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Block
         if (push.block < range.begin || push.block >= range.end || !(push.reserve > 0.0) || !(pull > 0.0))
             continue;
         BlockForce& on = blocks.force[push.block];
+        if (on.mobilised > static_cast<float>(sliding_from))
+            continue;
         on.reserve += push.reserve;
         const bool joints_hold = on.mobilised >= 0.0F || (on.contacts & contact_impulse) != 0;
         if (on.contacts != 0 && joints_hold)

@@ -30,7 +30,7 @@ void pull_bolts(const Model& model, State& state, double damping, std::vector<Bl
 void clear_bolt_forces(const std::vector<BlockPush>& pushes, const std::vector<Triple>& constant, std::vector<Triple>& external);
 void add_bolt_forces(const std::vector<BlockPush>& pushes, std::vector<Triple>& external);
 
-/// Let bolts count in the damping of the blocks of `range`: their reserve adds to that of joints. A block that hangs on bolts alone, though it may touch others,
+/// Let bolts count in the damping of the blocks of `range`: their reserve adds to that of joints, but not while a joint slides. A block that hangs on bolts alone, though it may touch others,
 /// counts as held by springs along the first bolt that pulls; else it would swing for ever. Blocks whose bolts are at their strength are not held: they
 /// fall as they would without damping.
 void hold_by_bolts(const std::vector<BlockPush>& pushes, IndexRange range, Blocks& blocks);

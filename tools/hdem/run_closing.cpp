@@ -91,7 +91,7 @@ std::string outcome_word(const RunSummary& s)
     const auto any = [&](bool StageSummary::*is) { return std::ranges::any_of(s.stages, is); };
     if (!s.met_ends)
         return any(&StageSummary::sought_end) ? "NOT at its ends" : "NOT converged";
-    return any(&StageSummary::sought_rest) && s.converged ? "converged" : "done";
+    return !s.stages.empty() && s.stages.back().sought_rest && s.converged ? "converged" : "done";
 }
 
 /// How each stage ended. With many of them only the first and the last.

@@ -198,10 +198,12 @@ TEST(StageEnds, SayWhatIsStillToCome)
          .blocks = {"block"},
          .force = {1.0, 0.0},
          .interval = {.until_cycle = 50},
-         .factor = {.ramp_cycles = Vec2(0.0, 900.0)}}};
+         .factor = {.ramp_cycles = Vec2(0.0, 900.0)}},
+        {.name = "load5", .blocks = {"block"}, .force = {1.0, 0.0}, .interval = {.until_cycle = 700}}};
     const std::vector<StageResult> results = run_all(scene);
     EXPECT_THAT(results[0].to_come, ElementsAre("load \"load1\" changes until cycle 150"));
-    EXPECT_THAT(results[1].to_come, ElementsAre("load \"load2\" begins in cycle 500", "load \"load3\" changes until cycle 220"));
+    EXPECT_THAT(results[1].to_come, ElementsAre("load \"load2\" begins in cycle 500", "load \"load3\" changes until cycle 220",
+                                                "load \"load5\" ends in cycle 700"));
 }
 
 /// The criteria of rest know nothing of what a block that moves on will meet.

@@ -217,6 +217,63 @@ TEST_P(MovingGroup, OfTwoThatSlideOnEachOtherKeepsItsMomentum)
     }
 }
 
+/// A bar slides down between two planes and turns.
+CaseDef bar_between_planes()
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.joints[0].friction_angle_deg = 2.0;
+    const auto turned_by = [](double angle_deg, const Vec2& at) -> Vec2
+    {
+        const double a = angle_deg * std::numbers::pi / 180.0;
+        return {std::cos(a) * at.x() - std::sin(a) * at.y(), std::sin(a) * at.x() + std::cos(a) * at.y()};
+    };
+    const auto plane = [&](const char* name, double angle, double along, double below)
+    {
+        std::vector<Vec2> corners;
+        for (const Vec2& at : {Vec2(0.0, 0.0), Vec2(along, 0.0), Vec2(along, below), Vec2(0.0, below)})
+            corners.push_back(turned_by(angle, at));
+        scenes::add_fixed_block(scene, name, corners);
+    };
+    plane("left", 135.0, 12.0, 3.0);
+    plane("right", 12.0, 12.0, -3.0);
+    const Vec2 from(-2.0, 2.0), to(2.0, 2.0 * std::tan(12.0 * std::numbers::pi / 180.0));
+    const Vec2 along = (to - from).normalized(), up(-0.4 * along.y(), 0.4 * along.x());
+    scenes::add_block(scene, "mover", {from, to, to + up, from + up});
+    return scene;
+}
+
+/// Two slabs lean on each other; their feet slide apart.
+CaseDef leaning_slabs()
+{
+    CaseDef scene = scenes::empty_scene();
+    scene.joints[0].friction_angle_deg = 11.1;
+    scenes::add_fixed_block(scene, "floor", rectangle({-12.0, -1.0}, {12.0, 0.0}));
+    const double top = 2.0 * std::numbers::sqrt3, outer = 2.0 + 0.8 / std::numbers::sqrt3;
+    scenes::add_block(scene, "mover", {{-2.0, 0.0}, {0.0, top}, {0.0, top + 0.8}, {-outer, 0.0}});
+    scenes::add_block(scene, "other", {{2.0, 0.0}, {outer, 0.0}, {0.0, top + 0.8}, {0.0, top}});
+    return scene;
+}
+
+/// No joint alone holds a block that must turn as it slides: it moves as undamped.
+TEST_P(MovingGroup, ThatTurnsAsItSlidesMovesAsUndamped)
+{
+    const auto way = [&](CaseDef scene, DampingPreset preset, double angle)
+    {
+        scene.contact.method = GetParam();
+        scene.damping.preset = preset;
+        CaseRun run(scenes::turned(scene, angle));
+        run_for(run, 1.0);
+        return run.displacement("mover").norm();
+    };
+    for (const CaseDef& scene : {bar_between_planes(), leaning_slabs()})
+        for (const double angle : {0.0, 37.0})
+        {
+            const double free = way(scene, DampingPreset::dynamic, angle);
+            EXPECT_GT(free, 0.09);
+            EXPECT_NEAR(way(scene, DampingPreset::automatic, angle), free, 0.13 * free) << angle;
+        }
+}
+
 /// A stone is thrown onto a slab, which it drags along until both have the same speed; then both slide on.
 /// @param pieces  of the slab, one behind the other: the stone stays on the first, which pushes the others
 CaseDef thrown_onto_slab(Method method, const std::vector<double>& pieces)

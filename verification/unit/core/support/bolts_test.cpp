@@ -117,6 +117,33 @@ TEST(Bolts, SwingsOfABlockByImpulsesDieAway)
     }
 }
 
+/// A block slides on a floor, away from where a bolt holds it: m v^2 / 2 = mu m g s + K s^2 / 2. Friction keeps it there.
+TEST(Bolts, StopABlockThatSlidesWhereItsEnergyIsSpent)
+{
+    constexpr double speed = 1.0, stiffness = 1e4, mass = 2700.0;
+    CaseDef scene = scenes::empty_scene();
+    scene.contact.method = Method::force;
+    scene.joints[0].friction_angle_deg = 10.0;
+    scenes::add_fixed_block(scene, "floor", scenes::rectangle({-20, -1}, {20, 0}));
+    scenes::add_fixed_block(scene, "anchor", scenes::rectangle({-5, 0}, {-4, 1}));
+    scenes::add_block(scene, "block", scenes::rectangle({0, 0}, {2, 0.5})).velocity = {speed, 0.0};
+    scene.bolts = {{.name = "bolt", .kind = BoltKind::anchored, .from = Vec2(1.0, 0.25), .to = Vec2(-4.5, 0.25)}};
+    scene.bolts[0].stiffness = stiffness;
+    const double friction = std::tan(10.0 * std::numbers::pi / 180.0) * mass * 9.81;
+    const double way = (std::sqrt(friction * friction + stiffness * mass * speed * speed) - friction) / stiffness;
+    for (const bool seeks_rest : {false, true})
+    {
+        scene.stages = {{.name = "slide", .cycles = 20'000}};
+        if (seeks_rest)
+            scene.stages = {{.name = "slide", .cycles = {}, .until_converged = true, .max_cycles = 20'000}};
+        hdem::Setup setup = build_model(scene);
+        Simulation simulation(std::move(setup.model), std::move(setup.state), 1);
+        run_stages(simulation, {});
+        const Index block = simulation.model().find_block("block");
+        EXPECT_NEAR(simulation.state().blocks.displacement(block).x(), way, 0.005 * way) << seeks_rest;
+    }
+}
+
 /// Grout that never slips: an error of the bolt's force would let the block swing for ever.
 TEST(Bolts, AreAtRestHoweverStrongTheirBond)
 {
