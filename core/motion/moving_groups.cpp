@@ -138,6 +138,7 @@ void MovingGroups::gather(Index member, const ContactTies& ties)
 {
     const auto number = static_cast<Index>(groups_.size());
     Group group;
+    std::size_t members = 1;
     slides_.clear();
     members_[member].group = number;
     queue_.assign(1, member);
@@ -165,10 +166,12 @@ void MovingGroups::gather(Index member, const ContactTies& ties)
                                   return;
                               members_[other].group = number;
                               group.is_alone = false;
+                              ++members;
                               queue_.push_back(other);
                           });
     }
-    group.turns = group.contact != no_index && (group.turns || have_directions(group, ties));
+    constexpr std::size_t most = 8;  // more blocks that hold each other are rock, which is damped
+    group.turns = group.contact != no_index && members <= most && (group.turns || have_directions(group, ties));
     groups_.push_back(group);
 }
 

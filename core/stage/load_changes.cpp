@@ -172,7 +172,8 @@ std::vector<std::string> changes_to_come(const Model& model, const State& state)
         {
             add_factor(name, load.factor);
             const bool ends = load.from < load.until && load.until < std::numeric_limits<std::int64_t>::max();
-            if (is_last && ends && since >= 0)
+            const bool seeks_end = !def.cycles && !def.duration;
+            if (is_last && seeks_end && ends && since >= 0)
                 found.push_back(name + " ends in cycle " + std::to_string(later(zero_of(load.factor, state), load.until)));
         }
     }

@@ -20,7 +20,8 @@ namespace hdem
 [[nodiscard]] bool are_times_to_come(const Model& model, const State& state);
 
 /// What still changes when a stage ends, each as text: loads and sides on their way to their last value, joints on their way to what the stage sets, forces within
-/// relax_cycles, linings. At the end of the last stage also loads that have not begun, or that end later.
+/// relax_cycles, linings. At the end of the last stage also loads that have not begun,
+/// and, if that stage is not one by time, loads that end later.
 /// @param state  of the stage's last cycle; only its cycles and stages are read
 [[nodiscard]] std::vector<std::string> changes_to_come(const Model& model, const State& state);
 

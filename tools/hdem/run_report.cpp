@@ -71,11 +71,11 @@ void add_straight_joints(const Model& model, const Contacts& contacts, std::vect
     }
 }
 
-/// Is a motion prescribed in some stage?
+/// Is a motion prescribed in some stage? Not by a servo: its wall stops once it presses with its target.
 bool is_ever_driven(const Model& model)
 {
     return model.is_driven || std::ranges::any_of(model.loads, &Load::prescribes) ||
-           std::ranges::any_of(model.boundaries, [](const Boundary& side) { return moves_walls(side.kind); });
+           std::ranges::any_of(model.boundaries, [](const Boundary& side) { return side.kind == BoundaryKind::velocity; });
 }
 
 /// Local damping opposes absolute velocities where held blocks do not move as one body: what they carry or push is then held back.

@@ -11,6 +11,14 @@ import unittest
 from pathlib import Path
 
 HDEM = Path(sys.argv[1]).resolve()
+ROCK = """
+[material.rock]
+density = 2700.0
+[joint.default]
+normal_stiffness = 7e8
+shear_stiffness = 5e8
+friction_angle_deg = 30.0
+"""
 CASE = """
 [[block]]
 name = "ground"
@@ -19,20 +27,34 @@ fixed = true
 [[block]]
 name = "top"
 polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 7e8
-shear_stiffness = 5e8
-friction_angle_deg = 30.0
-"""
+""" + ROCK
+SQUEEZED = """
+[domain]
+width = 4.0
+height = 4.0
+fixed = ["bottom"]
+[[joint_set]]
+name = "steep"
+dip_deg = 100.0
+spacing = 1.0
+[[joint_set]]
+name = "flat"
+dip_deg = 30.0
+spacing = 1.0
+[[boundary]]
+side = "left"
+kind = "roller"
+[[boundary]]
+side = "right"
+kind = "roller"
+""" + ROCK
 
 
 class StageEnds(unittest.TestCase):
-    def run_case(self, more, code=0):
+    def run_case(self, more, code=0, case_text=CASE):
         with tempfile.TemporaryDirectory(prefix="hdem_stage_ends_") as folder:
             case = Path(folder) / "case.toml"
-            case.write_text(CASE + more, encoding="utf-8")
+            case.write_text(case_text + more, encoding="utf-8")
             done = subprocess.run([HDEM, "run", case, "-o", Path(folder) / "out"], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, code, done.stderr + done.stdout)
             return done.stdout, json.loads((Path(folder) / "out/summary.json").read_text(encoding="utf-8"))
@@ -75,6 +97,19 @@ class StageEnds(unittest.TestCase):
         for more, told in ((far + lift, True), (lift, False), (far + '[damping]\npreset = "dynamic"\n' + lift, False), (far + "[[stage]]\ncycles = 500\n", False)):
             _, summary = self.run_case(more)
             self.assertEqual(any("local damping took" in warning for warning in summary["warnings"]), told, more)
+
+    def test_a_servo_may_be_damped(self):
+        """Its wall stops once it presses with its target: what damping took is in no force."""
+        for kind, told in (('"servo"\ntarget = 1e6\nmax_velocity = 0.05', False), ('"velocity"\nvelocity = [0, -0.05]', True)):
+            _, summary = self.run_case(f'[[boundary]]\nside = "top"\nkind = {kind}\n[[stage]]\ncycles = 1000\n', case_text=SQUEEZED)
+            self.assertGreater(summary["energy"]["local_damping"], 10.0)
+            self.assertEqual(any("local damping took" in warning for warning in summary["warnings"]), told, kind)
+
+    def test_the_last_line_says_converged_only_of_a_last_stage_that_is_at_rest(self):
+        text, _ = self.run_case('[[stage]]\nuntil = "converged"\n')
+        self.assertIn("\nconverged after", text)
+        text, _ = self.run_case('[[stage]]\nuntil = "converged"\n[[stage]]\ncycles = 10\n')
+        self.assertIn("\ndone after", text)
 
     def test_stages_of_cycles_that_are_too_short_for_a_ramp_are_told(self):
         text, summary = self.run_case('[[load]]\nblocks = ["top"]\nforce = [1, 0]\nramp_cycles = [0, 80]\n[[stage]]\ncycles = 50\n')
