@@ -119,11 +119,10 @@ void MovingGroups::take_gap(Index contact, const ContactTies& ties)
 }
 
 /// Do joints lead in another direction than the most loaded one? Those count that bear a good part of its load, or are hardly open.
+/// @pre  the group slides on a joint to the outside
 bool MovingGroups::have_directions(const Group& group, const ContactTies& ties) const
 {
     constexpr double least_sine = 0.1, least_share = 0.05;
-    if (group.contact == no_index)
-        return false;
     const EdgeTouch main = ties.touch(group.contact);
     return std::ranges::any_of(slides_,
                                [&](const Slide& s)

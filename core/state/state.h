@@ -28,7 +28,7 @@ enum class FreeMotion : std::uint8_t
 {
     slides,  ///< its group slides on joints of one direction: damped across them
     flies,   ///< its group touches nothing: not damped
-    tips,    ///< about the point in which others bear it, or slides on a block that moves: not damped
+    tips,    ///< about the point in which others bear it, or slides on a block that moves, or turns as it slides: not damped
     dragged  ///< a fast block drags or pushes its group, and nothing holds this: not damped
 };
 
