@@ -25,8 +25,8 @@ namespace hdem
 ///   others                                         as each block by itself
 ///
 /// A group must turn if these joints have several directions (a bar that slides down between two planes), or if its members hold each other in one point (two slabs
-/// that lean on each other): then it moves across each of the joints, too. So may up to eight members only
-/// (core/tried.md), and a joint that is hardly open counts, since blocks hop on their springs. Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
+/// that lean on each other): then it moves across each of the joints, too. At most eight members
+/// count as such a body (core/tried.md), and a joint that is hardly open counts as closed, since blocks hop on their springs. Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
 /// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
 /// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor are, but where rest is sought, a group that tips so and a block
