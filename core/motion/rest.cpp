@@ -39,6 +39,15 @@ void stop(Index block, const Model& model, Blocks& blocks, EnergyLedger& ledger)
     motion.vx = motion.vy = motion.w = 0.0;
 }
 
+/// Would evaluating the contact again change nothing? Where a point has slipped it would: of two blocks that have just come to rest, the next evaluation finds
+/// the point sticking. (A restart evaluates all contacts.)
+bool is_settled(Index contact, const Contacts& contacts, const Blocks& blocks)
+{
+    constexpr auto slips = static_cast<std::uint8_t>(Regime::slip);
+    return contacts.stale[contact] == 0 && contacts.regime[0][contact] != slips && contacts.regime[1][contact] != slips &&
+           !blocks.takes_part(contacts.ref[contact]) && !blocks.takes_part(contacts.inc[contact]);
+}
+
 /// Put the groups for which `is_active(first, end)` holds together.
 template <typename IsActive>
 void collect(IndexRange range, std::vector<IndexRange>& active, const IsActive& is_active)
@@ -121,7 +130,7 @@ void find_active_contacts(IndexRange range, const Blocks& blocks, const Contacts
             [&](Index i, Index end)
             {
                 for (; i < end; ++i)
-                    if (contacts.stale[i] != 0 || blocks.takes_part(contacts.ref[i]) || blocks.takes_part(contacts.inc[i]))
+                    if (!is_settled(i, contacts, blocks))
                         return true;
                 return false;
             });
@@ -137,8 +146,9 @@ void find_active_blocks(IndexRange range, const BlockContacts& list, const Conta
                 {
                     if (blocks.takes_part(b))
                         return true;
-                    if (is_beside_moving(b, list, contacts, blocks))
-                        return true;
+                    for (Index e = list.begin[b]; e < list.begin[b + 1]; ++e)
+                        if (!is_settled(list.entry[e] / 2, contacts, blocks))
+                            return true;
                 }
                 return false;
             });

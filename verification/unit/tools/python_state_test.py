@@ -3,7 +3,9 @@
 
     python_state_test.py HDEM CASES EXAMPLE    with the package on PYTHONPATH; exit code 77: it was not built, or there is no pytest
 """
-from python_common import TUNNEL, pile, program_hash, run_tests, run_tunnel
+from pathlib import Path
+
+from python_common import CASES, TUNNEL, pile, program_hash, run_tests, run_tunnel
 
 import numpy as np
 import pytest
@@ -36,6 +38,20 @@ def test_forces_of_contacts_are_those_of_blocks():
     assert near.size > c.size and simulation.joint_names == ["default"] and near["gap"].min() > -1e-3    # not of faces beside each other
     assert (c["closure"] < -c["gap"] + 1e-5).all()    # no preload; less where a corner had an overlap as it began to bear
     assert np.mean(np.isclose(c["closure"], -c["gap"], atol=1e-5)) > 0.95
+
+
+def test_a_restart_shows_the_same_points_slipping(tmp_path):
+    """Evaluates all contacts once, also those between blocks that rest and are left out."""
+    def run_to(simulation, cycle):
+        simulation.run(cycles=cycle - simulation.cycle)
+        return simulation
+    case = hdem.Case(Path(CASES).parent / "faults/slip_at_rest.toml")
+    begun = run_to(hdem.Simulation(case, threads=1), 150)
+    begun.write_checkpoint(tmp_path)
+    again = hdem.Simulation.from_checkpoint(tmp_path / "checkpoint.h5", threads=1)
+    for cycle in range(155, 200, 5):
+        whole, restarted = run_to(begun, cycle).contacts(), run_to(again, cycle).contacts()
+        assert whole.size > 400 and (whole == restarted).all(), cycle
 
 
 def test_broken_and_plastic_slip_of_a_law_with_memory():

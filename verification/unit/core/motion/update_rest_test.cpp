@@ -94,5 +94,39 @@ TEST_F(UpdateRest, WakesInAnyCycleByAForceOrAnImpulse)
     EXPECT_TRUE(woken_by([&] { force().contacts = contact_impulse; }));
     EXPECT_TRUE(woken_by([&] { force().y = std::nan(""); }));
 }
+
+TEST_F(UpdateRest, LeavesOutOnlyContactsThatAnotherEvaluationWouldNotChange)
+{
+    pair_.place(pair_.a, {0.0, 0.0}, 0.0);
+    pair_.place(pair_.b, {0.2, 0.999}, 0.0);
+    pair_.search();
+    ASSERT_EQ(pair_.state.contacts.size(), 1);
+    State& state = pair_.state;
+    BlockContacts list;
+    list_block_contacts(state.contacts, state.blocks.size(), list);
+    const auto takes_part = [&]
+    {
+        std::vector<IndexRange> contacts, blocks;
+        find_active_contacts({0, 1}, state.blocks, state.contacts, contacts);
+        find_active_blocks({0, state.blocks.size()}, list, state.contacts, state.blocks, blocks);
+        EXPECT_EQ(contacts.empty(), blocks.empty()) << "what a contact gives acts on its blocks";
+        return !contacts.empty();
+    };
+    std::uint8_t& other = state.blocks.rest[pair_.b];
+    rest() = other = left_out;
+    state.contacts.regime[0][0] = state.contacts.regime[1][0] = static_cast<std::uint8_t>(Regime::stick);
+    EXPECT_FALSE(takes_part());
+    for (auto& regime : state.contacts.regime)
+    {
+        regime[0] = static_cast<std::uint8_t>(Regime::slip);
+        EXPECT_TRUE(takes_part()) << "a restart would evaluate it and find it sticking";
+        regime[0] = static_cast<std::uint8_t>(Regime::stick);
+    }
+    state.contacts.stale[0] = 1;
+    EXPECT_TRUE(takes_part());
+    state.contacts.stale[0] = 0;
+    other = stopped;
+    EXPECT_TRUE(takes_part()) << "it has not been evaluated at rest yet";
+}
 }  // namespace
 }  // namespace hdem
