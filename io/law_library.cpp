@@ -36,9 +36,11 @@ KeptLibrary kept_library(const std::string& text)
     return {text.substr(0, end), end == std::string::npos ? "" : text.substr(end + 1, 64)};
 }
 
-/// "" where it cannot be read.
+/// "" where it cannot be read. (A pipe would be waited for.)
 std::string digest_of(const std::string& path)
 {
+    if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+        return "";
     std::ifstream in(path, std::ios::binary);
     std::ostringstream bytes;
     return in && bytes << in.rdbuf() ? sha256_hex(bytes.view()) : "";

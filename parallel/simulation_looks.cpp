@@ -43,10 +43,13 @@ std::vector<Problem> Simulation::find_problems()
 {
     std::vector<Problem> problems;
     if (!std::isnormal(model_.time_step))
+    {
+        const auto lightest = std::ranges::min_element(model_.mass) - model_.mass.begin();
         return {{.key = "time.step",
-                 .text = "time: step = " + with_digits("%.4g", model_.time_step) +
-                         " s (Eq. (32) gives nothing better for the lightest block). Give heavier blocks or softer joints, or a "
-                         "step."}};
+                 .text = "time: step (none follows from Eq. (32): the lightest block, " + model_.name[lightest] +
+                         ", has a mass of " + with_digits("%.4g", model_.mass[lightest]) +
+                         " kg/m). Give a greater material.*.density or softer joints, or a step."}};
+    }
     if (const double preload = greatest_preload(state_); preload > 0.5 * skin_width(model_))
         problems.push_back({.key = "contact.skin",
                             .text = "contact: skin = " + with_digits("%.4g", model_.contact.skin) +

@@ -16,7 +16,6 @@
 Every number is in SI units; io/hdf5_format.md says what each array means. Files are opened, read and closed at once: a run may
 still be going on. Needs h5py and numpy, and the modules beside it. What is damaged, or no file of hdem, is a ResultError.
 """
-import json
 import sys
 import warnings
 from collections import namedtuple
@@ -26,7 +25,7 @@ import numpy as np
 
 from checked_hdf5 import ANY, ResultError, open_checked
 from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts, read_liners
-from plain_text import one_line, reason_of
+from plain_text import one_line, read_bytes, read_json, reason_of
 from run_lock import is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
@@ -36,7 +35,6 @@ PROVENANCE_LISTS = ("overrides", "command_line", "environment")
 MOST_PROVENANCE = 1 << 26    # bytes: a case file has at most 16 000 000
 ENERGIES = ("kinetic_energy", "unbalanced_force_ratio", "greatest_speed", "residual")    # all others may be missing in older files
 LATEST = 1e15    # s, thirty million years
-LARGEST_SUMMARY = 1 << 26    # bytes
 
 
 def tell(command, result, make):
@@ -110,16 +108,24 @@ class Run:
         """summary.json as a dict; empty before the end of the run."""
         file = self.folder / "summary.json"
         try:
-            if file.stat().st_size > LARGEST_SUMMARY:
-                raise ValueError("too large")
-            found = json.loads(file.read_text(encoding="utf-8"))
+            found = read_json(file)
         except FileNotFoundError:
             return {}
-        except (ValueError, RecursionError) as error:
+        except ValueError as error:
             raise ResultError(f"{file}: not JSON ({error}). Remove it, or run the case again.") from None
         if not isinstance(found, dict):
             raise ResultError(f"{file}: not a summary of a run. Remove it, or run the case again.")
         return found
+
+    def log(self):
+        """run.log; empty without one."""
+        file = self.folder / "run.log"
+        try:
+            return read_bytes(file).decode("utf-8", "replace")
+        except FileNotFoundError:
+            return ""
+        except (OSError, ValueError) as error:
+            raise ResultError(f"{file}: cannot be read ({getattr(error, 'strerror', None) or error}). Move it away.") from None
 
     def state(self):
         """"done", "running", or "interrupted": broken off by a signal or a limit of time, or killed."""

@@ -12,7 +12,9 @@ what lies on layer 0 in them; curves become straight stretches. What the drawing
 --scale is what one unit of the drawing is in metres.
 """
 import argparse
+import itertools
 import math
+import resource
 import sys
 from collections import Counter, namedtuple
 from pathlib import Path
@@ -24,10 +26,13 @@ import ezdxf.path    # noqa: E402
 from ezdxf.lldxf.const import VTX_SPLINE_FRAME_CONTROL_POINT    # noqa: E402
 from ezdxf.math import Matrix44    # noqa: E402
 
-from plain_text import one_line, printable    # noqa: E402
+from plain_text import LARGEST_FILE, at_once, one_line, open_regular, printable    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 DEEPEST = 50    # references of blocks in blocks
+MOST_PIECES = 2000000    # references that are taken apart count too
+MOST_MEMORY = 900 << 20    # bytes; ordinary drawings take 10 for each of theirs, odd ones 70
+SMALLER = "Save the layers of joints and blocks in a drawing of their own, and give that"
 SURVEY = 1200 / 3937    # foot of the US survey [m]
 # Name and metres of the units of $INSUNITS; 0 is none. ezdxf.units has neither those of the US survey nor all digits.
 METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 3: ("miles", 1609.344), 4: ("mm", 0.001), 5: ("cm", 0.01), 6: ("metres", 1.0), 7: ("km", 1000.0),
@@ -78,11 +83,29 @@ def parse(arguments):
     return options
 
 
-def entities_of(space, hidden, outer=Piece(None, None, Matrix44(), ""), depth=0):
-    """All that is drawn, block references taken apart. `hidden`: of each layer that is not shown, whether it is frozen."""
+def drawing_of(file):
+    """What ezdxf makes of the file; over a damaged one it raises nearly any exception."""
+    try:
+        open_regular(file).close()    # others would be waited for, or read without end
+        return ezdxf.readfile(file)
+    except MemoryError:
+        raise
+    except Exception as error:
+        raise DrawingError(f"cannot be read ({error or type(error).__name__}). Give a DXF file of at most {LARGEST_FILE} bytes.") from None
+
+
+def each(pieces, count):
+    for piece in pieces:
+        if next(count) > MOST_PIECES:
+            raise DrawingError(f"has more than {MOST_PIECES} entities, with those of block references. {SMALLER}.")
+        yield piece
+
+
+def entities_of(space, hidden, count, outer=Piece(None, None, Matrix44(), ""), depth=0):
+    """All that is drawn, block references taken apart. `hidden`: of each layer that is not shown, whether it is frozen. `count`: of all, from 1."""
     if depth > DEEPEST:
         raise DrawingError(f"blocks refer to blocks more than {DEEPEST} deep, or to themselves. Take the references apart.")
-    for entity in space:
+    for entity in each(space, count):
         kind, layer = entity.dxftype(), entity.dxf.layer
         if kind == "ATTDEF" and depth > 0:    # a text that the reference has
             continue
@@ -92,11 +115,11 @@ def entities_of(space, hidden, outer=Piece(None, None, Matrix44(), ""), depth=0)
             yield Piece(entity, layer, outer.place, unseen or (HIDDEN if layer.lower() in hidden else ""))
             continue
         unseen = unseen or (IN_FROZEN if hidden.get(layer.lower()) else "")    # where its layer is off, a reference still shows what lies on others
-        for one in entity.multi_insert() if entity.mcount > 1 else [entity]:    # an array of them
+        for one in each(entity.multi_insert(), count) if entity.mcount > 1 else [entity]:    # an array of them
             block = one.block()
             if block is None:
                 raise DrawingError(f"the block {one.dxf.name} is not there. Save the drawing anew.")
-            yield from entities_of(block, hidden, Piece(one, layer, one.matrix44() * outer.place, unseen), depth + 1)
+            yield from entities_of(block, hidden, count, Piece(one, layer, one.matrix44() * outer.place, unseen), depth + 1)
 
 
 def path_of(piece):
@@ -134,9 +157,9 @@ def read(options):
         name = name_of(layer)
         numbers[name, lines is blocks] += 1
         lines.append(Line(f"{name}_{numbers[name, lines is blocks]}", layer.lower(), points))
-    drawing = ezdxf.readfile(options.drawing)
+    drawing = drawing_of(options.drawing)
     unshown = {layer.dxf.name.lower(): layer.is_frozen() for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
-    for piece in entities_of(drawing.modelspace(), {name: frozen for name, frozen in unshown.items() if name not in layers}):
+    for piece in entities_of(drawing.modelspace(), {name: frozen for name, frozen in unshown.items() if name not in layers}, itertools.count(1)):
         entity, layer = piece.entity, piece.layer
         if piece.unseen:
             left_out[piece.unseen] += 1
@@ -218,14 +241,25 @@ def convert(options):
 
 
 def write(file, drawing, rows, what):
-    file.write_text(f"# {one_line(drawing.name)}\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    with open(file, "w", encoding="utf-8", opener=at_once) as opened:
+        opened.write(f"# {one_line(drawing.name)}\n" + "\n".join(rows) + "\n")
     print(f"{file}: {what}")
+
+
+def limit_memory():
+    """What needs more is a MemoryError."""
+    hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
+    resource.setrlimit(resource.RLIMIT_DATA, (MOST_MEMORY if hard == resource.RLIM_INFINITY else min(MOST_MEMORY, hard), hard))
 
 
 def main(arguments):
     options = parse(arguments)
+    limit_memory()
     try:
         left_out = convert(options)
+    except MemoryError:
+        print(f"error: import_dxf: {one_line(options.drawing)}: takes more than {MOST_MEMORY} bytes of memory. {SMALLER}, or a greater --arc.", file=sys.stderr)
+        return 1
     except (DrawingError, OSError) as error:
         print(f"error: import_dxf: {one_line(error)}", file=sys.stderr)
         return 2 if isinstance(error, DrawingError) else 1

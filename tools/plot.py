@@ -239,8 +239,8 @@ def make_picture(options):
         folder = options.result if options.result.is_dir() else options.result.parent
         name = "factor_of_safety" if options.factor else name_of(options) if over_time else f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
         output = folder / f"{as_file_name(name)}.png"
-    if output.is_dir():
-        raise ResultError(f"{output}: a folder. Give the name of a picture with -o.")
+    if output.exists() and not output.is_file():
+        raise ResultError(f"{output}: {'a folder' if output.is_dir() else 'no file'}. Give the name of a picture with -o.")
     if not output.suffix:    # savefig would write this file, too, and say nothing
         output = output.with_name(f"{output.name}.png")
     output.parent.mkdir(parents=True, exist_ok=True)

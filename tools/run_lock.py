@@ -37,6 +37,6 @@ def may_live(descriptor):
         return False
     except PermissionError:    # somebody else's
         return True
-    except (OSError, ValueError, TypeError, KeyError, OverflowError):    # empty or damaged
+    except (OSError, ValueError, TypeError, KeyError, OverflowError, RecursionError):    # empty or damaged
         return False
     return True

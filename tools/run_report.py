@@ -11,7 +11,7 @@ need("h5py", "matplotlib", "numpy")
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
 import run_page    # noqa: E402
 from hdem_io import open_run, tell    # noqa: E402
-from plain_text import OneLineParser    # noqa: E402
+from plain_text import OneLineParser, at_once    # noqa: E402
 
 
 def parse(arguments):
@@ -24,11 +24,11 @@ def parse(arguments):
 def make_page(options):
     """The file it is in."""
     run = open_run(options.result)
-    log = run.folder / "run.log"
-    text = run_page.build(run, run.summary(), log.read_text(encoding="utf-8", errors="replace") if log.exists() else "")
+    text = run_page.build(run, run.summary(), run.log())
     output = options.output or run.folder / "report.html"
     output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(text, encoding="utf-8")
+    with open(output, "w", encoding="utf-8", opener=at_once) as file:
+        file.write(text)
     return output
 
 

@@ -97,8 +97,6 @@ void MovingGroups::take_joint(Index contact, bool outside, Group& group, const C
         }
         const double normal = contacts.normal_force(end, contact), shear = contacts.shear_force(end, contact);
         const double load = normal * normal + shear * shear;
-        const EdgeTouch touch = ties.touch(contact);
-        slides_.push_back({load, false, touch.ex, touch.ey});
         if (load > group.load || (load == group.load && load > 0.0 && contact < group.contact))
         {
             group.load = load;
@@ -107,29 +105,25 @@ void MovingGroups::take_joint(Index contact, bool outside, Group& group, const C
     }
 }
 
-/// A block that slides on its springs hops: a joint that is hardly open closes again soon.
-void MovingGroups::take_gap(Index contact, const ContactTies& ties)
+/// Of a joint to the outside that touches or is hardly open: a block that slides on its springs hops, and the joint closes again soon.
+void MovingGroups::take_direction(Index contact, const ContactTies& ties)
 {
     constexpr double hardly = 1e-3;  // of the distance from the centroid
     const EdgeTouch touch = ties.touch(contact);
     const auto is_near = [](const TouchPoint& p)
     { return p.overlap * std::abs(p.overlap) > -hardly * hardly * (p.ref_t * p.ref_t + p.ref_m * p.ref_m); };
-    if (touch.length > 0.0 && (is_near(touch.point[0]) || is_near(touch.point[1])))
-        slides_.push_back({0.0, true, touch.ex, touch.ey});
+    if (ties.do_touch(contact) || (touch.length > 0.0 && (is_near(touch.point[0]) || is_near(touch.point[1]))))
+        along_.emplace_back(touch.ex, touch.ey);
 }
 
-/// Do joints lead in another direction than the most loaded one? Those count that bear a good part of its load, or are hardly open.
+/// Do joints lead in another direction than the most loaded one?
 /// @pre  the group slides on a joint to the outside
 bool MovingGroups::have_directions(const Group& group, const ContactTies& ties) const
 {
-    constexpr double least_sine = 0.1, least_share = 0.05;
+    constexpr double least_sine = 0.1;
     const EdgeTouch main = ties.touch(group.contact);
-    return std::ranges::any_of(slides_,
-                               [&](const Slide& s)
-                               {
-                                   return (s.is_gap || s.load > least_share * least_share * group.load) &&
-                                          std::abs(main.ex * s.along_y - main.ey * s.along_x) > least_sine;
-                               });
+    return std::ranges::any_of(along_,
+                               [&](const Vec2& along) { return std::abs(main.ex * along.y() - main.ey * along.x()) > least_sine; });
 }
 
 /// All that moves together with a member that is not held, and the joint on which they slide.
@@ -138,7 +132,7 @@ void MovingGroups::gather(Index member, const ContactTies& ties)
     const auto number = static_cast<Index>(groups_.size());
     Group group;
     std::size_t members = 1;
-    slides_.clear();
+    along_.clear();
     members_[member].group = number;
     queue_.assign(1, member);
     while (!queue_.empty())
@@ -149,12 +143,10 @@ void MovingGroups::gather(Index member, const ContactTies& ties)
                           [&](Index contact, Index next)
                           {
                               const Index other = place_[next];
+                              if (other == no_index)
+                                  take_direction(contact, ties);
                               if (!ties.do_touch(contact))
-                              {
-                                  if (other == no_index)
-                                      take_gap(contact, ties);
                                   return;
-                              }
                               now.touches = true;
                               take_joint(contact, other == no_index, group, ties);
                               if (other == no_index || !ties.are_together(contact))
@@ -264,8 +256,6 @@ void MovingGroups::find(const Model& model, const GroupRule& rule, const std::ve
         member.touched = member.touched || member.held;
     flood<&Member::touched>(ties, [&](Index contact) { return ties.do_touch(contact); });
     find_groups(ties);
-    for (Group& group : groups_)
-        group.turns = group.turns && !rule.seeks_rest;
     find_tipping(model, rule, ties);
     before_.swap(moving);
     moving.clear();

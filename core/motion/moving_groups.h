@@ -21,13 +21,13 @@ namespace hdem
 ///
 ///   that touch nothing outside of the group        are not damped
 ///   whose joints to the outside all slide          are damped across the most loaded of these joints only
-///   the same, if they must turn as they slide      are not damped, but where rest is sought
+///   the same, if they must turn as they slide      are not damped
 ///   others                                         as each block by itself
 ///
 /// A group must turn if these joints have several directions (a bar that slides down between two planes), or if its members hold each other in one point (two slabs
-/// that lean on each other): then it moves across each of the joints, too. At most eight members
-/// count as such a body (core/tried.md), and a joint that is hardly open counts as closed, since blocks hop on their springs. Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is accelerated with them. Where rest
-/// is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
+/// that lean on each other): then it moves across each of the joints, too. At most eight members count as such a body (core/tried.md). A joint that is hardly open
+/// counts as well, since blocks hop on their springs. Outside is what is not fast. A group that slides on fast blocks alone is not damped: across that joint it is
+/// accelerated with them. Where rest is sought, slow blocks that are dragged are not damped either (dragged_blocks.h).
 ///
 /// A block without bolts that all others meet in one point, and that tips about this point away from where it stood, is not damped either (core/tried.md). Nor are, but where rest is sought, a group that tips so and a block
 /// that rolls on over its faces: fallen blocks would roll and rock on for long.
@@ -68,12 +68,6 @@ class MovingGroups
         bool is_alone = true;  ///< it has one member
         bool turns = false;    ///< it must, as it slides
     };
-    struct Slide
-    {
-        double load = 0.0;                    ///< squared [N2]
-        bool is_gap = false;                  ///< it is open, but hardly
-        double along_x = 1.0, along_y = 0.0;  ///< direction of the joint [-]
-    };
     void take_members(const std::vector<Index>& fast, Index blocks);
     void look_outside(const ContactTies& ties);
     void take_outside(Member& member, Index contact, const ContactTies& ties);
@@ -84,15 +78,15 @@ class MovingGroups
     [[nodiscard]] bool gather_together(const ContactTies& ties, std::vector<Index>& group);
     void gather(Index member, const ContactTies& ties);
     void take_joint(Index contact, bool outside, Group& group, const ContactTies& ties);
-    void take_gap(Index contact, const ContactTies& ties);
+    void take_direction(Index contact, const ContactTies& ties);
     [[nodiscard]] bool have_directions(const Group& group, const ContactTies& ties) const;
     [[nodiscard]] MovingBlock motion_of(const Member& member, const ContactTies& ties) const;
 
     std::vector<Index> place_;  ///< of a block in members; no_index: not fast
     std::vector<Member> members_;
     std::vector<Group> groups_;
-    std::vector<Slide> slides_;  ///< joints to the outside of the group that is gathered
-    std::vector<Index> queue_;   ///< members
+    std::vector<Vec2> along_;   ///< directions of joints to the outside of the group that is gathered
+    std::vector<Index> queue_;  ///< members
     std::vector<MovingBlock> before_;
     DraggedBlocks dragged_;
 };

@@ -7,6 +7,8 @@ import threading
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from plain_text import read_json
+
 DONE, NOT_CONVERGED, BAD_INPUT, INTERRUPTED = 0, 4, 2, (130, 143, -2, -15)    # what hdem ends with
 KEPT = "ensemble.json"    # in a run's folder, written when the run is done
 
@@ -103,11 +105,10 @@ class Runner:
     @staticmethod
     def kept(folder, key):
         try:
-            kept = json.loads((folder / KEPT).read_text(encoding="utf-8"))
-            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            kept, summary = read_json(folder / KEPT), read_json(folder / "summary.json")
+            return Outcome(folder, summary, kept["cpu_seconds"]) if kept["key"] == key else None
+        except (OSError, ValueError, TypeError, KeyError):    # to be run again
             return None
-        return Outcome(folder, summary, kept["cpu_seconds"]) if kept.get("key") == key else None
 
     def fresh(self, folder, key):
         folder.mkdir(parents=True, exist_ok=True)
@@ -121,7 +122,7 @@ class Runner:
             raise EnsembleError(f"{self.program} refuses a run of the ensemble: {said}. Give an hdem of this version.")
         if code not in (DONE, NOT_CONVERGED):
             return Outcome(folder, failure=said or f"hdem ended with {code}")
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        summary = read_json(folder / "summary.json")
         (folder / KEPT).write_text(json.dumps({"key": key, "cpu_seconds": cpu_seconds}, indent=1) + "\n", encoding="utf-8")
         return Outcome(folder, summary, cpu_seconds)
 

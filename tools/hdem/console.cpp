@@ -41,6 +41,11 @@ void complain_text(std::string_view text)
     put(stderr, text);
 }
 
+void outlive_reader()
+{
+    static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+}
+
 void prepare_console()
 {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -26,6 +26,9 @@ void complain(fmt::format_string<T...> format, T&&... values)
     complain_text(fmt::format(format, std::forward<T>(values)...));
 }
 
+/// From now on a reader of the screen that goes (hdem run CASE | head) is an error of write(), not the end of the program: a run goes on, its log has all.
+void outlive_reader();
+
 /// Before anything is opened: standard input and outputs that are closed become /dev/null, so that no file of the run takes their numbers and
 /// receives what is meant for the screen. A file that outgrows `ulimit -f` is from now on an error of write(), not the end of the program.
 void prepare_console();

@@ -5,6 +5,7 @@
 #include "io/load_case.h"
 #include "io/run_lock.h"
 #include "parallel/critical_search.h"
+#include "tools/hdem/console.h"
 #include "tools/hdem/critical_options.h"
 #include "tools/hdem/screen.h"
 #include "tools/hdem/signal_watch.h"
@@ -157,15 +158,8 @@ class Critical
     bool stands_at(double x, int threads, const std::stop_token& stop)
     {
         Run run{.at = x, .result = {}};
-        if (const std::optional<Json> known = file_.find("critical", x);
-            known && known->contains("fails") && (*known)["fails"].is_boolean())
-            run.result = {.fails = (*known)["fails"],
-                          .greatest = known->value("greatest", 0.0),
-                          .block = known->value("block", ""),
-                          .cycles = known->value("cycles", std::int64_t{0}),
-                          .met_ends = known->value("met_ends", true),
-                          .still_moves = known->value("still_moves", false),
-                          .ends_moving = known->value("ends_moving", false)};
+        if (const std::optional<ConditionResult> known = file_.find(x))
+            run.result = *known;
         else
         {
             std::vector<Override> overrides = overrides_of(options_);
@@ -188,14 +182,7 @@ class Critical
                     throw SearchStopped{};
                 return false;
             }
-            file_.add("critical", x,
-                      {{"fails", run.result.fails},
-                       {"greatest", run.result.greatest},
-                       {"block", run.result.block},
-                       {"cycles", run.result.cycles},
-                       {"met_ends", run.result.met_ends},
-                       {"still_moves", run.result.still_moves},
-                       {"ends_moving", run.result.ends_moving}});
+            file_.add(x, run.result);
         }
         const std::lock_guard lock(mutex_);
         ended_[x] = run;
@@ -227,7 +214,7 @@ class Critical
     Vary vary_;
     FailureCondition condition_;
     Log& log_;
-    TrialFile file_;
+    ConditionTrialFile file_;
     ThreadRule threads_;
     SignalWatch signals_;
     std::mutex mutex_;
@@ -257,6 +244,7 @@ std::string question_of(const CriticalOptions& options)
 
 int critical_command(const CriticalOptions& options)
 {
+    outlive_reader();
     const Vary vary = parse_vary(options.vary);
     if (options.tolerance && *options.tolerance >= vary.high - vary.low)
         refuse(fmt::format("--tolerance {}: (is not below the width of the range, {}: nothing would be looked for). Give less.",
@@ -267,8 +255,8 @@ int critical_command(const CriticalOptions& options)
     const fs::path folder = options.folder.empty() ? fs::path(fs::path(options.case_file).stem().string() + "_critical")
                                                    : fs::path(options.folder);
     const RunLock lock(folder);
-    if (fs::exists(folder / "results.h5"))
-        refuse(fmt::format("{}: (holds the results of a run). Give another folder with -o.", printable(folder.string())));
+    if (fs::exists(folder / "results.h5") || fs::exists(folder / "checkpoint.h5"))
+        refuse(fmt::format("{}: (holds a run). Give another folder with -o.", printable(folder.string())));
     remove_file(folder / "summary.json");  // of a search before
     if (options.overwrite)
         remove_file(folder / "trials.json");

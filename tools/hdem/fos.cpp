@@ -91,7 +91,7 @@ catch (const InputError&)
 }
 
 /// The moment before the last stage: seen by this run, or saved by an earlier one. Nothing where it is not needed.
-std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedRun& run)
+std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedRun& run, const Question& question)
 {
     if (seen.moment())
         return seen.moment();
@@ -101,13 +101,13 @@ std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedR
     LoadedCase loaded = load_case(run.start.record.case_text, run.start.record.files, run.start.record.case_file, overrides);
     const fs::path before = checkpoint_file(before_folder(run.start.folder));
     const bool has_earlier_stages = loaded.setup.model.stages.size() > 1;
-    if (has_earlier_stages && !fs::exists(before))
-        throw InputError(
-            Problem{.key = {},
-                    .text = fmt::format(
-                        "{}: (is missing: the run in this folder was made by hdem run, and blocks did not stand in its last "
-                        "stage, which is to be run anew). Begin anew with --overwrite.",
-                        before.string())});
+    if (has_earlier_stages && !has_begun(before_folder(run.start.folder), question))
+        throw InputError(Problem{
+            .key = {},
+            .text = fmt::format(
+                "{}: (is not of this run: the run in this folder was made by hdem run, and blocks did not stand in its last "
+                "stage, which is to be run anew). Begin anew with --overwrite.",
+                before.string())});
     if (has_earlier_stages)
         loaded.setup.state = CheckpointReader(before).state(loaded.setup.model);
     const Simulation simulation(std::move(loaded.setup.model), std::move(loaded.setup.state));
@@ -141,9 +141,10 @@ class Fos
         : run_(run),
           options_(options),
           before_(before),
+          question_(question),
           log_(*run.log),
           folder_(run.start.folder),
-          file_(run.start.folder / "trials.json", question.all()),
+          file_(run.start.folder / "trials.json", question.all(), run.simulation->model().blocks()),
           threads_(run.simulation->thread_choice().rule())
     {
     }
@@ -154,7 +155,7 @@ class Fos
         const SignalWatch signals;
         auto [outcome, reference] = find_factor(last, {.def = run_.start.loaded.file.def.factor_of_safety,
                                                        .found_rest = !run_.stages.back().sought_rest || run_.stages.back().at_rest,
-                                                       .before = [&] { return moment_before(before_, run_); },
+                                                       .before = [&] { return moment_before(before_, run_, question_); },
                                                        .threads = threads_,
                                                        .store = &file_,
                                                        .begin = [&](const FosOutcome& found) { begin(found); },
@@ -205,6 +206,7 @@ class Fos
     FinishedRun& run_;
     const RunOptions& options_;
     const BeforeLastStage& before_;
+    const Question& question_;
     Log& log_;
     fs::path folder_;
     FactorTrialFile file_;
@@ -224,8 +226,6 @@ int fos_command(const FosOptions& options)
         run_options.restart = folder.string();
         run_options.folder.clear();
     }
-    else if (fs::exists(folder / "trials.json"))
-        fs::remove(folder / "trials.json");
     RunRecord record;
     record.case_file = run_options.case_file;
     record.case_text = question.text;

@@ -1,5 +1,6 @@
 /// hdem run: a case from its file, or from a checkpoint, to its results.
 
+#include "tools/hdem/console.h"
 #include "tools/hdem/finished_run.h"
 #include "tools/hdem/live_page.h"
 #include "tools/hdem/patience.h"
@@ -18,6 +19,7 @@ FinishedRun run_case(const RunOptions& options, Observer* also)
     const RunKeeper::Clock::time_point begin = RunKeeper::Clock::now();
     if (options.live)
         LivePage::check();
+    outlive_reader();
     catch_checkpoint_requests();
     std::optional<Patience> patience(std::in_place, Patience::Settings{.work = "the case is read and its model built",
                                                                        .begin = begin,

@@ -1,6 +1,7 @@
 #include "tools/hdem/run_files.h"
 
 #include "io/atomic_file.h"
+#include "tools/hdem/run_folder.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include "core/stage/load_changes.h"
 #include "core/stage/rules.h"
-#include "io/atomic_file.h"
-#include "io/frame_writer.h"
+#include "io/hdf5_reader.h"
 #include "io/provenance.h"
 #include "io/text_file.h"
+#include "tools/hdem/run_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,6 +88,7 @@ struct Found
 {
     fs::path file;
     CheckpointReader reader;
+    fs::path aside{};  ///< what the folder's own checkpoint is called from now on; empty: it stays
 };
 
 bool can_be_read(const fs::path& checkpoint)
@@ -101,27 +102,20 @@ catch (const InputError&)
 }
 
 /// The checkpoint itself, or the last one of a folder that can be read.
-/// @param ours  the run goes on in that folder: a damaged checkpoint is put aside, else it would soon take the place of the sound one
-Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>& notes)
+Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
 {
     if (!fs::is_directory(given))
     {
-        CheckpointReader reader(given);
         const fs::path younger = checkpoint_file(folder_of(given));
-        if (ours && given.filename() == previous_checkpoint_file("").filename() && fs::exists(younger))
-        {
-            // Else a restart of the folder would go on from it, without the rows and frames that are dropped now.
-            const fs::path aside = younger.string() + ".younger";
-            fs::rename(younger, aside);
-            notes.push_back(fmt::format("note: {} is younger and is now called {}", younger.string(), aside.string()));
-        }
-        return {given, std::move(reader)};
+        const bool is_previous = given.filename() == previous_checkpoint_file("").filename() && fs::exists(younger);
+        return {given, CheckpointReader(given), is_previous ? younger.string() + ".younger" : ""};
     }
     const fs::path last = checkpoint_file(given);
     const fs::path previous = previous_checkpoint_file(given);
     if (!fs::exists(last) && !fs::exists(previous))
         refuse(fmt::format("--restart {}: (holds no checkpoint). Give a checkpoint, or the folder of a run that has one.",
                            given.string()));
+    fs::path aside;
     try
     {
         if (fs::exists(last))
@@ -132,24 +126,32 @@ Found find_checkpoint(const fs::path& given, bool ours, std::vector<std::string>
         if (!can_be_read(previous))
             throw;
         notes.push_back(fmt::format("warning: {}", error.what()));
-        if (ours)
-        {
-            const fs::path aside = last.string() + ".damaged";
-            fs::rename(last, aside);
-            notes.back() += fmt::format(" It is now called {}.", aside.string());
-        }
+        aside = last.string() + ".damaged";
     }
     notes.push_back(fmt::format("warning: {} cannot be used: going on from {}", last.string(), previous.string()));
-    return {previous, CheckpointReader(previous)};
+    return {previous, CheckpointReader(previous), aside};
+}
+
+/// A damaged checkpoint would soon take the place of the sound one; from a younger one a restart would go on without the rows and frames that are dropped now.
+/// Once nothing can refuse the run any more.
+void put_aside(const Found& found, std::vector<std::string>& notes)
+{
+    if (found.aside.empty())
+        return;
+    const fs::path last = checkpoint_file(found.file.parent_path());
+    fs::rename(last, found.aside);
+    notes.push_back(fmt::format("note: {} is now called {}", last.string(), found.aside.string()));
 }
 
 /// May a run that goes on have another value? Everything but what says how far it goes and what is written.
 bool is_free_to_change(const std::string& key)
 {
     const std::string section = key.substr(0, key.find_first_of(".["));
-    const std::string name = key.substr(std::min(key.rfind('.'), key.size() - 1) + 1);
+    const auto dot = std::min(key.rfind('.'), key.size());
+    const bool is_of_one_stage = section == "stage" && dot > section.size();  // stage[1].cycles or stage.NAME.cycles
+    const std::string name = key.substr(std::min(dot, key.size() - 1) + 1);
     return section == "output" || section == "convergence" ||
-           (section == "stage" && (name == "cycles" || name == "max_cycles" || name == "duration"));
+           (is_of_one_stage && (name == "cycles" || name == "max_cycles" || name == "duration"));
 }
 
 /// Overrides given now, behind those the run began with.
@@ -158,9 +160,12 @@ std::vector<std::string> merged_overrides(const RunOptions& options, std::vector
     const std::vector<std::string> at_first = overrides;
     for (const std::string& text : overrides_of(options))
     {
-        if (std::find(at_first.begin(), at_first.end(), text) != at_first.end())
+        const std::string key = parse_override(text).key;
+        const auto last = std::find_if(overrides.rbegin(), overrides.rend(),
+                                       [&](const std::string& before) { return parse_override(before).key == key; });
+        if (last != overrides.rend() && *last == text)
             continue;
-        if (!is_free_to_change(parse_override(text).key))
+        if (!is_free_to_change(key))
             refuse(fmt::format(
                 "{}: (a run that goes on keeps its blocks, joints and laws; it began with {}). Leave it away, or begin a "
                 "new run. Free to change are output, convergence, and how long stages last.",
@@ -215,6 +220,27 @@ void check_same_case(const RunOptions& options, const RunRecord& record)
         refuse(fmt::format("{}: case: ({}). Leave it away: the checkpoint holds the case.", options.case_file, given.obstacle));
 }
 
+/// Rows and frames of two runs would stand in one file.
+void check_same_run(const fs::path& folder, const RunRecord& record)
+{
+    const fs::path file = folder / "results.h5";
+    std::string case_text, begin;
+    try
+    {
+        const Hdf5Reader results(file);
+        begin = results.text("/provenance", "begin");
+        case_text = results.read_texts("/provenance/case_text").at(0);
+    }
+    catch (const std::exception&)
+    {
+        return;  // missing or damaged: what becomes of it is told elsewhere
+    }
+    if (begin != record.begin || case_text != record.case_text)
+        refuse(fmt::format("{}: (is of a run that began at {}, and the checkpoint of another one, that began at {}). Put back the "
+                           "checkpoint that belongs to it, or give another folder with -o.",
+                           printable(file.string(), 300), begin, record.begin));
+}
+
 RunStart start_again(const RunOptions& options)
 {
     const fs::path given = options.restart;
@@ -226,7 +252,7 @@ RunStart start_again(const RunOptions& options)
     start.folder = options.folder.empty() ? home : fs::path(options.folder);
     start.moved = !fs::exists(start.folder) || !fs::equivalent(start.folder, home);
     start.lock = std::make_unique<RunLock>(start.folder);
-    const Found found = find_checkpoint(given, !start.moved, start.notes);
+    const Found found = find_checkpoint(given, start.notes);
     start.record = found.reader.record();
     RunRecord& record = start.record;
     check_same_case(options, record);
@@ -235,6 +261,12 @@ RunStart start_again(const RunOptions& options)
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
     check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup, record.finished);
+    if (!start.moved)
+    {
+        check_folder(start.folder);
+        check_same_run(start.folder, record);
+        put_aside(found, start.notes);
+    }
     if (!start.moved && !fs::exists(start.folder / "results.h5"))
         start.notes.push_back(fmt::format("warning: {} is not there: histories and energies begin at cycle {}",
                                           (start.folder / "results.h5").string(), found.reader.cycle()));
@@ -271,43 +303,5 @@ RunStart read_moment(const fs::path& checkpoint)
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
     start.loaded.setup.state = reader.state(start.loaded.setup.model);
     return start;
-}
-
-std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite)
-{
-    const fs::path& folder = start.folder;
-    if (start.restarted && !start.moved)
-        return {};
-    std::vector<std::string> notes;
-    const fs::path checkpoints[] = {checkpoint_file(folder), previous_checkpoint_file(folder)};
-    if (!overwrite && fs::exists(checkpoints[0]))
-    {
-        std::optional<CheckpointReader> reader;
-        try
-        {
-            reader.emplace(checkpoints[0]);
-        }
-        catch (const InputError&)
-        {
-            refuse(fmt::format("{}: (cannot be read). Write to another folder with -o, or begin anew with --overwrite.",
-                               checkpoints[0].string()));
-        }
-        if (!reader->record().finished)
-            refuse(fmt::format(
-                "{}: (the run in this folder was cut short, its last checkpoint is of cycle {}). Go on with --restart {}, "
-                "write to another folder with -o, or begin anew with --overwrite.",
-                checkpoints[0].string(), reader->cycle(), folder.string()));
-        if (reader->record().case_text != start.record.case_text)
-            notes.push_back(fmt::format("note      the results of {} in this folder, begun at {}, are replaced",
-                                        printable(reader->record().case_file, 200), reader->record().begin));
-    }
-    remove_file(folder / "summary.json");  // first what tells of the others
-    for (const fs::path& checkpoint : checkpoints)
-        remove_file(checkpoint);
-    remove_file(folder / "results.h5");  // it names frames that are about to go
-    remove_frames(folder);
-    for (const char* page : {"view.html", "report.html"})  // they would show the run before
-        remove_file(folder / page);
-    return notes;
 }
 }  // namespace hdem

@@ -32,9 +32,4 @@ RunStart start_loaded(LoadedCase loaded, std::vector<std::string> overrides, con
 
 /// A case and the state that a checkpoint file holds, without the folder of the run. Throws InputError.
 RunStart read_moment(const std::filesystem::path& checkpoint);
-
-/// Throws InputError when the folder holds another run that was cut short and nothing says that it may go. Removes checkpoints and results of
-/// an older run: they must not be taken for those of this one. A run that goes on in its folder finds it as it left it.
-/// @return what the user should know: that the results of another case are gone
-[[nodiscard]] std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite);
 }  // namespace hdem

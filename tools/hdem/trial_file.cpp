@@ -4,12 +4,19 @@
 #include "io/digest.h"
 #include "io/text_file.h"
 
+#include <algorithm>
+
 namespace hdem
 {
 namespace
 {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most = 100'000'000;  // bytes
+
+bool is_text(const Json& read, const char* key, const std::string& text)
+{
+    return read.is_object() && read.contains(key) && read[key].is_string() && read[key] == text;
+}
 
 std::optional<TrialEnd> end_of(const std::string& name)
 {
@@ -26,9 +33,8 @@ TrialFile::TrialFile(std::filesystem::path file, const std::string& question)
 {
     if (!std::filesystem::exists(file_))
         return;
-    // A file that somebody damaged holds no trial: they are run again.
     const Json read = Json::parse(read_text_file(file_, most).text, nullptr, false);
-    if (read.is_object() && read.value("question", "") == question_ && read.contains("trials") && read["trials"].is_array())
+    if (is_text(read, "question", question_) && read.contains("trials") && read["trials"].is_array())
         trials_ = read["trials"];
 }
 
@@ -36,8 +42,7 @@ std::optional<Json> TrialFile::find(const std::string& search, double at)
 {
     const std::lock_guard lock(mutex_);
     for (const Json& trial : trials_)
-        if (trial.is_object() && trial.value("search", "") == search && trial.contains("at") && trial["at"].is_number() &&
-            trial["at"].get<double>() == at)
+        if (is_text(trial, "search", search) && trial.contains("at") && trial["at"].is_number() && trial["at"].get<double>() == at)
             return trial;
     return std::nullopt;
 }
@@ -59,6 +64,10 @@ try
     const std::optional<Json> read = file_.find(name_of(search), factor);
     const std::optional<TrialEnd> end = read ? end_of(read->value("verdict", "")) : std::nullopt;
     if (!end)
+        return std::nullopt;
+    const auto has_others = [this](const std::vector<Index>& blocks)
+    { return std::ranges::any_of(blocks, [this](Index b) { return b < 0 || b >= blocks_; }); };
+    if (has_others(read->at("failing")) || has_others(read->at("let_fall")))
         return std::nullopt;
     return Trial{.factor = factor,
                  .end = *end,
@@ -84,5 +93,36 @@ void FactorTrialFile::add(FactorSearch search, const Trial& trial)
                {"let_fall", trial.let_fall},
                {"cycles", trial.cycles},
                {"time", trial.time}});
+}
+
+std::optional<ConditionResult> ConditionTrialFile::find(double at)
+try
+{
+    const std::optional<Json> read = file_.find("critical", at);
+    if (!read)
+        return std::nullopt;
+    return ConditionResult{.fails = read->at("fails"),
+                           .greatest = read->at("greatest"),
+                           .block = read->at("block"),
+                           .cycles = read->at("cycles"),
+                           .met_ends = read->at("met_ends"),
+                           .still_moves = read->at("still_moves"),
+                           .ends_moving = read->at("ends_moving")};
+}
+catch (const Json::exception&)
+{
+    return std::nullopt;
+}
+
+void ConditionTrialFile::add(double at, const ConditionResult& result)
+{
+    file_.add("critical", at,
+              {{"fails", result.fails},
+               {"greatest", result.greatest},
+               {"block", result.block},
+               {"cycles", result.cycles},
+               {"met_ends", result.met_ends},
+               {"still_moves", result.still_moves},
+               {"ends_moving", result.ends_moving}});
 }
 }  // namespace hdem

@@ -1,6 +1,7 @@
 #pragma once
 /// FOLDER/trials.json: trials of a search that have ended, so that one that was cut short goes on.
 
+#include "parallel/critical_search.h"
 #include "parallel/safety_factor.h"
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 
 namespace hdem
 {
+/// A trial that somebody damaged is none: it is run again.
 /// Each trial is on the disk before the next one is asked for. Threads may call at once.
 class TrialFile
 {
@@ -35,10 +37,28 @@ class TrialFile
 class FactorTrialFile : public TrialStore
 {
   public:
-    FactorTrialFile(std::filesystem::path file, const std::string& question) : file_(std::move(file), question) {}
+    /// @param blocks  of the model: a trial with other ones is none
+    FactorTrialFile(std::filesystem::path file, const std::string& question, Index blocks)
+        : file_(std::move(file), question),
+          blocks_(blocks)
+    {
+    }
     [[nodiscard]] std::optional<Trial> find(FactorSearch search, double factor) override;
     void add(FactorSearch search, const Trial& trial) override;
     [[nodiscard]] std::size_t size() const { return file_.size(); }
+
+  private:
+    TrialFile file_;
+    Index blocks_;
+};
+
+/// Trials of `hdem critical`.
+class ConditionTrialFile
+{
+  public:
+    ConditionTrialFile(std::filesystem::path file, const std::string& question) : file_(std::move(file), question) {}
+    [[nodiscard]] std::optional<ConditionResult> find(double at);
+    void add(double at, const ConditionResult& result);
 
   private:
     TrialFile file_;

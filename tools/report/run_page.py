@@ -197,7 +197,7 @@ def thread_rows(summary):
         changes = ", ".join(f'{int(change["threads"])} from cycle {int(change["cycle"])}' for change in use["changes"][:8])
         more = f' and {len(use["changes"]) - 8} more changes' if len(use["changes"]) > 8 else ""
         return [("threads of the cycles", shares, ""), ("chosen", changes + more, "")]
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
         raise ResultError(f"summary.json: thread_use = {str(use)[:50]} is not what a run writes. Remove the file, or run the case again.") from error
 
 

@@ -11,8 +11,9 @@ the same steps. Its summary.json has
 import json
 
 from needed_modules import need
+from plain_text import at_once
 
-from .common import NOT_CONVERGED, DONE, SUMMARY, SweepError, checked_summary, flat
+from .common import NOT_CONVERGED, DONE, SUMMARY, SweepError, flat, read_summary
 from .criterion import Criterion
 
 
@@ -40,7 +41,7 @@ class Steps:
         code = self.run(folder, {self.key: f"{written:.10g}"})
         if code not in (DONE, NOT_CONVERGED):
             raise CutShort(code)
-        row = flat(checked_summary(folder) or {})
+        row = flat(read_summary(folder) or {})
         self.criterion.check_names([row])
         fails = self.criterion.fails(row)
         if fails is None:
@@ -73,6 +74,7 @@ def follow(folder, chain, run):
     found = outcome["bracket"] == "found"
     summary = outcome | {"key": chain["key"], "steps": len(steps.known), "not_converged": steps.not_converged, "converged": found}
     temporary = folder / (SUMMARY + ".tmp")
-    temporary.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    with open(temporary, "w", encoding="utf-8", opener=at_once) as file:
+        file.write(json.dumps(summary, indent=1) + "\n")
     temporary.rename(folder / SUMMARY)
     return DONE if found else NOT_CONVERGED

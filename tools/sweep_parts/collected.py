@@ -1,8 +1,10 @@
 """One table of all runs; medians, quartiles, shares that failed and histograms of it."""
 import csv
 import itertools
+import sys
 from collections import Counter
 
+from plain_text import at_once, one_line
 from run_lock import LOCK, is_running
 
 from . import estimates, plans
@@ -23,7 +25,9 @@ def rows_of(folder, plan):
             row |= {name: value for name, value in flat(summary or {}).items() if name not in row}
             runs = is_running(of_run, LOCK) or is_running(folder / CLAIMS, of_run.name)
             row[STATE] = "running" if runs else "done" if summary is not None else "cut short" if of_run.exists() else "missing"
-        except ValueError:
+        except SweepError as error:
+            if not any(other[STATE] == "damaged" for other in rows):    # the first one stands for all
+                print(f"error: sweep: {one_line(error)}", file=sys.stderr)
             row[STATE] = "damaged"
         rows.append(row)
     return rows
@@ -31,10 +35,13 @@ def rows_of(folder, plan):
 
 def write_table(file, rows, columns=None):
     columns = columns or list(dict.fromkeys(itertools.chain.from_iterable(rows)))
-    with open(file, "w", newline="", encoding="utf-8", errors="surrogateescape") as out:
+    with open(file, "w", newline="", encoding="utf-8", errors="surrogateescape", opener=at_once) as out:
         writer = csv.DictWriter(out, columns, restval="")
-        writer.writeheader()
-        writer.writerows(rows)
+        try:
+            writer.writeheader()
+            writer.writerows(rows)
+        except UnicodeEncodeError:
+            raise SweepError(f"{file}: a summary.json has a text that cannot be written. Remove the damaged one, and run this again.") from None
 
 
 def as_typed(row, varied):

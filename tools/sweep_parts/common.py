@@ -1,5 +1,5 @@
 """What all parts of tools/sweep share: the error that users see, folders of runs, what summary.json says."""
-import json
+from plain_text import read_json
 
 DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 129, 130, 143)    # exit codes of hdem
 SUMMARY = "summary.json"
@@ -25,20 +25,14 @@ FACTOR = "factor_of_safety"    # in the summary of a search by hdem fos that is 
 def read_summary(folder, needs=None):
     """None without one, or without the key that it `needs`: the run has not come to its end."""
     try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        summary = read_json(folder / SUMMARY)
+        if not isinstance(summary, dict):
+            raise ValueError("not a table of values")
     except FileNotFoundError:
         return None
-    if not isinstance(summary, dict):
-        raise ValueError("not a table of values")
-    return summary if needs is None or needs in summary else None
-
-
-def checked_summary(folder, needs=None):
-    """The same, with an error that says what to do."""
-    try:
-        return read_summary(folder, needs)
     except ValueError as error:
         raise SweepError(f"{folder / SUMMARY}: damaged ({error}). Remove it to run this again.") from None
+    return summary if needs is None or needs in summary else None
 
 
 def flat(summary):

@@ -9,6 +9,7 @@ from .common import SweepError
 
 FORM = re.compile(r"\s*([^\s<>=]+)\s*(<=|>=|<|>|=)\s*([^\s<>=]+)\s*")
 COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq}
+GREATEST = 1e150    # its square is a number, too
 TRUTH = {"true": 1.0, "false": 0.0}
 
 
@@ -25,8 +26,8 @@ class Comparison:
 
 
 def number_of(value):
-    """A number, with 1 for true; None for texts, nothing, and what is not finite."""
-    if isinstance(value, (bool, int, float)) and math.isfinite(value):
+    """A number, with 1 for true; None for texts, nothing, and what is not finite or beyond all that is measured."""
+    if isinstance(value, (bool, int, float)) and abs(value) < GREATEST:    # false also for what is no number
         return float(value)
     return None
 

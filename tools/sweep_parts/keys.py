@@ -2,13 +2,16 @@
 import re
 import tomllib
 
+from plain_text import read_bytes
+
+LARGEST_CASE = 16000000    # bytes; hdem takes no larger one
 STEP = re.compile(r"([^\[]*)(?:\[([0-9]{1,8})\])?")    # load[0]
 
 
 def document_of(case):
     """The case file as tables; empty where it cannot be read: hdem says why."""
     try:
-        return tomllib.loads(case.read_text(encoding="utf-8-sig"))
+        return tomllib.loads(read_bytes(case, LARGEST_CASE).decode("utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return {}
 

@@ -2,9 +2,12 @@
 import itertools
 import json
 import math
+import os
 import random
 import subprocess
 from decimal import Decimal, InvalidOperation
+
+from plain_text import check_values, one_line, read_json
 
 from . import designs, keys
 from .common import FACTOR, SweepError, runs_in
@@ -127,6 +130,16 @@ def require_different(names, document):
             raise SweepError(f"{one}: varies twice" + (f", also by {other}" if other != one else "") + ". Give each key once.")
 
 
+def content_of(plan):
+    """The bytes of its file, which can be read again."""
+    content = (json.dumps(plan, indent=1) + "\n").encode("utf-8")
+    try:
+        check_values(content)
+    except ValueError as error:
+        raise SweepError(f"the plan would have {error}. Give fewer runs or keys.") from None
+    return content
+
+
 def make(options):
     varied = [split_key("--vary", text) for text in options.vary]
     names = [key for key, _ in varied]
@@ -138,7 +151,7 @@ def make(options):
     if options.design is None and options.runs is not None:
         raise SweepError("--runs: belongs to --design. Without one all combinations are run.")
     rows = designed(options, varied) if options.design else combinations(varied)
-    if not options.case.exists():
+    if not options.case.is_file():
         raise SweepError(f"{options.case}: no such file. Give a case.")
     require_free(options.output)
     for number in extremes(names, rows):
@@ -151,20 +164,47 @@ def make(options):
         plan["command"] = options.command_of_hdem
     if options.design:
         plan["design"] = {"kind": options.design, "seed": options.design_seed}
-    (options.output / PLAN).write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
+    (options.output / PLAN).write_bytes(content_of(plan))
     print(f"{len(rows)} runs planned in {options.output}")
     return 0
 
 
+def is_word(value):
+    """Whether a program can be given it."""
+    try:
+        return isinstance(value, str) and b"\0" not in os.fsencode(value)
+    except UnicodeEncodeError:
+        return False
+
+
+def is_chain(table):
+    numbers = [table[name] for name in ("low", "high", "tolerance")]
+    return is_word(table["key"]) and all(isinstance(number, (int, float)) and math.isfinite(number) for number in numbers) and all(map(is_word, table["fails"]))
+
+
+def check(plan):
+    """A ValueError, TypeError or KeyError where it is none that `make` has written."""
+    if not isinstance(plan, dict):
+        raise ValueError("not a table of values")
+    if not is_word(plan["case"]) or command_of(plan) not in COMMANDS:
+        raise ValueError("case or command is damaged")
+    if not isinstance(plan["runs"], list) or not all(isinstance(chosen, dict) and chosen.keys() == plan["runs"][0].keys() for chosen in plan["runs"]):
+        raise ValueError("runs are damaged")
+    for number, chosen in enumerate(plan["runs"], 1):
+        for key, value in chosen.items():
+            if not is_word(key) or not is_word(value):
+                raise ValueError(f"run {number}: {key} is no text that hdem takes")
+    if not isinstance(plan.get("files_sha256", {}), dict) or "bisect" in plan and not is_chain(plan["bisect"]):
+        raise ValueError("files_sha256 or bisect is damaged")
+
+
 def read(folder):
     try:
-        plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-        tables = [*plan["runs"], plan.get("bisect", {}), plan.get("files_sha256", {})]
-        if not isinstance(plan["case"], str) or not all(isinstance(table, dict) for table in tables) or command_of(plan) not in COMMANDS:
-            raise ValueError("case or runs are damaged")
+        plan = read_json(folder / PLAN)
+        check(plan)
         return plan
     except (OSError, ValueError, TypeError, KeyError) as error:
-        raise SweepError(f"{folder / PLAN}: cannot be read ({error}). Make it with `sweep plan`.") from None
+        raise SweepError(f"{folder / PLAN}: cannot be read ({one_line(error)}). Make it with `sweep plan`.") from None
 
 
 def command_of(plan):

@@ -4,7 +4,7 @@ import subprocess
 
 from . import chains
 from .plans import command_of, needs_of
-from .common import DONE, INTERRUPTED, NOT_CONVERGED, SweepError, checked_summary, folder_of
+from .common import DONE, INTERRUPTED, NOT_CONVERGED, SweepError, folder_of, read_summary
 
 
 class Starter:
@@ -56,7 +56,7 @@ def met_ends(summary):
 
 def exit_code_of(folder, needs=None):
     """That of a run that is done; None for all others."""
-    summary = checked_summary(folder, needs)
+    summary = read_summary(folder, needs)
     return None if summary is None else DONE if met_ends(summary) else NOT_CONVERGED
 
 

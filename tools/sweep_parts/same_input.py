@@ -1,10 +1,12 @@
 """All runs of a plan have the same input: the case, the files that it names, and the options of hdem. Others do not belong in one table with them."""
 import hashlib
 import json
+import math
 import os
 import socket
 from pathlib import Path
 
+from plain_text import open_regular, read_json
 from run_lock import is_running
 
 from . import keys, settings
@@ -20,8 +22,11 @@ def refuse(what, remedy):
 def digest_of(file):
     """SHA-256; None where there is no such file: hdem says so."""
     try:
-        return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None
-    except OSError:
+        if not file.is_file():
+            return None
+        with open_regular(file, math.inf) as opened:
+            return hashlib.file_digest(opened, "sha256").hexdigest()
+    except (OSError, ValueError):
         return None
 
 
@@ -99,7 +104,7 @@ def recorded(folder, now):
     file = folder / RECORD
     write_once(file, now)
     try:
-        before = json.loads(file.read_text(encoding="utf-8"))
+        before = read_json(file)
         if not isinstance(before["settings"], dict) or not isinstance(before["files_sha256"], dict):
             raise ValueError("settings or files_sha256 are no table")
     except (ValueError, TypeError, KeyError) as error:

@@ -1,6 +1,8 @@
 """Work off a plan: many runs at a time, shared with other workers, until all are done or enough is known."""
+import errno
 import fcntl
 import os
+import stat
 import threading
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -12,14 +14,30 @@ from .common import CLAIMS, DONE, SweepError, flat, folder_of, read_summary
 from .criterion import Criterion
 from .same_input import require_same_input
 
+STRANGE = (errno.ENXIO, errno.ELOOP, errno.EISDIR, errno.EEXIST, errno.ENOTDIR)    # a pipe or a socket, a link, a folder; in place of the folder a file
+
+
+def open_claim(file):
+    """Its descriptor. Only a file that lies there itself is opened; a pipe is not waited for."""
+    try:
+        file.parent.mkdir(exist_ok=True)
+        descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOFOLLOW, 0o666)
+        if stat.S_ISREG(os.fstat(descriptor).st_mode):
+            return descriptor
+        os.close(descriptor)
+        wrong = file
+    except OSError as error:
+        if error.errno not in STRANGE:
+            raise
+        wrong = error.filename
+    raise SweepError(f"{wrong}: not what a worker has made. Remove it.")
+
 
 @contextmanager
 def claim(sweep, number):
     """Yields the open file of the claim, or None where the run belongs to another worker. The lock ends with this worker and with the hdem that it starts, however they end.
     Where a file system has no locks hdem's own refusal has to do."""
-    folder = sweep / CLAIMS
-    folder.mkdir(exist_ok=True)
-    descriptor = os.open(folder / f"run_{number:06d}", os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    descriptor = open_claim(sweep / CLAIMS / f"run_{number:06d}")
     held = descriptor
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -134,7 +152,7 @@ def work(options):
         for _ in range(options.jobs):
             pool.submit(worker.work)
     if worker.error:
-        raise SweepError(str(worker.error))
+        raise worker.error
     worker.report()
     if worker.start.stopped_by is not None:
         return 128 + worker.start.stopped_by

@@ -139,6 +139,15 @@ void judge_through(Scene& scene)
     scene.same_in_twin = false;
 }
 
+/// No joint alone holds it: it turns as it slides, until it lies.
+void judge_turning(Scene& scene)
+{
+    scene.fate[block_named(scene, "bar")] = Fate::moves;
+    scene.settle = 1e-4;
+    scene.least_way = 2.0;
+    scene.same_in_twin = false;  // it ends with an impact
+}
+
 const std::vector<Known>& all_known()
 {
     static const std::vector<Known> known{
@@ -155,7 +164,9 @@ const std::vector<Known>& all_known()
         {"throw", "falls 3 m", {}, judge_fall},
         {"sink", "a heavy block falls on a light plate", {}, judge_sink},
         {"sink", "the same until converged", {{"stage", "[{until = \"converged\", max_cycles = 200000}]"}}, judge_sink},
-        {"through", "soft joint at 50 m/s", {}, judge_through}};
+        {"through", "soft joint at 50 m/s", {}, judge_through},
+        {"lean", "a slab against a wall, with two thirds of the friction it needs", {}, judge_turning},
+        {"notch", "a bar between two planes", {}, judge_turning}};
     return known;
 }
 constexpr int orientations = 36;

@@ -34,6 +34,7 @@ FUZZ = Path(__file__).resolve().parents[2] / "fuzz"
 sys.path.insert(0, str(TOOLS))
 import hdem_io    # noqa: E402
 
+PATIENCE = 300.0    # s, of what should never wait
 FRAME = "frames/blocks_000002.hdf"
 
 
@@ -176,6 +177,30 @@ class DamagedFiles(unittest.TestCase):
                     self.assertTrue(done.stderr.startswith(f"error: hdem {command}: "), done.stderr)
                     self.assertIn(file.split("/")[-1], done.stderr)
                 shutil.copy(self.whole / file, self.folder / file)
+
+    def test_nothing_but_files_is_read_and_none_that_is_too_large(self):
+        def of_cycles(file):
+            whole = json.loads((self.whole / file.name).read_text())
+            file.write_text(json.dumps(whole | {"cycles": 10 ** 400}))
+        for name, make, words in (("summary.json", os.mkfifo, "a pipe"), ("summary.json", os.mkdir, "Is a directory"), ("summary.json", lambda file: file.symlink_to("/dev/zero"), "a device"),
+                                  ("summary.json", lambda file: file.write_text("[" + 2000000 * "0," + "0]"), "2000000 values"), ("summary.json", of_cycles, "401 digits"),
+                                  ("run.log", os.mkfifo, "a pipe"), ("run.log", os.mkdir, "Is a directory"), ("report.html", os.mkfifo, "No such device")):
+            with self.subTest(name, words=words):
+                file = self.folder / name
+                file.unlink(missing_ok=True)
+                make(file)
+                done = subprocess.run([HDEM, "report", self.folder], capture_output=True, text=True, check=False, timeout=PATIENCE)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1 if name == "report.html" else 2, "", 1), done.stderr)
+                self.assertIn(f"{file}: ", done.stderr)
+                self.assertIn(words, done.stderr)
+                file.rmdir() if file.is_dir() else file.unlink()
+                if name != "report.html":
+                    shutil.copy(self.whole / name, file)
+        (self.folder / "picture.png").unlink(missing_ok=True)
+        os.mkfifo(self.folder / "picture.png")
+        done = subprocess.run([HDEM, "plot", self.folder, "-o", self.folder / "picture.png"], capture_output=True, text=True, check=False, timeout=PATIENCE)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertIn("picture.png: no file. Give", done.stderr)
 
     def test_values_of_a_run_that_blew_up_are_drawn_as_far_as_they_go(self):
         for value in (1e308, -1e308, np.inf, np.nan):

@@ -136,9 +136,13 @@ class Ensemble(unittest.TestCase):
         self.setUp()
         self.assertEqual(self.ensemble("--realisations", 1)[0], 0)
         self.assertEqual(self.calls(), [])
-        (self.folder / self.id() / "25_75_-55_seed_1/hybrid_300000/summary.json").unlink()
-        self.assertEqual(self.ensemble("--realisations", 1)[0], 0)
-        self.assertEqual(self.calls(), ["25_75_-55_seed_1 hybrid_300000"])
+        summary = self.folder / self.id() / "25_75_-55_seed_1/hybrid_300000/summary.json"
+        for make in (lambda file: None, os.mkfifo, lambda file: file.write_text("[" * 200000)):
+            self.setUp()
+            summary.unlink()
+            make(summary)
+            self.assertEqual(self.ensemble("--realisations", 1)[0], 0)
+            self.assertEqual(self.calls(), ["25_75_-55_seed_1 hybrid_300000"])
         self.setUp()
         other = self.folder / "other"
         other.write_text(STAND_IN + "# changed\n", encoding="utf-8")

@@ -6,6 +6,7 @@
 Exit code 77 (skipped) without ezdxf or h5py.
 """
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -51,7 +52,7 @@ class Drawing(unittest.TestCase):
         self.scratch.cleanup()
 
     def convert(self, *arguments):
-        done = subprocess.run([TOOLS / "import_dxf.py", self.folder / "map.dxf", *map(str, arguments)], capture_output=True, text=True, check=False)
+        done = subprocess.run([TOOLS / "import_dxf.py", self.folder / "map.dxf", *map(str, arguments)], capture_output=True, text=True, check=False, timeout=600.0)
         return done.returncode, done.stdout + done.stderr
 
     def check(self, text):
@@ -254,6 +255,43 @@ class Drawing(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("cannot be read", said)
         self.assertNotIn("Traceback", said)
+
+    def refused_within(self, name, limit):
+        """Exit code and error with a lower limit than the program's, which takes a minute to come to."""
+        program = f"import sys; sys.path.insert(0, {str(TOOLS)!r}); import import_dxf; import_dxf.{name} = {limit}; sys.exit(import_dxf.main(sys.argv[1:]))"
+        done = subprocess.run([sys.executable, "-c", program, self.folder / "map.dxf", "--traces", self.folder / "t.wkt"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), done.stderr)
+        return done.returncode, done.stderr
+
+    def test_nothing_but_a_drawing_is_read_and_none_that_is_too_large(self):
+        traces = self.folder / "t.wkt"
+        for make, code, words in ((os.mkfifo, 2, "a pipe"), (lambda file: file.symlink_to("/dev/zero"), 2, "a device"), (os.mkdir, 2, "Is a directory"),
+                                  (lambda file: (file.touch(), os.truncate(file, 1500 << 20)), 2, "1572864000 bytes, more than 67108864")):
+            file = self.folder / "map.dxf"
+            file.rmdir() if file.is_dir() else file.unlink()
+            make(file)
+            found, said = self.convert("--traces", traces)
+            self.assertEqual((found, said.count("\n")), (code, 1), said)
+            self.assertRegex(said, rf"^error: import_dxf: {file}: .*{words}.*\. Give ")
+
+    def test_memory_is_limited(self):
+        """Tiny entities take 70 bytes of memory for each of theirs."""
+        (self.folder / "map.dxf").write_text("0\nSECTION\n2\nENTITIES\n" + 700000 * "0\nLINE\n" + "0\nENDSEC\n0\nEOF\n")
+        code, said = self.refused_within("MOST_MEMORY", 300 << 20)
+        self.assertEqual(code, 1)
+        self.assertIn("map.dxf: takes more than 314572800 bytes of memory. Save the layers", said)
+
+    def test_references_that_multiply_are_refused(self):
+        drawing = ezdxf.new()
+        for depth in range(6):
+            block = drawing.blocks.new(f"B{depth}")
+            for i in range(10 if depth else 0):
+                block.add_blockref(f"B{depth - 1}", (i, 0))
+        drawing.modelspace().add_blockref("B5", (0, 0))
+        drawing.saveas(self.folder / "map.dxf")
+        code, said = self.refused_within("MOST_PIECES", 20000)
+        self.assertEqual(code, 2)
+        self.assertIn("has more than 20000 entities, with those of block references. Save the layers", said)
 
 
 if __name__ == "__main__":

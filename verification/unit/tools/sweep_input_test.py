@@ -4,6 +4,9 @@
     sweep_input_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
 import json
+import math
+import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -14,7 +17,7 @@ import small_case
 
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(TOOLS))
-from sweep_parts import keys, settings    # noqa: E402
+from sweep_parts import common, keys, plans, settings    # noqa: E402
 
 # Two loads, one of which has a name, and a file that the case names.
 CASE = small_case.CASE.replace("[output]", """[[load]]
@@ -27,6 +30,12 @@ force = [300, -400]
 table_file = "table.csv"
 [output]""")
 TABLE = "cycle,factor\n0,0\n100,1\n"
+PATIENCE = 300.0    # s, of what should never wait
+# In place of a JSON file: how it is made, and what is said of it.
+NO_JSON = {"deep": (lambda file: file.write_text("[" * 200000), "too deep in each other"), "huge": (lambda file: file.write_text('{"moved": 1%s}' % (400 * "0")), "401 digits"),
+           "many": (lambda file: file.write_text("[" + 2000000 * "0," + "0]"), "2000000 values"), "large": (lambda file: (file.touch(), os.truncate(file, 2500 << 20)), "bytes, more than"),
+           "bytes": (lambda file: file.write_bytes(b"\xff"), "decode"), "pipe": (os.mkfifo, "is a pipe"), "device": (lambda file: file.symlink_to("/dev/zero"), "a device"),
+           "folder": (lambda file: file.mkdir(), "Is a directory")}
 
 
 class Scratch(unittest.TestCase):
@@ -43,7 +52,8 @@ class Scratch(unittest.TestCase):
 
     def sweep(self, *arguments, code=0):
         """What was said."""
-        done = subprocess.run([TOOLS / "sweep", *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.folder)
+        done = subprocess.run([TOOLS / "sweep", *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.folder, timeout=PATIENCE,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30)))
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         self.assertNotIn("Traceback", done.stderr)
         return done.stdout + done.stderr
@@ -193,6 +203,96 @@ class SameInput(Scratch):
         for words, found in (([], {}), (["-q", "--threads", "2"], {}), (["--set", "a=1", "b = 2", "--set=[c=3,d=4]"], {"--set": ["a=1", "b=2", "c=3", "d=4"]}),
                              (["--method=force", "-qq"], {"--method": ["force"]}), (["--new"], {"--new": []}), (["word"], {"": ["word"]})):
             self.assertEqual(settings.settings_of(words), found)
+
+
+class StrangeFiles(Scratch):
+    """In the folder of a sweep, made or damaged by somebody else: one line that says what to do, soon and without much memory."""
+
+    def setUp(self):
+        super().setUp()
+        self.plan("load.push.force=1:3")
+        self.work()
+
+    def in_place_of(self, name):
+        """Each kind of strange file, and the words for it; the old file is back afterwards."""
+        file, old = self.folder / "s" / name, self.folder / "old"
+        file.rename(old)
+        for kind, (make, words) in NO_JSON.items():
+            make(file)
+            yield file, words
+            file.rmdir() if kind == "folder" else file.unlink()
+        old.rename(file)
+
+    def refused(self, said, *words):
+        self.assertEqual(said.count("\n"), 1, said)
+        for word in ("error: sweep: ", *words):
+            self.assertIn(word, said)
+
+    def test_plan(self):
+        for file, words in self.in_place_of("plan.json"):
+            for said in (self.work(code=2), self.sweep("collect", "s", code=2)):
+                self.refused(said, f"s/{file.name}: cannot be read (", words, "Make it with `sweep plan`")
+
+    def test_values_of_a_plan(self):
+        chain = {"key": "a", "low": 0.0, "high": 1.0, "tolerance": 0.1, "fails": ["b>0"]}
+        for wrong in ({"runs": [{"a": {}}, {"b": [1]}]}, {"runs": [{"a": "1"}, {"b": "1"}]}, {"runs": [{"a": ["1"]}]}, {"runs": [{"a": "\0"}]}, {"runs": [{"a": "\ud800"}]}, {"runs": {}},
+                      {"case": "\0"}, {"files_sha256": []}, {"bisect": []}, {"bisect": chain | {"low": "0"}}, {"bisect": chain | {"fails": [1]}}, {"bisect": chain | {"high": math.inf}}):
+            (self.folder / "s/plan.json").write_text(json.dumps({"case": "/x", "runs": [{"a": "1"}]} | wrong))
+            for said in (self.work(code=2), self.sweep("collect", "s", code=2)):
+                self.refused(said, "s/plan.json: cannot be read (")
+
+    def test_plan_that_could_not_be_read_is_not_made(self):
+        with self.assertRaisesRegex(common.SweepError, "the plan would have more than .* 2000000 values. Give fewer runs or keys"):
+            plans.content_of({"runs": [{str(key): "1" for key in range(25)}] * 100000})
+
+    def test_summary(self):
+        for file, words in self.in_place_of("run_000001/summary.json"):
+            self.refused(self.work(code=2), f"run_000001/{file.name}: damaged (", words, "Remove it to run this again")
+            error, table = self.sweep("collect", "s", code=1).split("\n")[1::-1]
+            self.refused(error + "\n", f"run_000001/{file.name}: damaged (", words, "Remove it to run this again")
+            self.assertEqual(table, "s/table.csv: 2 of 3 runs done, 1 damaged")
+
+    def test_numbers_that_are_too_great_are_none(self):
+        for number in range(1, 4):
+            (self.folder / f"s/run_00000{number}/summary.json").write_text('{"moved": %d, "far": %de306, "late": 1e400}' % (number, 2 * number - 5))
+        self.assertIn("moved: median 2, quartiles 1.5 and 2.5, 3 runs", self.sweep("collect", "s", "--of", "moved"))
+        for name in ("far", "late"):
+            self.assertIn(f"{name}: no run has such a number", self.sweep("collect", "s", "--fails", f"{name}>0", code=2))
+
+    def test_summary_of_many_stages_counts(self):
+        stage = {"name": "excavate", "cycles": 1000, "converged": True, "ended_by": "converged", **{f"value_{i}": 1.0 / 3.0 for i in range(8)}}
+        (self.folder / "s/run_000001/summary.json").write_text(json.dumps({"stages": 20000 * [stage]}, indent=1))
+        self.assertIn("3 of 3 runs done", self.sweep("collect", "s"))
+
+    def test_text_that_is_none_is_told(self):
+        (self.folder / "s/run_000001/summary.json").write_text('{"title": "\\ud800"}')
+        self.refused(self.sweep("collect", "s", code=2), "s/table.csv: ", "cannot be written")
+
+    def test_record_of_options(self):
+        for file, words in self.in_place_of("input.json"):
+            self.refused(self.work(code=2), f"s/{file.name}: damaged (", words, "Remove it")
+
+    def test_claim(self):
+        file = self.folder / "s/claims/run_000001"
+        file.unlink()
+        for make, remove in ((os.mkfifo, os.unlink), (os.mkdir, os.rmdir), (lambda file: os.symlink("/dev/null", file), os.unlink)):
+            make(file)
+            self.refused(self.work(code=2), "s/claims/run_000001: not what a worker has made. Remove it")
+            remove(file)
+        for other in file.parent.iterdir():
+            other.unlink()
+        file.parent.rmdir()
+        os.mkfifo(file.parent)
+        self.refused(self.work(code=2), "s/claims: not what a worker has made. Remove it")
+
+    def test_table_is_not_written_to_a_pipe_that_nobody_reads(self):
+        os.mkfifo(self.folder / "s/table.csv")
+        self.refused(self.sweep("collect", "s", code=2), "s/table.csv: No such device")
+
+    def test_case(self):
+        os.mkfifo(self.folder / "pipe.toml")
+        said = self.sweep("plan", "pipe.toml", "-o", "other", "--program", HDEM, "--vary", "load.push.force=1:3", code=2)
+        self.refused(said, "pipe.toml: no such file. Give a case")
 
 
 if __name__ == "__main__":

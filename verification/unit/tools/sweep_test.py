@@ -158,7 +158,7 @@ class Sweep(unittest.TestCase):
         gone.wait()
         with unittest.mock.patch.object(run_lock.fcntl, "flock", side_effect=OSError(errno.ENOLCK, "no locks")):
             for text, expected in ((json.dumps({"host": "elsewhere", "process": gone.pid}), True), (json.dumps({"host": socket.gethostname(), "process": os.getpid()}), True),
-                                   (json.dumps({"host": socket.gethostname(), "process": gone.pid}), False), ("", False), ("[]", False)):
+                                   (json.dumps({"host": socket.gethostname(), "process": gone.pid}), False), ("", False), ("[]", False), ("[" * 4000, False)):
                 lock.write_text(text)
                 self.assertIs(run_lock.is_running(self.folder), expected, text)
         lock.unlink()

@@ -7,6 +7,7 @@ Exit code 77 (skipped) without matplotlib.
 """
 import html
 import json
+import os
 import re
 import subprocess
 import sys
@@ -119,7 +120,9 @@ class Page(unittest.TestCase):
         self.assertIn(">paper.fig5</h3>", page.read_text())
 
     def test_errors_say_what_is_wrong(self):
-        for arguments, expected, words in ((["--json", "nowhere.json"], 1, "nowhere.json: cannot be read"), (["--curves", "c.json"], 2, "give --json too"),
+        pipe = self.folder / "pipe.json"
+        os.mkfifo(pipe)
+        for arguments, expected, words in ((["--json", "nowhere.json"], 1, "nowhere.json: cannot be read"), (["--json", pipe], 1, "pipe.json: cannot be read as JSON (is a pipe"), (["--curves", "c.json"], 2, "give --json too"),
                                            (["--json", "r.json", "paper"], 2, "nothing is run"), (["--program", "nowhere"], 1, "nowhere: no such program"),
                                            (["--program", VERIFY, "paper.table9"], 1, "exit code 2")):
             code, said = make_page("-o", self.folder / "none.html", *arguments)

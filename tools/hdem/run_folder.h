@@ -1,0 +1,19 @@
+#pragma once
+/// What a folder holds of earlier runs and searches, when a run begins in it.
+
+#include "tools/hdem/run_start.h"
+
+#include <string>
+#include <vector>
+
+namespace hdem
+{
+/// Throws InputError when something stands in the way: a folder under the name of a file, links to the frames of another folder.
+void check_folder(const std::filesystem::path& folder);
+
+/// Throws InputError, and leaves all as it is, when something here may not go unless --overwrite says so: a run that was cut short, a search for a factor of safety
+/// that was, a search of hdem critical; or as check_folder.
+/// Else removes all that an older run left: it must not be taken for this one's. A run that goes on in its folder finds it as it left it.
+/// @return what the user should know: that the results of another case are gone
+[[nodiscard]] std::vector<std::string> clear_for_run(const RunStart& start, bool overwrite);
+}  // namespace hdem
