@@ -51,8 +51,10 @@ class GivenScene:
 
 
 def cycles_logged(folder):
-    """The last cycle that a row of run.log speaks of: so far the run had come at least."""
-    numbers = [line.split()[0] for line in (folder / "run.log").read_text(encoding="utf-8").splitlines() if line[:9].strip().isdigit()]
+    """The last cycle that a row of run.log speaks of since the last restart, which may have gone back: so far the run had come at least."""
+    lines = (folder / "run.log").read_text(encoding="utf-8").splitlines()
+    begun = max((at for at, line in enumerate(lines) if line.startswith("restart   ")), default=0)
+    numbers = [line.split()[0] for line in lines[begun:] if line[:9].strip().isdigit()]
     return int(numbers[-1]) if numbers else 0
 
 
