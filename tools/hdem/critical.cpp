@@ -257,6 +257,12 @@ int critical_command(const CriticalOptions& options)
     const RunLock lock(folder);
     if (fs::exists(folder / "results.h5") || fs::exists(folder / "checkpoint.h5"))
         refuse(fmt::format("{}: (holds a run). Give another folder with -o.", printable(folder.string())));
+    const bool was_cut_short = !fs::exists(folder / "summary.json");
+    if (!options.overwrite && was_cut_short && TrialFile(folder / "trials.json", question).is_of_another())
+        refuse(fmt::format(
+            "{}: (holds trials of another search, which did not come to its end). Give another folder with -o, or begin "
+            "anew with --overwrite.",
+            printable(folder.string())));
     remove_file(folder / "summary.json");  // of a search before
     if (options.overwrite)
         remove_file(folder / "trials.json");

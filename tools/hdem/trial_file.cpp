@@ -34,6 +34,7 @@ TrialFile::TrialFile(std::filesystem::path file, const std::string& question)
     if (!std::filesystem::exists(file_))
         return;
     const Json read = Json::parse(read_text_file(file_, most).text, nullptr, false);
+    is_of_another_ = read.is_object() && read.contains("question") && read["question"].is_string() && read["question"] != question_;
     if (is_text(read, "question", question_) && read.contains("trials") && read["trials"].is_array())
         trials_ = read["trials"];
 }

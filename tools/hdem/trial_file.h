@@ -25,10 +25,13 @@ class TrialFile
     [[nodiscard]] std::optional<nlohmann::ordered_json> find(const std::string& search, double at);
     void add(const std::string& search, double at, nlohmann::ordered_json trial);
     [[nodiscard]] std::size_t size() const { return trials_.size(); }
+    /// Does the file hold trials of another question?
+    [[nodiscard]] bool is_of_another() const { return is_of_another_; }
 
   private:
     std::filesystem::path file_;
     std::string question_;
+    bool is_of_another_ = false;
     std::mutex mutex_;
     nlohmann::ordered_json trials_ = nlohmann::ordered_json::array();
 };

@@ -190,6 +190,9 @@ class Folders(unittest.TestCase):
         self.hdem("critical", CASES / "fos/slab.toml", "--vary", "joint.default.friction_angle_deg=10:60", "--fails", "displacement:slab>0.1", "-o",
                   self.folder, "-q", "--tolerance", "20")
         self.expect_untouched("hdem critical", "run", self.case, "-o", self.folder, "-q")
+        (self.folder / "summary.json").unlink()    # as if it had been cut short
+        self.expect_untouched("another search", "critical", CASES / "fos/slab.toml", "--vary", "joint.default.friction_angle_deg=10:60", "--fails",
+                              "displacement:slab>0.2", "-o", self.folder, "-q", "--tolerance", "20")
         self.run_case("--overwrite")
 
     def test_a_whole_stage_is_not_free_to_change(self):
