@@ -7,6 +7,7 @@
 #include "parallel/critical_search.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/critical_options.h"
+#include "tools/hdem/run_folder.h"
 #include "tools/hdem/screen.h"
 #include "tools/hdem/signal_watch.h"
 #include "tools/hdem/signals.h"
@@ -257,6 +258,7 @@ int critical_command(const CriticalOptions& options)
     const RunLock lock(folder);
     if (fs::exists(folder / "results.h5") || fs::exists(folder / "checkpoint.h5"))
         refuse(fmt::format("{}: (holds a run). Give another folder with -o.", printable(folder.string())));
+    check_folder(folder);
     const bool was_cut_short = !fs::exists(folder / "summary.json");
     if (!options.overwrite && was_cut_short && TrialFile(folder / "trials.json", question).is_of_another())
         refuse(fmt::format(

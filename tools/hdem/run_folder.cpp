@@ -71,9 +71,15 @@ std::vector<std::string> refuse_unfinished_run(const RunStart& start)
 
 void check_folder(const fs::path& folder)
 {
-    if (fs::is_symlink(folder / "frames"))
-        refuse(folder / "frames",
-               "(is a link: the frames of another run may lie there). Remove it, or make a link of the whole folder.");
+    for (const char* name : {"frames", "before_last_stage", "failure"})
+    {
+        const fs::file_status status = fs::symlink_status(folder / name);
+        if (fs::is_symlink(status))
+            refuse(folder / name,
+                   "(is a link: files of another run may lie behind it). Remove it, or make a link of the whole folder.");
+        if (fs::exists(status) && !fs::is_directory(status))
+            refuse(folder / name, "(is no folder, and one is to be made). Move it away, or write to another folder with -o.");
+    }
     for (const char* name : {"summary.json", "checkpoint.h5", "checkpoint.previous.h5", "results.h5", "run.log", "trials.json",
                              "view.html", "report.html"})
         if (fs::is_directory(fs::symlink_status(folder / name)))

@@ -8,7 +8,7 @@
 
 namespace hdem
 {
-/// Throws InputError when something stands in the way: a folder under the name of a file, links to the frames of another folder.
+/// Throws InputError when something stands in the way: a folder under the name of a file or a file under that of a folder, links to the folders of another run.
 void check_folder(const std::filesystem::path& folder);
 
 /// Throws InputError, and leaves all as it is, when something here may not go unless --overwrite says so: a run that was cut short, a search for a factor of safety

@@ -177,22 +177,35 @@ class Folders(unittest.TestCase):
             (self.folder / name).rmdir()
         self.run_case()
 
+    def test_a_file_in_the_place_of_a_folder_is_found_before_anything_goes(self):
+        self.run_case()
+        (self.folder / "frames").rename(self.root / "kept")
+        (self.folder / "frames").touch()
+        self.expect_untouched("is no folder", "run", self.case, "-o", self.folder, "-q")
+
     def test_frames_of_another_run_behind_a_link_stay(self):
         self.run_case()
         linked = self.root / "linked"
         linked.mkdir()
-        (linked / "frames").symlink_to(self.folder / "frames")
         before = content(self.folder)
-        self.assertIn("is a link", self.hdem("run", self.other, "-o", linked, "-q", code=REFUSED))
-        self.assertEqual(content(self.folder), before)
+        for name, target in (("frames", "frames"), ("failure", ".")):
+            (linked / name).symlink_to(self.folder / target)
+            self.assertIn("is a link", self.hdem("run", self.other, "-o", linked, "-q", code=REFUSED))
+            self.assertEqual(content(self.folder), before)
+            (linked / name).unlink()
 
     def test_a_search_of_critical_is_replaced_only_with_overwrite(self):
         self.hdem("critical", CASES / "fos/slab.toml", "--vary", "joint.default.friction_angle_deg=10:60", "--fails", "displacement:slab>0.1", "-o",
                   self.folder, "-q", "--tolerance", "20")
         self.expect_untouched("hdem critical", "run", self.case, "-o", self.folder, "-q")
+        other = ["critical", CASES / "fos/slab.toml", "--vary", "joint.default.friction_angle_deg=10:60", "--fails", "displacement:slab>0.2", "-o",
+                 self.folder, "-q", "--tolerance", "20"]
+        (self.folder / "run.log").rename(self.folder / "kept.log")
+        (self.folder / "run.log").mkdir()
+        self.expect_untouched("is a folder", *other)
+        (self.folder / "run.log").rmdir()
         (self.folder / "summary.json").unlink()    # as if it had been cut short
-        self.expect_untouched("another search", "critical", CASES / "fos/slab.toml", "--vary", "joint.default.friction_angle_deg=10:60", "--fails",
-                              "displacement:slab>0.2", "-o", self.folder, "-q", "--tolerance", "20")
+        self.expect_untouched("another search", *other)
         self.run_case("--overwrite")
 
     def test_a_whole_stage_is_not_free_to_change(self):
