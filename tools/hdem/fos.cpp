@@ -79,8 +79,8 @@ Question read_question(const RunOptions& run)
     return {file.source.text(), file.files, run.overrides, file.def};
 }
 
-/// Does the folder hold a checkpoint of this case? Then the run goes on, or has come to its end.
-bool has_begun(const fs::path& folder, const Question& question)
+/// Does the folder hold a checkpoint of this case?
+bool holds_checkpoint(const fs::path& folder, const Question& question)
 try
 {
     return fs::exists(checkpoint_file(folder)) && question.is_of(CheckpointReader(checkpoint_file(folder)).record());
@@ -101,7 +101,7 @@ std::optional<Moment> moment_before(const BeforeLastStage& seen, const FinishedR
     LoadedCase loaded = load_case(run.start.record.case_text, run.start.record.files, run.start.record.case_file, overrides);
     const fs::path before = checkpoint_file(before_folder(run.start.folder));
     const bool has_earlier_stages = loaded.setup.model.stages.size() > 1;
-    if (has_earlier_stages && !has_begun(before_folder(run.start.folder), question))
+    if (has_earlier_stages && !holds_checkpoint(before_folder(run.start.folder), question))
         throw InputError(Problem{
             .key = {},
             .text = fmt::format(
@@ -221,8 +221,8 @@ int fos_command(const FosOptions& options)
     refuse_driven(question.def);
     const fs::path folder = run_options.folder.empty() ? fs::path(fs::path(run_options.case_file).stem())
                                                        : fs::path(run_options.folder);
-    if (!run_options.overwrite && has_begun(folder, question))
-    {
+    if (!run_options.overwrite && holds_checkpoint(folder, question))
+    {  // the run goes on, or has come to its end
         run_options.restart = folder.string();
         run_options.folder.clear();
     }

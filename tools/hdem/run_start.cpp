@@ -266,10 +266,10 @@ RunStart start_again(const RunOptions& options)
         check_folder(start.folder);
         check_same_run(start.folder, record);
         put_aside(found, start.notes);
+        if (!fs::exists(start.folder / "results.h5"))
+            start.notes.push_back(fmt::format("warning: {} is not there: histories and energies begin at cycle {}",
+                                              (start.folder / "results.h5").string(), found.reader.cycle()));
     }
-    if (!start.moved && !fs::exists(start.folder / "results.h5"))
-        start.notes.push_back(fmt::format("warning: {} is not there: histories and energies begin at cycle {}",
-                                          (start.folder / "results.h5").string(), found.reader.cycle()));
     record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
     start.notes.push_back(
         fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));
