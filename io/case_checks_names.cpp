@@ -15,12 +15,22 @@ class NameCheck : public CaseCheck
 
     void check()
     {
+        check_numbers();
         check_names();
         check_joints();
         check_use();
     }
 
   private:
+    /// There is a number for each pair of materials: the joint between them.
+    void check_numbers()
+    {
+        constexpr std::size_t most = 4096;
+        if (def_.materials.size() > most)
+            problems_.add("material", "case", fmt::format("{} materials", def_.materials.size()),
+                          fmt::format("at most {}: each pair of them has its joint", most), "Give equal blocks one material.");
+    }
+
     /// A joint has no effect by its name: something has to give it.
     void check_use()
     {

@@ -22,7 +22,7 @@ SectionSpec material_section()
     return {"material",
             SectionKind::named,
             "material",
-            "The rock of blocks that name it. `rock` is the name that domain and blocks use when they give none.",
+            "The rock of blocks that name it. `rock` is the name that domain and blocks use when they give none. At most 4096.",
             {field<&MaterialDef::density>({.name = "density",
                                            .unit = "kg/m3",
                                            .effect = "Mass of a block = density × area × 1 m.",

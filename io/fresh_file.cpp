@@ -9,23 +9,22 @@
 #include <cerrno>
 #include <cstdint>
 #include <random>
+#include <regex>
 #include <string>
 
 namespace hdem
 {
 namespace
 {
-constexpr std::size_t digits = 12;
 constexpr mode_t rights = 0666;  // less what umask takes away
 
+/// Of a file that a run writes: a user's own may end in the same way.
 bool is_temporary(const std::string& name)
 {
-    constexpr std::string_view ending = ".tmp";
-    if (name.size() < digits + ending.size() + 2 || !name.ends_with(ending))
-        return false;
-    const std::string random = name.substr(name.size() - ending.size() - digits, digits);
-    return name[name.size() - ending.size() - digits - 1] == '.' &&
-           random.find_first_not_of("0123456789abcdef") == std::string::npos;
+    static const std::regex of_run(
+        R"((summary\.json|trials\.json|(checkpoint|checkpoint\.previous|results)\.h5|(view|report)\.html|[a-z]+\.hdf\.series|[a-z]+_\d+\.hdf))"
+        R"(\.[0-9a-f]{12}\.tmp)");
+    return std::regex_match(name, of_run);
 }
 
 int open_for_appending(const std::filesystem::path& file)

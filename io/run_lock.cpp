@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "io/fresh_file.h"
+#include "io/printable.h"
 #include "io/provenance.h"
 #include "io/text_file.h"
 
@@ -130,12 +131,29 @@ RunLock::RunLock(fs::path folder) : folder_(std::move(folder)), file_(folder_ / 
 
 RunLock::~RunLock()
 {
-    ::unlink(file_.c_str());  // before the lock goes: who opens it afterwards makes a new one
+    if (is_under(file_, descriptor_))
+        ::unlink(file_.c_str());  // before the lock goes: who opens it afterwards makes a new one
     ::close(descriptor_);
     if (first_made_.empty())
         return;
     for (fs::path at = folder_; ::rmdir(at.c_str()) == 0 && at != first_made_;)
         at = at.parent_path();
+}
+
+bool RunLock::is_held() const
+{
+    struct stat by_name = {};
+    const bool is_seen = ::lstat(file_.c_str(), &by_name) == 0 || errno == ENOENT || errno == ENOTDIR;
+    return !is_seen || is_under(file_, descriptor_);  // a file system that does not answer now has lost nothing
+}
+
+void RunLock::check() const
+{
+    if (!is_held())
+        throw RunError(
+            fmt::format("{}: (the folder, or its file .lock, was moved or removed while the run went on). The run ends here, "
+                        "since another one may write under this name. Go on with --restart and the folder's new name.",
+                        printable(folder_.string())));
 }
 
 void RunLock::take()

@@ -16,9 +16,15 @@ class RunLock
     explicit RunLock(std::filesystem::path folder);
     RunLock(const RunLock&) = delete;
     RunLock& operator=(const RunLock&) = delete;
-    /// Removes the file, and folders that were made for it if nothing else came into them.
+    /// Removes the file, if it is still this one, and folders that were made for it if nothing else came into them.
     ~RunLock();
 
+    /// False once the folder or the file was moved or removed: another run may be under this name by now.
+    [[nodiscard]] bool is_held() const;
+    /// Throws RunError where it is not. To be asked before anything is written under a name in the folder.
+    void check() const;
+
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
   private:

@@ -154,6 +154,7 @@ void RunRecorder::write_frame(const Model& model, const State& state)
     await_frame();
     if (!frames_.frames().empty() && frames_.frames().back().cycle == state.cycle)
         return;
+    may_write_();
     last_frame_cycle_ = state.cycle;
     if (!is_worth_a_copy(model))
         frames_.write(model, state);
@@ -170,6 +171,7 @@ void RunRecorder::await_frame()
 void RunRecorder::write_results()
 {
     await_frame();
+    may_write_();
     frames_.write_series();
     results_.write(frames_.frames(), frames_.kinds());
 }

@@ -5,6 +5,7 @@
 #include "io/results_writer.h"
 
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <span>
 #include <string>
@@ -27,6 +28,8 @@ class RunRecorder : public Observer
     void observe(const Model& model, const State& state) override;
     void end_stage(const Model& model, const State& state) override;
 
+    /// What is called before anything is written under a name in the folder; it may throw.
+    void ask_before_writing(std::function<void()> check) { may_write_ = std::move(check); }
     /// The case of these results has changed in stages to come.
     void take_case(const std::string& text, const std::vector<std::string>& overrides);
     /// Rows that are still in memory go to the disk: what a checkpoint needs beside it.
@@ -62,6 +65,7 @@ class RunRecorder : public Observer
     bool has_tables_ = false;
     std::int64_t take_over_ = -1;  ///< rows up to this cycle come from the file
     std::vector<double> row_;
+    std::function<void()> may_write_ = [] {};
     std::future<void> frame_;  ///< on its way to the disk; the last member: it ends before the others go
 };
 }  // namespace hdem

@@ -27,13 +27,17 @@ def _text(value):
     return bytes(value).split(b"\0", 1)[0].decode("utf-8", "replace")
 
 
+class MissingFile(ResultError):
+    """It is not there."""
+
+
 class CheckedFile:
     """To be used with `with`. Paths are those of io/hdf5_format.md."""
 
     def __init__(self, file):
         self.file = Path(file)
         if not self.file.is_file():
-            raise ResultError(f"{file}: no such file. Give the folder of a run, or a file of its results.")
+            raise MissingFile(f"{file}: no such file. Give the folder of a run, or a file of its results.")
         try:
             self.bytes = os.stat(file).st_size
             self._opened = h5py.File(file, "r")

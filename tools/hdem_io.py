@@ -16,6 +16,7 @@
 Every number is in SI units; io/hdf5_format.md says what each array means. Files are opened, read and closed at once: a run may
 still be going on. Needs h5py and numpy, and the modules beside it. What is damaged, or no file of hdem, is a ResultError.
 """
+import os
 import sys
 import warnings
 from collections import namedtuple
@@ -23,9 +24,10 @@ from pathlib import Path
 
 import numpy as np
 
-from checked_hdf5 import ANY, ResultError, open_checked
+from checked_hdf5 import ANY, MissingFile, ResultError, open_checked
 from hdem_frames import FORMAT_MAJOR, head_of, read_blocks, read_bolts, read_contacts, read_liners
-from plain_text import one_line, read_bytes, read_json, reason_of
+from output_file import OutputFailed, is_stream
+from plain_text import one_line, printable, read_bytes, read_json, reason_of
 from run_lock import is_running
 
 Frame = namedtuple("Frame", "number cycle time stage")
@@ -44,12 +46,14 @@ def tell(command, result, make):
             raise ResultError(f"{result}: no such file or folder")
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Glyph .* missing from")    # a name in an alphabet that no letters are installed for
-            print(make())
+            made = make()
+        if not is_stream(made):
+            print(printable(made))
         return 0
     except (ResultError, ValueError) as error:
         why, code = error, 2
-    except PermissionError as error:
-        why, code = f"{reason_of(error)}. Give another file with -o.", 1
+    except OutputFailed as error:
+        why, code = error, 1
     except OSError as error:
         why, code = reason_of(error), 1
     except MemoryError:
@@ -73,12 +77,27 @@ class Run:
         path = Path(path)
         self.file = path / "results.h5" if path.is_dir() else path
         self.folder = self.file.parent
+        self._begin = self._stamp()
         with self._results() as results:
             self.frames = self._frames(results)
             self.histories = results.children("history") if results.has("history") else []
             self.has_ended = bool(results.attributes("provenance", {"end": "text"})["end"])
         if not self.has_ended:
             self.frames += self._younger_frames()
+
+    def _stamp(self):
+        """Another one says that results.h5 was written anew."""
+        try:
+            found = os.stat(self.file)
+            return found.st_ino, found.st_mtime_ns
+        except OSError:
+            return None
+
+    def _missing(self, file):
+        """Of a file that the results name."""
+        if is_running(self.folder) or self._stamp() != self._begin:
+            return ResultError(f"{file}: is not there any more: it went away while it was read, as when the run is begun anew. Try again.")
+        return ResultError(f"{file}: no such file, but the results name it: it was removed. Run the case again, or take a copy.")
 
     @staticmethod
     def _frames(results):
@@ -132,7 +151,12 @@ class Run:
         return "done" if self.has_ended else "running" if is_running(self.folder) else "interrupted"
 
     def _results(self):
-        return open_checked(self.file, "hdem-results", "/", FORMAT_MAJOR)
+        try:
+            return open_checked(self.file, "hdem-results", "/", FORMAT_MAJOR)
+        except MissingFile:
+            if self._begin is None and not is_running(self.folder):
+                raise
+            raise self._missing(self.file) from None
 
     def frame(self, which="last"):
         """The frame with this number, or the last one."""
@@ -154,14 +178,14 @@ class Run:
         edges (n, 2, 2), edge_block: outer edges. outline (n, 2, 2): edges around excavations.
         info: dict with cycle, time, stage, title and so on.
         """
-        return read_blocks(self._file("blocks", frame))
+        return self.read(read_blocks, "blocks", self.frame(frame).number)
 
     def contacts(self, frame="last"):
         """Arrays with one entry per contact: the frame's cell data, and points (n, 2, 2), its two ends."""
         if not self.has_contacts(frame):
             raise ResultError(f"{self.folder}: holds no contacts of frame {self.frame(frame).number}: output.contacts of the case is false, or the file was removed. "
                               "Set output.contacts = true, and run the case again.")
-        return read_contacts(self._file("contacts", frame))
+        return self.read(read_contacts, "contacts", self.frame(frame).number)
 
     def has_contacts(self, frame="last"):
         """Whether this frame has contacts: output.contacts of the case."""
@@ -169,7 +193,7 @@ class Run:
 
     def bolts(self, frame="last"):
         """Arrays with one entry per bolt that is installed: the frame's cell data, name, and points (n, 2, 2), its head and its end."""
-        return read_bolts(self._file("bolts", frame))
+        return self.read(read_bolts, "bolts", self.frame(frame).number)
 
     def has_bolts(self, frame="last"):
         """Whether the case has bolts."""
@@ -177,14 +201,26 @@ class Run:
 
     def liners(self, frame="last"):
         """Arrays with one entry per segment of the linings that are installed: the frame's cell data, name, and points (n, 2, 2), its two ends."""
-        return read_liners(self._file("liners", frame))
+        return self.read(read_liners, "liners", self.frame(frame).number)
 
     def has_liners(self, frame="last"):
         """Whether the case has linings."""
         return self._file("liners", frame).exists()
 
     def _file(self, kind, frame):
-        return self.folder / "frames" / f"{kind}_{self.frame(frame).number:06d}.hdf"
+        return self.file_of(kind, self.frame(frame).number)
+
+    def file_of(self, kind, number):
+        """Of one frame: blocks, contacts, bolts or liners."""
+        return self.folder / "frames" / f"{kind}_{number:06d}.hdf"
+
+    def read(self, reader, kind, number):
+        """What a reader of hdem_frames.py makes of such a file."""
+        file = self.file_of(kind, number)
+        try:
+            return reader(file)
+        except MissingFile:
+            raise self._missing(file) from None
 
     def _table(self, path, known=()):
         """Columns of float64 besides the cycle; as many rows in each."""

@@ -11,7 +11,6 @@ Reads LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and SPLINE in the model s
 what lies on layer 0 in them; curves become straight stretches. What the drawing does not show is left out, as are other entities; both are counted. hdem wants metres:
 --scale is what one unit of the drawing is in metres.
 """
-import argparse
 import itertools
 import math
 import resource
@@ -19,14 +18,17 @@ import sys
 from collections import Counter, namedtuple
 from pathlib import Path
 
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("import_dxf")
 need("ezdxf")
 import ezdxf    # noqa: E402
 import ezdxf.path    # noqa: E402
 from ezdxf.lldxf.const import VTX_SPLINE_FRAME_CONTROL_POINT    # noqa: E402
 from ezdxf.math import Matrix44    # noqa: E402
 
-from plain_text import LARGEST_FILE, at_once, one_line, open_regular, printable    # noqa: E402
+from output_file import OutputRefused, write_output    # noqa: E402
+from plain_text import LARGEST_FILE, OneLineParser, one_line, open_regular, printable    # noqa: E402
 
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 DEEPEST = 50    # references of blocks in blocks
@@ -43,6 +45,7 @@ METRES = {1: ("inches", 0.0254), 2: ("feet", 0.3048), 3: ("miles", 1609.344), 4:
 SAME_SCALE = 1e-6    # a foot of the US survey is 2e-6 longer than others
 ROUND_OFF = 1e-12    # of coordinates, in the ends of arcs
 LONGEST_LAYER = 180    # characters of a name; hdem takes 200, the number included
+ELSEWHERE = "give another place with --blocks or --traces"
 HIDDEN, IN_FROZEN, INVISIBLE = "on layers that are off or frozen (name them by --layer)", "in block references on frozen layers (name these by --layer)", "invisible"
 Line = namedtuple("Line", "name layer points")    # points [m], the first not repeated at the end of a closed line
 Piece = namedtuple("Piece", "entity layer place unseen")    # `place`: from its block to the model space; `unseen`: why the drawing does not show it, or ""
@@ -53,7 +56,7 @@ class DrawingError(Exception):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="import_dxf.py", description="A DXF drawing as blocks and joint traces for hdem.")
+    parser = OneLineParser(prog="import_dxf.py", description="A DXF drawing as blocks and joint traces for hdem.")
     parser.add_argument("drawing", type=Path)
     parser.add_argument("--blocks", type=Path, metavar="FILE", help="write closed polylines there, for blocks_file: .wkt or .csv")
     parser.add_argument("--traces", type=Path, metavar="FILE", help="write open lines there, for domain.traces_file: .wkt or .csv")
@@ -241,9 +244,8 @@ def convert(options):
 
 
 def write(file, drawing, rows, what):
-    with open(file, "w", encoding="utf-8", opener=at_once) as opened:
-        opened.write(f"# {one_line(drawing.name)}\n" + "\n".join(rows) + "\n")
-    print(f"{file}: {what}")
+    write_output(file, [f"# {one_line(drawing.name)}\n", "\n".join(rows), "\n"], [drawing], ELSEWHERE, into_streams=True)
+    print(f"{printable(file)}: {what}")
 
 
 def limit_memory():
@@ -260,9 +262,9 @@ def main(arguments):
     except MemoryError:
         print(f"error: import_dxf: {one_line(options.drawing)}: takes more than {MOST_MEMORY} bytes of memory. {SMALLER}, or a greater --arc.", file=sys.stderr)
         return 1
-    except (DrawingError, OSError) as error:
+    except (DrawingError, OutputRefused, OSError) as error:
         print(f"error: import_dxf: {one_line(error)}", file=sys.stderr)
-        return 2 if isinstance(error, DrawingError) else 1
+        return 1 if isinstance(error, OSError) else 2
     for what, count in left_out.items():
         print(f"left out: {count} {printable(what)}")
     return 0

@@ -9,7 +9,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("own_figure")
 need("h5py", "matplotlib", "numpy")    # says in one line which are missing; leave it out in a figure of your own
 import matplotlib    # noqa: E402
 matplotlib.use("Agg")
@@ -17,6 +19,7 @@ import matplotlib.pyplot as plt    # noqa: E402
 import numpy as np    # noqa: E402
 
 from hdem_io import ResultError, open_run, tell    # noqa: E402
+from output_file import write_picture    # noqa: E402
 
 SECTORS = 36
 
@@ -50,7 +53,7 @@ def draw(options):
     energy.semilogy(table["time"][moving], table["kinetic_energy"][moving], color="#222222", linewidth=1.0)
     energy.set_xlabel("time [s]")
     energy.set_ylabel(f"kinetic energy [{table.unit['kinetic_energy']}]")
-    figure.savefig(options.output, dpi=150)
+    write_picture(figure, options.output, [run.file], dpi=150)
     return options.output
 
 

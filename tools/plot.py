@@ -4,11 +4,13 @@
 The blocks that stay in place decide the range of the colours: one fallen block must not wash out the rest. Detached blocks are
 drawn hatched where they are.
 """
-import math
-import sys
-
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("hdem plot")
 need("h5py", "matplotlib", "numpy")
+import math    # noqa: E402
+import sys    # noqa: E402
+
 import matplotlib    # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
@@ -19,6 +21,7 @@ from matplotlib.lines import Line2D    # noqa: E402
 from matplotlib.patches import Patch    # noqa: E402
 
 from hdem_io import Frame, ResultError, open_run, read_blocks, tell    # noqa: E402
+from output_file import check_output, is_stream, make_folder_of, write_picture    # noqa: E402
 from plain_text import add_legend, as_file_name, literal, one_line    # noqa: E402
 from plot_factor import draw_factor    # noqa: E402
 from plot_history import draw_history, moment_of, name_of, scaled_unit, state_of    # noqa: E402
@@ -30,6 +33,7 @@ from plot_support import DIAGRAM, draw_bolts, draw_liners    # noqa: E402
 GREY, BLUE, ORANGE, DARK, FALLEN = "#dddddd", "#56b4e9", "#d55e00", "#222222", "#f7cfae"
 MATERIALS = ["#e8d9b5", "#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2", "#f0e442", "#d55e00"]
 SEQUENTIAL, DIVERGING = "YlGnBu", "RdBu_r"
+ANOTHER = "give the name of a picture with -o"
 REGIMES = ["no contact", "force", "impulse"]
 STYLE = {"font.size": 8, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
          "hatch.linewidth": 0.5, "legend.fontsize": 7.5, "svg.hashsalt": "hdem", "svg.fonttype": "none"}
@@ -232,6 +236,9 @@ def make_picture(options):
     """The file it is in."""
     single = options.result.suffix == ".hdf"
     run = None if single else open_run(options.result)
+    read = [options.result if single else run.file]
+    if options.output:
+        check_output(options.output, read, ANOTHER)    # before it is drawn
     over_time = options.history or options.energy
     figure = draw_factor(run, options) if options.factor else draw_history(run, options) if over_time else draw_frame(run, options)
     output = options.output
@@ -239,12 +246,11 @@ def make_picture(options):
         folder = options.result if options.result.is_dir() else options.result.parent
         name = "factor_of_safety" if options.factor else name_of(options) if over_time else f"{options.colour}_" + (options.result.stem[-6:] if single else f"{run.frame(options.frame).number:06d}")
         output = folder / f"{as_file_name(name)}.png"
-    if output.exists() and not output.is_file():
-        raise ResultError(f"{output}: {'a folder' if output.is_dir() else 'no file'}. Give the name of a picture with -o.")
-    if not output.suffix:    # savefig would write this file, too, and say nothing
+    if not output.suffix and not output.is_dir() and not is_stream(output):
         output = output.with_name(f"{output.name}.png")
-    output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None} if output.suffix == ".svg" else None)
+    make_folder_of(output, ANOTHER)
+    write_picture(figure, output, read, ANOTHER, bbox_inches="tight", pad_inches=0.05,
+                  metadata={"Date": None} if output.suffix == ".svg" else None)
     if run and not over_time and not options.factor and state_of(run):
         print(f"the picture shows {one_line(moment_of(run, run.frame(options.frame)))}", file=sys.stderr)
     return output

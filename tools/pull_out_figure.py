@@ -14,7 +14,9 @@ import sys
 import tomllib
 from pathlib import Path
 
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("pull_out_figure")
 need("h5py", "matplotlib", "numpy")
 import matplotlib    # noqa: E402
 matplotlib.use("Agg")
@@ -22,6 +24,7 @@ import matplotlib.pyplot as plt    # noqa: E402
 import numpy as np    # noqa: E402
 
 from hdem_io import ResultError, open_run, tell    # noqa: E402
+from output_file import write_picture    # noqa: E402
 
 STEEL = 2e11    # modulus where the case gives none [Pa]
 
@@ -67,7 +70,7 @@ def draw(options):
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
     axes.legend(loc="lower right", frameon=False)
-    figure.savefig(options.output, dpi=150)
+    write_picture(figure, options.output, [run.file], dpi=150)
     return options.output
 
 

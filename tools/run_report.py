@@ -3,15 +3,18 @@
 
 The page is one file that asks the network for nothing. A run that goes on, or was killed, gives a page of what there is by then.
 """
-import sys
-from pathlib import Path
-
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("hdem report")
 need("h5py", "matplotlib", "numpy")
+import sys    # noqa: E402
+from pathlib import Path    # noqa: E402
+
 sys.path.insert(0, str(Path(__file__).resolve().parent / "report"))
 import run_page    # noqa: E402
 from hdem_io import open_run, tell    # noqa: E402
-from plain_text import OneLineParser, at_once    # noqa: E402
+from output_file import check_output, make_folder_of, write_output    # noqa: E402
+from plain_text import OneLineParser    # noqa: E402
 
 
 def parse(arguments):
@@ -24,11 +27,11 @@ def parse(arguments):
 def make_page(options):
     """The file it is in."""
     run = open_run(options.result)
-    text = run_page.build(run, run.summary(), run.log())
     output = options.output or run.folder / "report.html"
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with open(output, "w", encoding="utf-8", opener=at_once) as file:
-        file.write(text)
+    check_output(output, [run.file])    # before the work
+    text = run_page.build(run, run.summary(), run.log())
+    make_folder_of(output)
+    write_output(output, [text], [run.file], into_streams=True)
     return output
 
 

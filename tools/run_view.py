@@ -3,18 +3,21 @@
 
 The page is one file that asks the network for nothing; view/README.md says what is in it.
 """
-import argparse
-import sys
-from pathlib import Path
-
-from needed_modules import need
+from needed_modules import end_in_one_line, need
+if __name__ == "__main__":
+    end_in_one_line("hdem view")
 need("h5py", "numpy")
+import argparse    # noqa: E402
+import sys    # noqa: E402
+from pathlib import Path    # noqa: E402
+
 sys.path.insert(0, str(Path(__file__).resolve().parent / "view"))
 import page    # noqa: E402
 from follow import follow    # noqa: E402
 from hdem_io import ResultError, open_run, tell    # noqa: E402
 from movie import COLOURS, make_movie    # noqa: E402
-from plain_text import OneLineParser, as_file_name    # noqa: E402
+from output_file import check_output    # noqa: E402
+from plain_text import OneLineParser, as_file_name, printable    # noqa: E402
 from run_pack import RunPack    # noqa: E402
 
 
@@ -65,7 +68,8 @@ def output_of(options):
 def make_page(options):
     """The file it is in."""
     page.template()    # before the work, not after it
-    packs = []
+    output, read, packs = output_of(options), [run / "results.h5" if run.is_dir() else run for run in options.runs], []
+    check_output(output, read)
     for path in options.runs:
         if not path.exists():
             raise ResultError(f"{path}: no such file or folder")
@@ -75,10 +79,10 @@ def make_page(options):
         pack.update(run)
         packs.append(pack)
         if run.state() != "done":
-            print(f"{path}: the run is {run.state()}; the page shows it to cycle {pack.frames[-1]['cycle']}", file=sys.stderr)
+            print(f"{printable(path)}: the run is {run.state()}; the page shows it to cycle {pack.frames[-1]['cycle']}", file=sys.stderr)
         if pack.contacts_left_out():
-            print(f"{path}: contacts are in the page for the last frame of each stage only; --contacts all takes all of them", file=sys.stderr)
-    return page.write(output_of(options), page.build(packs))
+            print(f"{printable(path)}: contacts are in the page for the last frame of each stage only; --contacts all takes all of them", file=sys.stderr)
+    return page.write(output, page.build(packs), read)
 
 
 def main(arguments):

@@ -3,6 +3,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from output_file import write_picture
+
 STYLE = {"font.size": 9, "svg.fonttype": "none", "svg.hashsalt": "hdem", "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
          "grid.linewidth": 0.4, "legend.frameon": False}
 SERIES = (("hybrid", "hybrid, R = 0.1", "o", "#0072b2"), ("hybrid_matched", "hybrid, R = 1/3", "^", "#d55e00"), ("hybrid_paper", "as published", "x", "#777777"))
@@ -26,5 +28,5 @@ def draw(found, file):
         panels[1].set_ylabel("mean displacement next to the\nopening differs by [mm]")
         panels[1].set_ylim(bottom=0.0)
         panels[1].set_xticks(range(len(rows)), ["/".join(f"{dip:g}" for dip in row["dips_deg"]) + f" seed {row['seed']}" for row in rows], rotation=90)
-        figure.savefig(file)
+        write_picture(figure, file, remedy="give another file with --figure")
         plt.close(figure)

@@ -7,6 +7,7 @@ import threading
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from output_file import replace_file
 from plain_text import read_json
 
 DONE, NOT_CONVERGED, BAD_INPUT, INTERRUPTED = 0, 4, 2, (130, 143, -2, -15)    # what hdem ends with
@@ -123,7 +124,7 @@ class Runner:
         if code not in (DONE, NOT_CONVERGED):
             return Outcome(folder, failure=said or f"hdem ended with {code}")
         summary = read_json(folder / "summary.json")
-        (folder / KEPT).write_text(json.dumps({"key": key, "cpu_seconds": cpu_seconds}, indent=1) + "\n", encoding="utf-8")
+        replace_file(folder / KEPT, [json.dumps({"key": key, "cpu_seconds": cpu_seconds}, indent=1), "\n"], "give the same line again when it can be written")
         return Outcome(folder, summary, cpu_seconds)
 
     def call(self, words, folder):

@@ -1,5 +1,6 @@
 /// hdem critical: the value of a number of the case at which blocks begin to fail.
 
+#include "core/version.h"
 #include "io/atomic_file.h"
 #include "io/digest.h"
 #include "io/load_case.h"
@@ -259,6 +260,8 @@ int critical_command(const CriticalOptions& options)
     if (fs::exists(folder / "results.h5") || fs::exists(folder / "checkpoint.h5"))
         refuse(fmt::format("{}: (holds a run). Give another folder with -o.", printable(folder.string())));
     check_folder(folder);
+    if (!options.overwrite)
+        refuse_files_of_others(folder);
     const bool was_cut_short = !fs::exists(folder / "summary.json");
     if (!options.overwrite && was_cut_short && TrialFile(folder / "trials.json", question).is_of_another())
         refuse(fmt::format(
@@ -269,6 +272,7 @@ int critical_command(const CriticalOptions& options)
     if (options.overwrite)
         remove_file(folder / "trials.json");
     Log log(folder / "run.log", options.quiet, Log::Begin::anew);
+    log.to_file(version_line());
     catch_interrupts();
     Critical search(options, vary, condition, folder, log, question);
     try

@@ -6,6 +6,7 @@
 #include "tools/hdem/console.h"
 #include "tools/hdem/finished_run.h"
 #include "tools/hdem/fos_report.h"
+#include "tools/hdem/run_folder.h"
 #include "tools/hdem/signal_watch.h"
 #include "tools/hdem/trial_file.h"
 
@@ -182,7 +183,7 @@ class Fos
         const Trial* const first = outcome.factor.first_failure();
         if (first == nullptr)
         {
-            fs::remove_all(failure_folder(folder_));  // of an earlier search
+            remove_run(failure_folder(folder_));  // of an earlier search
             return;
         }
         if (!outcome.factor.failure)  // the trial was run by an earlier program
@@ -223,6 +224,7 @@ int fos_command(const FosOptions& options)
                                                        : fs::path(run_options.folder);
     if (!run_options.overwrite && holds_checkpoint(folder, question))
     {  // the run goes on, or has come to its end
+        run_options.is_of_search = true;
         run_options.restart = folder.string();
         run_options.folder.clear();
     }

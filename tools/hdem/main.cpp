@@ -4,6 +4,7 @@
 #include "core/version.h"
 #include "io/case_format.h"
 #include "io/describe_file.h"
+#include "io/printable.h"
 #include "parallel/team.h"
 #include "tools/hdem/console.h"
 #include "tools/hdem/options.h"
@@ -14,39 +15,66 @@
 #include <fmt/ranges.h>
 #include <hdf5.h>
 
+#include <charconv>
+#include <cmath>
+
 namespace hdem
 {
 namespace
 {
+/// Digits alone, and no more than fit; nothing for other texts.
+std::optional<int> whole_number(const std::string& text)
+{
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
 void add_threads(CLI::App& command, std::optional<int>& threads)
 {
-    const CLI::Range numbers(1, 4096);
     command
         .add_option_function<std::string>(
-            "--threads",
-            [&threads](const std::string& text) { threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text)); },
+            "--threads", [&threads](const std::string& text) { threads = whole_number(text); },
             "Number of threads, or auto: as many as are fastest, looked for again and again; default: auto")
         ->check(
-            [numbers](std::string text) {
-                return text == "auto" || numbers(text).empty()
-                           ? ""
-                           : "--threads " + text + ": give a whole number from 1 to 4096, or auto";
+            [](const std::string& text)
+            {
+                const std::optional<int> number = whole_number(text);
+                return text == "auto" || (number && *number >= 1 && *number <= 4096)
+                           ? std::string()
+                           : "--threads " + printable(text) + ": give a whole number from 1 to 4096, or auto";
             });
+}
+
+/// A shell variable that is not set leaves an empty text, which would mean the same as no option at all.
+void refuse_empty(CLI::Option* option)
+{
+    option->check([](const std::string& text) { return text.empty() ? "(is empty). Give a name, or leave the option away" : ""; });
+}
+
+/// [s], once the unit is taken off; empty when the time is above zero.
+std::string problem_of_time(const std::string& seconds)
+{
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(seconds.data(), seconds.data() + seconds.size(), number);
+    const bool is_time = error == std::errc() && end == seconds.data() + seconds.size() && number > 0.0 && std::isfinite(number);
+    return is_time ? "" : "give a time above zero, e.g. 47h";
 }
 
 void add_run(CLI::App& app, RunOptions& options)
 {
     CLI::App* run = app.add_subcommand("run", "Run a case to its end and write results into a folder");
     CLI::Option* file = run->add_option("case", options.case_file, "Case file (TOML); io/case_format.md describes it");
-    run->add_option("-o,--output", options.folder,
-                    "Folder of the results; default: the case file's name without its ending, or the checkpoint's folder");
-    run->add_option("--restart", options.restart,
-                    "Go on from this checkpoint, or from the last one in this folder; the checkpoint holds the case");
+    refuse_empty(
+        run->add_option("-o,--output", options.folder,
+                        "Folder of the results; default: the case file's name without its ending, or the checkpoint's folder"));
+    refuse_empty(run->add_option("--restart", options.restart,
+                                 "Go on from this checkpoint, or from the last one in this folder; the checkpoint holds the case"));
     run->add_flag("--overwrite", options.overwrite, "Begin anew in a folder whose run was cut short");
     run->add_option("--max-wall", options.max_wall,
                     "Stop in time for this long on the wall, with a checkpoint and exit code 5; seconds, or with s, min, h or d")
         ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}}))
-        ->check([](const std::string& seconds) { return std::stod(seconds) > 0.0 ? "" : "give a time above zero, e.g. 47h"; });
+        ->check(&problem_of_time);
     run->add_option("--method", options.method, "Contact method instead of the case's: force, impulse or hybrid")
         ->check(CLI::IsMember({"force", "impulse", "hybrid"}));
     add_threads(*run, options.threads);
@@ -67,7 +95,8 @@ void add_fos(CLI::App& app, FosOptions& options)
     CLI::App* fos = app.add_subcommand("fos", "Find the factor of safety: run a case, then divide its strength until blocks fail");
     RunOptions& run = options.run;
     fos->add_option("case", run.case_file, "Case file (TOML); its table [factor_of_safety] says how")->required();
-    fos->add_option("-o,--output", run.folder, "Folder of the results; default: the case file's name without its ending");
+    refuse_empty(
+        fos->add_option("-o,--output", run.folder, "Folder of the results; default: the case file's name without its ending"));
     fos->add_flag("--overwrite", run.overwrite, "Begin anew in a folder that has trials or a run that was cut short");
     add_threads(*fos, run.threads);
     fos->add_option("--set", run.overrides, "key.path=value instead of the case file's; repeatable");
@@ -89,7 +118,8 @@ void add_critical(CLI::App& app, CriticalOptions& options)
         ->required();
     critical->add_option("--tolerance", options.tolerance, "Width of the last bracket; default: a 200th of the range")
         ->check(CLI::PositiveNumber);
-    critical->add_option("-o,--output", options.folder, "Folder of the results; default: the case's name with _critical");
+    refuse_empty(
+        critical->add_option("-o,--output", options.folder, "Folder of the results; default: the case's name with _critical"));
     critical->add_flag("--overwrite", options.overwrite, "Forget the trials that the folder holds");
     add_threads(*critical, options.threads);
     critical->add_option("--set", options.overrides, "key.path=value instead of the case file's; repeatable");

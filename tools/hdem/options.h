@@ -17,7 +17,7 @@ enum ExitCode : int
     exit_run_failed = 1,  ///< non-finite value, overlap too great, disk full
     exit_bad_input = 2,   ///< bad input or usage
     exit_no_convergence = 4,
-    exit_wall_time = 5  ///< --max-wall was over; 129, 130 and 143: interrupted by SIGHUP, SIGINT and SIGTERM
+    exit_wall_time = 5  ///< --max-wall was over; 129, 130, 143 and 152: interrupted by SIGHUP, SIGINT, SIGTERM and SIGXCPU
 };
 
 /// Option --threads: a number, or nothing for auto.
@@ -38,6 +38,7 @@ struct RunOptions
     std::optional<int> threads;
     std::vector<std::string> overrides;  ///< key.path=value
     bool quiet = false;
+    bool is_of_search = false;  ///< the run of hdem fos, whose factor of safety the summary may hold
     std::vector<std::string> command_line;
 };
 

@@ -50,17 +50,20 @@ RunStart& noted(RunStart& start, const Simulation& simulation)
 
 RunFiles::RunFiles(RunStart& start, const RunOptions& options, Simulation& simulation, Log& log, Clock::time_point begin)
     : folder_(start.folder),
+      lock_(*start.lock),
       log_(log),
       recorder_((print_banner(log, noted(start, simulation), options, simulation), make_recorder(start, options, simulation))),
       rows_(simulation, log),
-      keeper_({start.folder, simulation.model().output, begin, options.max_wall}, start.record, *recorder_, log),
+      keeper_({start.folder, *start.lock, simulation.model().output, begin, options.max_wall}, start.record, *recorder_, log),
       session_{.first_cycle = simulation.state().cycle}
 {
+    recorder_->ask_before_writing([&lock = lock_] { lock.check(); });
 }
 
 std::vector<StageResult> RunFiles::run(Simulation& simulation, const std::vector<Observer*>& also, Keeper* keeper,
                                        const StagePart& part)
 {
+    lock_.check();
     remove_file(folder_ / "summary.json");  // no more the outcome
     TimedObserver timed_rows(rows_, session_.output_seconds);
     TimedObserver timed_recorder(*recorder_, session_.output_seconds);
@@ -86,6 +89,8 @@ std::vector<StageResult> RunFiles::run(Simulation& simulation, const std::vector
 void RunFiles::save_last_moment(const RunError& error, const Simulation& simulation)
 {
     log_.to_file(std::string("error: ") + error.what());  // who called tells the screen
+    if (!lock_.is_held())
+        return;
     try
     {
         recorder_->finish(simulation.model(), simulation.state());

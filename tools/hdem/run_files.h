@@ -43,6 +43,7 @@ class RunFiles
     void save_last_moment(const RunError& error, const Simulation& simulation);
 
     std::filesystem::path folder_;
+    const RunLock& lock_;  ///< that start holds
     Log& log_;
     std::unique_ptr<RunRecorder> recorder_;
     RowObserver rows_;

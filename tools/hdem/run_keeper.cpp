@@ -99,6 +99,7 @@ void RunKeeper::take_case(const RunRecord& record)
 void RunKeeper::save(const Simulation& simulation)
 {
     const Clock::time_point begin = Clock::now();
+    settings_.lock.check();
     check_finite(simulation.model(), simulation.state());  // a state that blew up must not take the place of a sound one
     recorder_.save();  // before the checkpoint: rows younger than it are dropped at a restart, missing ones would stay so
     record_.history_axes = recorder_.history_axes();

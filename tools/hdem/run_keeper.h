@@ -2,6 +2,7 @@
 /// Takes checkpoints of a run, and breaks it off when a signal comes or the wall time is over.
 
 #include "io/checkpoint.h"
+#include "io/run_lock.h"
 #include "io/run_recorder.h"
 #include "parallel/stages.h"
 #include "tools/hdem/screen.h"
@@ -20,6 +21,7 @@ class RunKeeper : public Keeper
     struct Settings
     {
         std::filesystem::path folder;
+        const RunLock& lock;  ///< on the folder
         OutputDef output;
         Clock::time_point begin;         ///< of this program
         std::optional<double> max_wall;  ///< the run is broken off in time for this [s]

@@ -5,6 +5,7 @@
 #include "io/hdf5_reader.h"
 #include "io/provenance.h"
 #include "io/text_file.h"
+#include "tools/hdem/restart_point.h"
 #include "tools/hdem/run_folder.h"
 
 #include <fmt/format.h>
@@ -76,73 +77,6 @@ RunStart start_anew(const RunOptions& options)
     return start;
 }
 
-/// That a checkpoint lies in, or the folder given itself.
-fs::path folder_of(const fs::path& given)
-{
-    if (fs::is_directory(given))
-        return given;
-    return given.has_parent_path() ? given.parent_path() : fs::path(".");
-}
-
-struct Found
-{
-    fs::path file;
-    CheckpointReader reader;
-    fs::path aside{};  ///< what the folder's own checkpoint is called from now on; empty: it stays
-};
-
-bool can_be_read(const fs::path& checkpoint)
-try
-{
-    return fs::exists(checkpoint) && CheckpointReader(checkpoint).cycle() >= 0;
-}
-catch (const InputError&)
-{
-    return false;
-}
-
-/// The checkpoint itself, or the last one of a folder that can be read.
-Found find_checkpoint(const fs::path& given, std::vector<std::string>& notes)
-{
-    if (!fs::is_directory(given))
-    {
-        const fs::path younger = checkpoint_file(folder_of(given));
-        const bool is_previous = given.filename() == previous_checkpoint_file("").filename() && fs::exists(younger);
-        return {given, CheckpointReader(given), is_previous ? younger.string() + ".younger" : ""};
-    }
-    const fs::path last = checkpoint_file(given);
-    const fs::path previous = previous_checkpoint_file(given);
-    if (!fs::exists(last) && !fs::exists(previous))
-        refuse(fmt::format("--restart {}: (holds no checkpoint). Give a checkpoint, or the folder of a run that has one.",
-                           given.string()));
-    fs::path aside;
-    try
-    {
-        if (fs::exists(last))
-            return {last, CheckpointReader(last)};
-    }
-    catch (const InputError& error)
-    {
-        if (!can_be_read(previous))
-            throw;
-        notes.push_back(fmt::format("warning: {}", error.what()));
-        aside = last.string() + ".damaged";
-    }
-    notes.push_back(fmt::format("warning: {} cannot be used: going on from {}", last.string(), previous.string()));
-    return {previous, CheckpointReader(previous), aside};
-}
-
-/// A damaged checkpoint would soon take the place of the sound one; from a younger one a restart would go on without the rows and frames that are dropped now.
-/// Once nothing can refuse the run any more.
-void put_aside(const Found& found, std::vector<std::string>& notes)
-{
-    if (found.aside.empty())
-        return;
-    const fs::path last = checkpoint_file(found.file.parent_path());
-    fs::rename(last, found.aside);
-    notes.push_back(fmt::format("note: {} is now called {}", last.string(), found.aside.string()));
-}
-
 /// May a run that goes on have another value? Everything but what says how far it goes and what is written.
 bool is_free_to_change(const std::string& key)
 {
@@ -154,6 +88,26 @@ bool is_free_to_change(const std::string& key)
            (is_of_one_stage && (name == "cycles" || name == "max_cycles" || name == "duration"));
 }
 
+std::string last_word(const std::string& key)
+{
+    return key.substr(key.find_last_of(".]") + 1);
+}
+
+/// Is this what the case has already? Not where a later one may have changed the same number of a stage under its other name, stage[0] or stage.NAME.
+bool is_said(const std::string& text, const std::vector<std::string>& overrides)
+{
+    const std::string key = parse_override(text).key;
+    for (auto it = overrides.rbegin(); it != overrides.rend(); ++it)
+    {
+        const std::string before = parse_override(*it).key;
+        if (before == key)
+            return *it == text;
+        if (before.starts_with("stage") && last_word(before) == last_word(key))
+            return false;
+    }
+    return false;
+}
+
 /// Overrides given now, behind those the run began with.
 std::vector<std::string> merged_overrides(const RunOptions& options, std::vector<std::string> overrides)
 {
@@ -161,9 +115,7 @@ std::vector<std::string> merged_overrides(const RunOptions& options, std::vector
     for (const std::string& text : overrides_of(options))
     {
         const std::string key = parse_override(text).key;
-        const auto last = std::find_if(overrides.rbegin(), overrides.rend(),
-                                       [&](const std::string& before) { return parse_override(before).key == key; });
-        if (last != overrides.rend() && *last == text)
+        if (is_said(text, overrides))
             continue;
         if (!is_free_to_change(key))
             refuse(fmt::format(
@@ -220,22 +172,32 @@ void check_same_case(const RunOptions& options, const RunRecord& record)
         refuse(fmt::format("{}: case: ({}). Leave it away: the checkpoint holds the case.", options.case_file, given.obstacle));
 }
 
+/// Does one of the two begin with the other? Restarts add to what a run began with.
+bool is_beginning(std::span<const std::string> one, std::span<const std::string> other)
+{
+    const std::size_t common = std::min(one.size(), other.size());
+    return std::ranges::equal(one.first(common), other.first(common));
+}
+
 /// Rows and frames of two runs would stand in one file.
-void check_same_run(const fs::path& folder, const RunRecord& record)
+/// @param overrides  of the checkpoint
+void check_same_run(const fs::path& folder, const RunRecord& record, std::span<const std::string> overrides)
 {
     const fs::path file = folder / "results.h5";
     std::string case_text, begin;
+    std::vector<std::string> set;
     try
     {
         const Hdf5Reader results(file);
         begin = results.text("/provenance", "begin");
         case_text = results.read_texts("/provenance/case_text").at(0);
+        set = results.read_texts("/provenance/overrides");
     }
     catch (const std::exception&)
     {
         return;  // missing or damaged: what becomes of it is told elsewhere
     }
-    if (begin != record.begin || case_text != record.case_text)
+    if (begin != record.begin || case_text != record.case_text || !is_beginning(set, overrides))
         refuse(fmt::format("{}: (is of a run that began at {}, and the checkpoint of another one, that began at {}). Put back the "
                            "checkpoint that belongs to it, or give another folder with -o.",
                            printable(file.string(), 300), begin, record.begin));
@@ -252,27 +214,29 @@ RunStart start_again(const RunOptions& options)
     start.folder = options.folder.empty() ? home : fs::path(options.folder);
     start.moved = !fs::exists(start.folder) || !fs::equivalent(start.folder, home);
     start.lock = std::make_unique<RunLock>(start.folder);
-    const Found found = find_checkpoint(given, start.notes);
-    start.record = found.reader.record();
+    const RestartPoint point = find_checkpoint(given, start.notes);
+    start.record = point.reader.record();
     RunRecord& record = start.record;
     check_same_case(options, record);
     const std::size_t at_first = record.overrides.size();
     record.overrides = merged_overrides(options, record.overrides);
     start.loaded = load_case(record.case_text, record.files, record.case_file, parsed(record.overrides));
-    start.loaded.setup.state = found.reader.state(start.loaded.setup.model);
+    start.loaded.setup.state = point.reader.state(start.loaded.setup.model);
     check_stages_to_come(std::span(record.overrides).subspan(at_first), start.loaded.setup, record.finished);
     if (!start.moved)
     {
         check_folder(start.folder);
-        check_same_run(start.folder, record);
-        put_aside(found, start.notes);
+        check_same_run(start.folder, record, std::span(record.overrides).first(at_first));
+        if (!options.is_of_search)
+            refuse_factor(start.folder);
+        put_aside(point, start.notes);
         if (!fs::exists(start.folder / "results.h5"))
             start.notes.push_back(fmt::format("warning: {} is not there: histories and energies begin at cycle {}",
-                                              (start.folder / "results.h5").string(), found.reader.cycle()));
+                                              (start.folder / "results.h5").string(), point.reader.cycle()));
     }
-    record.restarts.push_back(fmt::format("{} {}", timestamp(), found.reader.cycle()));
+    record.restarts.push_back(fmt::format("{} {}", timestamp(), point.reader.cycle()));
     start.notes.push_back(
-        fmt::format("restart   {} at cycle {}; the run began at {}", found.file.string(), found.reader.cycle(), record.begin));
+        fmt::format("restart   {} at cycle {}; the run began at {}", point.file.string(), point.reader.cycle(), record.begin));
     return start;
 }
 }  // namespace

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 
@@ -16,6 +17,18 @@ std::filesystem::path shared_folder()
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     return program.parent_path().parent_path() / "share" / "hdem";
 }
+
+namespace
+{
+/// Until the script can end in one line (needed_modules.py): Python takes a while to begin, and would print where it was.
+void hold_back_interrupts()
+{
+    sigset_t interrupts;
+    ::sigemptyset(&interrupts);
+    ::sigaddset(&interrupts, SIGINT);
+    ::sigprocmask(SIG_BLOCK, &interrupts, nullptr);
+}
+}  // namespace
 
 int run_script(const std::string& command, const std::string& script, const std::vector<std::string>& arguments)
 {
@@ -33,6 +46,7 @@ int run_script(const std::string& command, const std::string& script, const std:
         argv.push_back(word.data());
     argv.push_back(nullptr);
     std::fflush(nullptr);
+    hold_back_interrupts();
     ::execv(python, argv.data());
     complain("error: hdem {}: {} cannot be run ({}). Install python3, python3-h5py and python3-matplotlib.\n", command, python,
              std::strerror(errno));

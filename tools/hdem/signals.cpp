@@ -17,12 +17,13 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 extern "C" void note_interrupt(int signal)
 {
     const int before = interrupted_by.exchange(signal);
-    if (before != 0 && before != SIGHUP)
+    if (before != 0 && before != SIGHUP && before != SIGXCPU)
         ::_exit(128 + signal);
 }
 
-/// The terminal or the connection is gone. A hangup often comes together with a SIGTERM: the two do not hurry the program.
-extern "C" void note_hangup(int signal)
+/// The terminal or the connection is gone, or the processor time that was granted is over. A hangup often comes together with a SIGTERM, and
+/// SIGXCPU comes again each second: they do not hurry the program.
+extern "C" void note_without_haste(int signal)
 {
     int before = 0;
     interrupted_by.compare_exchange_strong(before, signal);
@@ -46,9 +47,10 @@ void catch_interrupts()
 {
     handle(SIGINT, note_interrupt);
     handle(SIGTERM, note_interrupt);
+    handle(SIGXCPU, note_without_haste);  // ulimit -S -t, or a batch system
     struct sigaction before = {};
     if (::sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)  // nohup: go on
-        handle(SIGHUP, note_hangup);
+        handle(SIGHUP, note_without_haste);
 }
 
 void catch_checkpoint_requests()
@@ -64,7 +66,7 @@ int interrupt()
 const char* interrupt_name()
 {
     const int signal = interrupted_by;
-    return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT";
+    return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : signal == SIGXCPU ? "SIGXCPU" : "SIGINT";
 }
 
 bool checkpoint_requested()

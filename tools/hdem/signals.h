@@ -3,7 +3,7 @@
 
 namespace hdem
 {
-/// From now on SIGINT, SIGTERM and SIGHUP wait to be asked for; a second one that is not SIGHUP ends the program at once, as without a
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGXCPU wait to be asked for; a second SIGINT or SIGTERM ends the program at once, as without a
 /// handler. SIGHUP stays ignored where it is (nohup).
 void catch_interrupts();
 /// From now on SIGUSR1 waits to be asked for.

@@ -11,9 +11,9 @@ the same steps. Its summary.json has
 import json
 
 from needed_modules import need
-from plain_text import at_once
+from output_file import replace_file
 
-from .common import NOT_CONVERGED, DONE, SUMMARY, SweepError, flat, read_summary
+from .common import DONE, GO_ON, NOT_CONVERGED, SUMMARY, SweepError, flat, read_summary
 from .criterion import Criterion
 
 
@@ -73,8 +73,5 @@ def follow(folder, chain, run):
     outcome = steps.outcome()
     found = outcome["bracket"] == "found"
     summary = outcome | {"key": chain["key"], "steps": len(steps.known), "not_converged": steps.not_converged, "converged": found}
-    temporary = folder / (SUMMARY + ".tmp")
-    with open(temporary, "w", encoding="utf-8", opener=at_once) as file:
-        file.write(json.dumps(summary, indent=1) + "\n")
-    temporary.rename(folder / SUMMARY)
+    replace_file(folder / SUMMARY, [json.dumps(summary, indent=1), "\n"], GO_ON)
     return DONE if found else NOT_CONVERGED

@@ -1,15 +1,19 @@
 """One table of all runs; medians, quartiles, shares that failed and histograms of it."""
 import csv
+import io
 import itertools
 import sys
 from collections import Counter
 
-from plain_text import at_once, one_line
+from output_file import ELSEWHERE, write_output
+from plain_text import one_line, printable
 from run_lock import LOCK, is_running
 
 from . import estimates, plans
-from .common import CLAIMS, SweepError, flat, folder_of, read_summary
+from .common import BESIDE, CLAIMS, SweepError, flat, folder_of
 from .criterion import Criterion
+from .runs import summary_of
+from .same_input import ForeignRun, inputs_of
 from .work import told
 
 STATE = "state"
@@ -21,27 +25,30 @@ def rows_of(folder, plan):
         row = {"run": number, **chosen, STATE: "missing"}
         of_run = folder_of(folder, number)
         try:
-            summary = read_summary(of_run, plans.needs_of(plan))
+            summary = summary_of(folder, plan, number)
             row |= {name: value for name, value in flat(summary or {}).items() if name not in row}
             runs = is_running(of_run, LOCK) or is_running(folder / CLAIMS, of_run.name)
             row[STATE] = "running" if runs else "done" if summary is not None else "cut short" if of_run.exists() else "missing"
         except SweepError as error:
-            if not any(other[STATE] == "damaged" for other in rows):    # the first one stands for all
+            state = "foreign" if isinstance(error, ForeignRun) else "damaged"
+            if not any(other[STATE] == state for other in rows):    # the first one stands for all
                 print(f"error: sweep: {one_line(error)}", file=sys.stderr)
-            row[STATE] = "damaged"
+            row[STATE] = state
         rows.append(row)
     return rows
 
 
-def write_table(file, rows, columns=None):
+def write_table(file, rows, columns=None, read=(), remedy=BESIDE):
     columns = columns or list(dict.fromkeys(itertools.chain.from_iterable(rows)))
-    with open(file, "w", newline="", encoding="utf-8", errors="surrogateescape", opener=at_once) as out:
-        writer = csv.DictWriter(out, columns, restval="")
-        try:
-            writer.writeheader()
-            writer.writerows(rows)
-        except UnicodeEncodeError:
-            raise SweepError(f"{file}: a summary.json has a text that cannot be written. Remove the damaged one, and run this again.") from None
+    out = io.StringIO(newline="")
+    writer = csv.DictWriter(out, columns, restval="")
+    writer.writeheader()
+    writer.writerows(rows)
+    try:
+        content = out.getvalue().encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        raise SweepError(f"{file}: cannot be written: a summary.json has a text that is none. Remove the damaged one, and run this again.") from None
+    write_output(file, [content], read, remedy, into_streams=True)
 
 
 def as_typed(row, varied):
@@ -108,7 +115,7 @@ def tell_shares(study, folder):
     rows = []
     for group, share, unknown in study.shares():
         where = "".join(f"{key} = {value:g}: " if isinstance(value, float) else f"{key} = {value}: " for key, value in group.items())
-        print(f"{where}{share}" + (f"; {unknown} runs have no such number" if unknown else ""))
+        print(f"{printable(where)}{share}" + (f"; {unknown} runs have no such number" if unknown else ""))
         rows.append(group | {"criterion": str(study.criterion), "runs": share.runs, "failed": share.failed, "share": share.value, "low": share.low, "high": share.high,
                              "level": share.level, "without_answer": unknown})
     write_table(folder / "fails.csv", rows)
@@ -123,7 +130,7 @@ def study(options, done, varied):
         write_table(options.folder / "statistics.csv", spreads)
     for row in spreads if options.of else []:
         group = "".join(f"{key} = {row[key]}: " for key in ([options.by] if options.by else []))
-        print(f"{group}{row['quantity']}: median {row['median']:.6g}, quartiles {row['lower_quartile']:.6g} and {row['upper_quartile']:.6g}, {row['runs']} runs")
+        print(f"{printable(group + row['quantity'])}: median {row['median']:.6g}, quartiles {row['lower_quartile']:.6g} and {row['upper_quartile']:.6g}, {row['runs']} runs")
     shares = tell_shares(asked, options.folder) if options.fails else []
     if options.histogram or (options.by and len(shares) > 1):
         from . import figures    # matplotlib takes a while
@@ -141,13 +148,13 @@ def collect(options):
     varied = list(plan["runs"][0]) if plan["runs"] else []
     rows = rows_of(options.folder, plan)
     table = options.output or options.folder / "table.csv"
-    write_table(table, rows, list(dict.fromkeys(["run", *varied, STATE, *itertools.chain.from_iterable(rows)])))
+    write_table(table, rows, list(dict.fromkeys(["run", *varied, STATE, *itertools.chain.from_iterable(rows)])), [options.folder / plans.PLAN, *inputs_of(plan)], ELSEWHERE)
     states = Counter(row[STATE] for row in rows)
     done = [row for row in rows if row[STATE] == "done"]
     del states["done"]
     late = sum(row.get("met_ends", row.get("converged")) is False for row in done)
     states = Counter({"of them not converged": late}) + states
-    print(f"{table}: {len(done)} of {len(rows)} runs done" + (f", {told(states)}" if told(states) else ""))
+    print(f"{printable(table)}: {len(done)} of {len(rows)} runs done" + (f", {told(states)}" if told(states) else ""))
     if options.fails or options.of or options.histogram or options.by:
         if not done:
             raise SweepError("no run is done yet: nothing can be said of them. Run some first.")

@@ -3,11 +3,13 @@ from plain_text import read_json
 
 DONE, NOT_CONVERGED, INTERRUPTED = 0, 4, (5, 129, 130, 143)    # exit codes of hdem
 SUMMARY = "summary.json"
+GO_ON = "give the same line again when it can be written"    # remedy for files of the sweep itself
+BESIDE = "move away what is in its place, or change the rights of the folder"    # and for those that `collect` writes into it
 CLAIMS = "claims"    # folder: a file for each run that a worker has
 
 
 class SweepError(Exception):
-    """Told to the user in one line."""
+    """Told to the user in one line; more lines are more arguments."""
 
 
 def folder_of(folder, number):

@@ -13,7 +13,11 @@ DESIGNS = ("sobol", "latin")
 FORMS = "LOW:HIGH, whole:LOW:HIGH, normal:MEAN:DEVIATION or lognormal:MEAN:DEVIATION"
 
 
+GREATEST_WHOLE = 2**53    # up to which each whole number is told from its neighbours
+
+
 def numbers_of(text, words, count):
+    """`text`: the option as it was given."""
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -34,6 +38,8 @@ def whole(text, words, stats):
     low, high = numbers_of(text, words, 2)
     if low > high or not (low.is_integer() and high.is_integer()):
         raise SweepError(f"{text}: not a range of whole numbers. Write e.g. whole:1:1000.")
+    if max(-low, high) > GREATEST_WHOLE:
+        raise SweepError(f"{text}: too far. Give whole numbers from {-GREATEST_WHOLE} to {GREATEST_WHOLE}.")
     return stats.randint(int(low), int(high) + 1)
 
 
@@ -53,30 +59,30 @@ def lognormal(text, words, stats):
     return stats.lognorm(s=math.sqrt(variance), scale=mean * math.exp(-0.5 * variance))
 
 
-def distribution(text, stats):
-    kind, *words = text.split(":")
+def distribution(key, values, stats):
+    text, (kind, *words) = f"--vary {key}={values}", values.split(":")
     kinds = {"whole": whole, "normal": normal, "lognormal": lognormal}
     return kinds[kind](text, words, stats) if kind in kinds else uniform(text, [kind, *words], stats)
 
 
-def sample(kind, texts, runs, seed):
-    """Texts of the values, one list a run. The same for the same words."""
+def sample(kind, varied, runs, seed):
+    """Texts of the values, one list a run. The same for the same words. `varied`: keys with their distributions."""
     need("numpy", "scipy")
     from scipy.stats import qmc    # not before somebody asks for a design: it takes a while
     from scipy import stats
-    distributions = [distribution(text, stats) for text in texts]
+    distributions = [distribution(key, values, stats) for key, values in varied]
     if kind == "sobol":
         if runs & (runs - 1):
             below = 1 << (runs.bit_length() - 1)
             raise SweepError(f"--runs {runs}: a Sobol design is balanced for powers of 2 only. Take {below} or {2 * below}, or --design latin.")
-        points = qmc.Sobol(len(texts), scramble=True, seed=seed).random(runs)
+        points = qmc.Sobol(len(varied), scramble=True, seed=seed).random(runs)
     else:
-        points = qmc.LatinHypercube(len(texts), seed=seed).random(runs)
+        points = qmc.LatinHypercube(len(varied), seed=seed).random(runs)
     columns = [of_key.ppf(points[:, i]) for i, of_key in enumerate(distributions)]
-    return [[written(value, text) for value, text in zip(row, texts)] for row in zip(*columns)]
+    return [[written(value, *one) for value, one in zip(row, varied)] for row in zip(*columns)]
 
 
-def written(value, text):
+def written(value, key, values):
     if not math.isfinite(value):
-        raise SweepError(f"{text}: gives {value}. Take another --design-seed.")
-    return str(int(value)) if text.startswith("whole:") else f"{value:.10g}"
+        raise SweepError(f"--vary {key}={values}: gives {value}. Take another --design-seed.")
+    return str(int(value)) if values.startswith("whole:") else f"{value:.10g}"

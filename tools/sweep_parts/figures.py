@@ -5,6 +5,10 @@ import matplotlib    # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
+from output_file import write_picture    # noqa: E402
+
+from .common import BESIDE    # noqa: E402
+
 STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "text.parse_math": False}
 STANDS, FAILS = "#0072b2", "#d55e00"
 
@@ -21,7 +25,7 @@ def draw_histogram(rows, name, criterion, file):
             axes.legend(frameon=False)
         axes.set_xlabel(name)
         axes.set_ylabel("runs")
-        figure.savefig(file, dpi=150)
+        write_picture(figure, file, remedy=BESIDE, dpi=150)
         plt.close(figure)
 
 
@@ -39,5 +43,5 @@ def draw_shares(rows, key, file):
         axes.set_ylim(-0.02, 1.02)
         axes.set_xlabel(key)
         axes.set_ylabel(f"share with {rows[0]['criterion']}")
-        figure.savefig(file, dpi=150)
+        write_picture(figure, file, remedy=BESIDE, dpi=150)
         plt.close(figure)

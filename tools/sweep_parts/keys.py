@@ -4,6 +4,8 @@ import tomllib
 
 from plain_text import read_bytes
 
+from .common import SweepError
+
 LARGEST_CASE = 16000000    # bytes; hdem takes no larger one
 STEP = re.compile(r"([^\[]*)(?:\[([0-9]{1,8})\])?")    # load[0]
 
@@ -22,6 +24,27 @@ def value_of(text):
         return tomllib.loads(f"value = {text}")["value"]
     except (ValueError, KeyError, RecursionError):
         return text.strip()
+
+
+def parts_of(option, text):
+    """Values between commas; those within brackets or quotes are of one value."""
+    parts, within, quote = [""], 0, ""
+    for c in text:
+        if c == "," and not within and not quote:
+            parts.append("")
+            continue
+        parts[-1] += c
+        if quote:
+            quote = "" if c == quote else quote
+        elif c in "\"'":
+            quote = c
+        else:
+            within += (c in "[{") - (c in "]}")
+        if within < 0:
+            break
+    if within or quote:
+        raise SweepError(f"{option}: brackets or quotes do not match. Write e.g. gravity.vector=[0,-9.81],[0,-5].")
+    return parts
 
 
 def number_of(entries, array, name):

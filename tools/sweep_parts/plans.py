@@ -7,7 +7,8 @@ import random
 import subprocess
 from decimal import Decimal, InvalidOperation
 
-from plain_text import check_values, one_line, read_json
+from output_file import replace_file, written_to
+from plain_text import check_values, one_line, printable, read_json
 
 from . import designs, keys
 from .common import FACTOR, SweepError, runs_in
@@ -19,17 +20,17 @@ MOST_RUNS = 100000
 COMMANDS = ("run", "fos")
 
 
-def values_of(text):
-    """1,2,5 as they are; 1:3 -> 1, 2, 3; 0:1:0.5 -> 0, 0.5, 1, without round-off."""
-    if ":" not in text:
-        return text.split(",")
+def values_of(key, text):
+    """1,2,5 as they are, also [0,1],[2,3]; 1:3 -> 1, 2, 3; 0:1:0.5 -> 0, 0.5, 1, without round-off."""
+    if ":" not in text or set(text) & set("[{\"'"):
+        return keys.parts_of(f"--vary {key}={text}", text)
     try:
         begin, end, step = (list(map(Decimal, text.split(":"))) + [Decimal(1)])[:3]
         count = int((end - begin) / step) + 1 if (end - begin) / step >= 0 else 0
     except (InvalidOperation, ZeroDivisionError, ValueError, OverflowError):
         count = 0
     if not 1 <= count <= MOST_RUNS or text.count(":") > 2:
-        raise SweepError(f"{text}: not a range. Write from:to or from:to:step, at most {MOST_RUNS} values.")
+        raise SweepError(f"--vary {key}={text}: not a range. Write from:to or from:to:step, at most {MOST_RUNS} values.")
     return [str(begin + i * step) for i in range(count)]
 
 
@@ -40,13 +41,25 @@ def split_key(option, text):
     return key, values
 
 
+def require_different_values(key, values):
+    """1, 1.0 and 1e0 are the same value."""
+    seen = {}
+    for text in values:
+        value = keys.value_of(text)
+        if isinstance(value, str) and as_number(value) is not None and value == text.strip():
+            raise SweepError(f"--vary {key}: {text} is no number in TOML. Write it as in a case file, without zeros in front and with digits on both sides of the point.")
+        same = (isinstance(value, bool), repr(value) if isinstance(value, (list, dict)) else value)
+        if same in seen:
+            what = "given twice" if seen[same] == text else f"the same value as {seen[same]}"
+            raise SweepError(f"--vary {key}: {text} is {what}, and would count twice. Give each value once.")
+        seen[same] = text
+
+
 def combinations(varied):
     """Every value with every other: the grid."""
-    lists = [values_of(values) for _, values in varied]
+    lists = [values_of(key, values) for key, values in varied]
     for (key, _), values in zip(varied, lists):
-        for value in values:
-            if values.count(value) > 1:
-                raise SweepError(f"{key}: {value} is given twice, and would count twice. Give each value once.")
+        require_different_values(key, values)
     runs = [list(chosen) for chosen in itertools.islice(itertools.product(*lists), MOST_RUNS + 1)]
     if len(runs) > MOST_RUNS:
         raise SweepError(f"more than {MOST_RUNS} runs. Give fewer values.")
@@ -56,7 +69,9 @@ def combinations(varied):
 def designed(options, varied):
     if options.runs is None or not 1 <= options.runs <= MOST_RUNS:
         raise SweepError(f"--design {options.design}: needs --runs, 1 to {MOST_RUNS}.")
-    return designs.sample(options.design, [values for _, values in varied], options.runs, options.design_seed)
+    if options.design_seed < 0:
+        raise SweepError(f"--design-seed {options.design_seed}: must be 0 or greater, e.g. 1.")
+    return designs.sample(options.design, varied, options.runs, options.design_seed)
 
 
 def bisection(options):
@@ -68,7 +83,7 @@ def bisection(options):
             raise SweepError("--fails and --tolerance belong to --bisect here. Give --fails to work or collect.")
         return {}
     key, text = split_key("--bisect", options.bisect)
-    low, high = designs.numbers_of(text, text.split(":"), 2)
+    low, high = designs.numbers_of(f"--bisect {options.bisect}", text.split(":"), 2)
     if not options.fails:
         raise SweepError("--bisect: needs --fails, e.g. --fails detached_blocks>0.")
     Criterion(options.fails)
@@ -113,10 +128,12 @@ def try_run(options, number, values):
     except OSError:
         return
     if done.returncode == 2:
-        raise SweepError(f"hdem refuses run {number + 1}:\n{done.stderr.strip()}")
+        raise SweepError(f"hdem refuses run {number + 1}:", *done.stderr.strip().split("\n"))
 
 
 def require_free(folder):
+    if folder.exists() and not folder.is_dir():
+        raise SweepError(f"-o {folder}: is a file. Give the name of a folder.")
     if (folder / PLAN).exists():
         raise SweepError(f"{folder / PLAN}: there is a plan already. Give another folder.")
     for old in runs_in(folder):
@@ -156,7 +173,8 @@ def make(options):
     require_free(options.output)
     for number in extremes(names, rows):
         try_run(options, number, dict(zip(names, rows[number])) | {one["key"]: one["low"] for one in chain.values()})
-    options.output.mkdir(parents=True, exist_ok=True)
+    with written_to(options.output):
+        options.output.mkdir(parents=True, exist_ok=True)
     runs = [dict(zip(names, row)) for row in rows]
     case = options.case.resolve()
     plan = {"case": str(case), "case_sha256": digest_of(case), "files_sha256": files_of_plan(case, document, runs), "runs": runs, **chain}
@@ -164,8 +182,8 @@ def make(options):
         plan["command"] = options.command_of_hdem
     if options.design:
         plan["design"] = {"kind": options.design, "seed": options.design_seed}
-    (options.output / PLAN).write_bytes(content_of(plan))
-    print(f"{len(rows)} runs planned in {options.output}")
+    replace_file(options.output / PLAN, [content_of(plan)])
+    print(f"{len(rows)} runs planned in {printable(options.output)}")
     return 0
 
 

@@ -4,6 +4,7 @@ import subprocess
 
 from . import chains
 from .plans import command_of, needs_of
+from .same_input import require_own_values
 from .common import DONE, INTERRUPTED, NOT_CONVERGED, SweepError, folder_of, read_summary
 
 
@@ -49,6 +50,16 @@ class Starter:
             self.tell(process)
 
 
+FIRST_STEP = "step_01"    # of a chain
+
+
+def summary_of(sweep, plan, number):
+    """That of a run with the values of the plan; None before its end."""
+    folder = folder_of(sweep, number)
+    require_own_values(folder / FIRST_STEP if "bisect" in plan else folder, plan["runs"][number - 1])
+    return read_summary(folder, needs_of(plan))
+
+
 def met_ends(summary):
     """Did every stage meet an end of its `until`? In folders of older versions `converged` says it."""
     return summary.get("met_ends", summary.get("converged", True))
@@ -62,6 +73,7 @@ def exit_code_of(folder, needs=None):
 
 def run_in(folder, plan, values, start):
     """hdem's exit code; what is done is left alone. `start`: Starter.run, or the like."""
+    require_own_values(folder, values)
     known = exit_code_of(folder, needs_of(plan))
     if known is not None:
         return known
@@ -76,6 +88,7 @@ def run_one(sweep, plan, number, start):
     folder, values = folder_of(sweep, number), plan["runs"][number - 1]
     if "bisect" not in plan:
         return run_in(folder, plan, values, start)
+    require_own_values(folder / FIRST_STEP, values)
     known = exit_code_of(folder)
     if known is not None:
         return known

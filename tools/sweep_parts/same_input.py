@@ -3,15 +3,16 @@ import hashlib
 import json
 import math
 import os
-import socket
 from pathlib import Path
 
+from output_file import fresh_file, put, written_to
 from plain_text import open_regular, read_json
 from run_lock import is_running
 
 from . import keys, settings
-from .common import CLAIMS, SweepError, runs_in
+from .common import CLAIMS, GO_ON, SweepError, runs_in
 
+MOST_OVERRIDES = 1 << 24    # bytes
 RECORD = "input.json"    # what the runs began with
 
 
@@ -59,6 +60,41 @@ def named_files(case, document, values):
     return {text: digest for text, digest in found if digest is not None}
 
 
+def inputs_of(plan):
+    """The case of a plan and the files that it names."""
+    case = Path(plan["case"])
+    return [case, *(case.parent / name for name in plan.get("files_sha256", {}))]
+
+
+class ForeignRun(SweepError):
+    """A run with other values than the plan's."""
+
+
+def overrides_in(file, place):
+    """The values of --set that a file of a run holds, by their keys; None where it has none, or Python no module to read it."""
+    if not file.is_file():
+        return None
+    try:
+        from checked_hdf5 import CheckedFile, ResultError
+    except ImportError:
+        return None
+    try:
+        with CheckedFile(file) as opened:
+            texts = opened.texts(place, most=MOST_OVERRIDES)
+    except ResultError:    # hdem says what is wrong with it
+        return None
+    return {key.strip(): value.strip() for key, _, value in (text.partition("=") for text in texts)}
+
+
+def require_own_values(folder, values):
+    """What lies in the folder of a run has the values that the plan gives it. hdem writes them into its results and into its checkpoint."""
+    for name, place in (("results.h5", "provenance/overrides"), ("checkpoint.h5", "case/overrides")):
+        found = overrides_in(folder / name, place)
+        for key, value in values.items() if found is not None else ():
+            if key not in found or keys.value_of(found[key]) != keys.value_of(value):
+                raise ForeignRun(f"{folder}: is no run of this plan: {name} has {key} = {found.get(key, 'as in the case')}, the plan {value}. Move the folder away, and run this again.")
+
+
 def files_of_plan(case, document, runs):
     return named_files(case, document, {value for chosen in runs for value in chosen.values()})
 
@@ -86,17 +122,16 @@ def has_begun(folder):
 
 def write_once(file, content):
     """Of several workers that begin at a time the first one writes it."""
-    own = file.with_name(f".{file.name}.{socket.gethostname()}.{os.getpid()}")
-    own.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-    try:
-        os.link(own, file)
-    except FileExistsError:
-        pass
-    except OSError:    # a file system without links
-        if not file.exists():
-            own.replace(file)
-    finally:
-        own.unlink(missing_ok=True)
+    with written_to(file, GO_ON), fresh_file(file) as fresh:
+        with open(fresh, "wb") as opened:
+            put(opened, [json.dumps(content, indent=1), "\n"])
+        try:
+            os.link(fresh, file)
+        except FileExistsError:
+            pass
+        except OSError:    # a file system without links
+            if not file.exists():
+                os.replace(fresh, file)
 
 
 def recorded(folder, now):

@@ -58,8 +58,8 @@ class Enough:
     by now the share would be that of the fast ones.
     """
 
-    def __init__(self, options, needs=None):
-        self.needs = needs
+    def __init__(self, options, summary_of):
+        self.summary_of = summary_of    # number -> summary, or None before the end of the run
         self.width, self.at_least, self.level = options.until_width, options.at_least, options.level
         self.criterion = Criterion(options.fails)
         if self.width is not None and not options.fails:
@@ -68,9 +68,9 @@ class Enough:
             raise SweepError(f"--until-width {self.width:g}: must be between 0 and 1.")
         self.known, self.share = {}, None
 
-    def answer(self, sweep, number):
+    def answer(self, number):
         if number not in self.known:
-            summary = read_summary(folder_of(sweep, number), self.needs)
+            summary = self.summary_of(number)
             if summary is None:
                 return None
             row = flat(summary)
@@ -78,12 +78,12 @@ class Enough:
             self.known[number] = self.criterion.fails(row)
         return self.known[number]
 
-    def reached(self, sweep, order):
+    def reached(self, order):
         if self.width is None:
             return False
         answers = []
         for number in order:
-            answer = self.answer(sweep, number)
+            answer = self.answer(number)
             if answer is None:
                 break
             answers.append(answer)
@@ -97,7 +97,7 @@ class Worker:
     def __init__(self, options, plan):
         self.options, self.plan = options, plan
         self.order = plans.order_of(plan)
-        self.enough = Enough(options, plans.needs_of(plan))
+        self.enough = Enough(options, partial(runs.summary_of, options.folder, plan))
         self.start = runs.Starter(options.program, options.for_hdem, apart=True)
         self.lock, self.waiting = threading.Lock(), iter(self.order)
         self.codes, self.elsewhere, self.stopped, self.error = [], 0, False, None
@@ -107,7 +107,7 @@ class Worker:
         with self.lock:
             if self.start.stopped_by is not None or self.error:
                 return None
-            self.stopped = self.stopped or self.enough.reached(self.options.folder, self.order)
+            self.stopped = self.stopped or self.enough.reached(self.order)
             return None if self.stopped else next(self.waiting, None)
 
     def take(self, number):

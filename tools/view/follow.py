@@ -10,6 +10,7 @@ import time
 
 import page
 from hdem_io import ResultError, open_run
+from plain_text import one_line
 from run_pack import RunPack
 
 LOOK = 0.5    # s between two looks for new frames
@@ -35,7 +36,7 @@ def follow(folder, output):
             problem = error
         next_time = time.monotonic() + max(EVERY, (time.monotonic() - begin) / SHARE)
     if problem:
-        print(f"error: hdem run --live: {output} is not up to date: {problem}", file=sys.stderr)
+        print(f"error: hdem run --live: {one_line(f'{output} is not up to date: {problem}')}", file=sys.stderr)
     return 1 if problem else 0
 
 

@@ -1,19 +1,20 @@
 """A film of a run's frames for slides, for `hdem view --movie`: hdem plot draws them, ffmpeg packs them."""
+import os
 import shutil
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import numpy as np
 
 from fields import all_fields, range_of
 from hdem_frames import read_block_arrays
 from hdem_io import ResultError, open_run
+from output_file import check_output, fresh_file, is_stream, make_folder_of, written_to
 
 COLOURS = ["displacement", "displacement_x", "displacement_y", "rotation", "velocity", "stress", "stress_xx", "stress_yy", "stress_xy", "regime", "material", "none"]
 FIELD_OF = {"velocity": "speed", "stress": "stress_magnitude"}    # under the names of fields.py
 DPI = 160.0
+ELSEWHERE = "give another name of a film"
 
 
 def colour_ranges(run, colour):
@@ -22,7 +23,7 @@ def colour_ranges(run, colour):
         return [None] * len(run.frames)
     name, found, begins = FIELD_OF.get(colour, colour), {}, []
     for frame in run.frames:
-        blocks = read_block_arrays(run.folder / "frames" / f"blocks_{frame.number:06d}.hdf")
+        blocks = run.read(read_block_arrays, "blocks", frame.number)
         low, high = range_of(name, all_fields(blocks)[name], blocks["detached"].astype(bool))
         begin = int(blocks["info"]["stage_begin_cycle"])
         old = found.get(begin, (low, high))
@@ -44,8 +45,8 @@ def packer(output, fps, size):
     program = shutil.which("ffmpeg")
     if not program:
         raise ResultError("--movie needs ffmpeg: run tools/setup, or install it")
-    into = ["-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none"] if output.suffix.lower() == ".gif" else [
-        "-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+    into = ["-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-f", "gif"] if output.suffix.lower() == ".gif" else [
+        "-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
     return [program, "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", f"{size[0]}x{size[1]}", "-framerate", f"{fps:g}", "-i", "-",
             *into, "-threads", "2"]
 
@@ -78,11 +79,14 @@ def make_movie(options):
     if not run.frames:
         raise ResultError(f"{run.folder}: holds no frames. A run writes one at the end of each stage; output.frame_every in the case asks for more.")
     packer(output, options.fps, (0, 0))    # whether it is there
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=output.parent, prefix=".hdem_movie_") as scratch:
-        unfinished, process = Path(scratch) / output.name, None
+    check_output(output, remedy=ELSEWHERE)
+    if is_stream(output):
+        raise ResultError(f"{output}: no file, but a pipe or a device. Give another film.")
+    make_folder_of(output, ELSEWHERE)
+    with written_to(output, ELSEWHERE), fresh_file(output) as fresh:
+        process = None
         for number, (size, data) in enumerate(pictures(run, options)):
-            process = process or subprocess.Popen([*packer(output, options.fps, size), str(unfinished)], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+            process = process or subprocess.Popen([*packer(output, options.fps, size), f"file:{fresh}"], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
             try:
                 process.stdin.write(data)
             except BrokenPipeError:
@@ -92,5 +96,5 @@ def make_movie(options):
         _, said = process.communicate()
         if process.returncode != 0:
             raise ResultError(f"{output}: ffmpeg failed: {said.decode(errors='replace').strip().splitlines()[-1:] or process.returncode}")
-        unfinished.replace(output)
+        os.replace(fresh, output)
     return output

@@ -1,12 +1,11 @@
 """One HTML file of one or two packed runs. Nothing in it asks the network for anything."""
 import json
-import os
-import secrets
 from datetime import datetime, timezone
 from html import escape
 from pathlib import Path
 
 from hdem_io import ResultError
+from output_file import make_folder_of, write_output
 
 TEMPLATE = Path(__file__).resolve().parent / "viewer.html"
 MARK = "<!--DATA-->"
@@ -52,18 +51,8 @@ def clean(value):
     return [clean(one) for one in value] if isinstance(value, list) else value
 
 
-def write(output, parts):
+def write(output, parts, read=()):
     """Whole or not at all: who has the page open never loads a half of it."""
-    output = Path(output)
-    if output.exists() and not output.is_file():
-        raise ResultError(f"{output}: is no file, and would be replaced. Give the name of a file.")
-    output.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = output.with_name(f"{output.name}.{secrets.token_hex(6)}.tmp")
-    try:
-        with open(unfinished, "x", encoding="utf-8") as file:
-            for part in parts:
-                file.write(part)
-        os.replace(unfinished, output)
-    finally:
-        unfinished.unlink(missing_ok=True)
+    make_folder_of(output)
+    write_output(output, parts, read)
     return output

@@ -12,6 +12,7 @@ from extent import Extent
 from fields import STORED, all_fields, more_fields, range_of
 from hdem_frames import read_block_arrays, read_bolts, read_contacts, read_liners, read_names
 from hdem_io import ResultError
+from plain_text import printable
 from poses import References, Shapes
 from tables import tables_of
 
@@ -64,15 +65,15 @@ class RunPack:
         self._poses_at_hand.clear()
 
     def _file(self, kind, number):
-        return self.run.folder / "frames" / f"{kind}_{number:06d}.hdf"
+        return self.run.file_of(kind, number)
 
     def _add(self, frame):
         file = self._file("blocks", frame.number)
-        blocks = read_block_arrays(file)
+        blocks = self.run.read(read_block_arrays, "blocks", frame.number)
         if not len(blocks["id"]) and self.shapes.origin is None:
             raise ResultError(f"{file}: holds no blocks, and no frame before it does")
         if not self.names:
-            self.names = read_names(file)
+            self.names = self.run.read(read_names, "blocks", frame.number)
         if len(blocks["id"]) and blocks["id"][-1] >= len(self.names):
             raise ResultError(f"{file}: block {blocks['id'][-1]} is not one of the model's {len(self.names)}: frames are of different runs. Run the case again.")
         slots = self.shapes.slots(blocks)
@@ -85,15 +86,15 @@ class RunPack:
         self.extent.add_places(blocks["water_table"])
         if len(blocks["water_table"]):
             entry["water"] = self._number_of(self.waters, blocks["water_table"])
-        liners = read_liners(lined) if (lined := self._file("liners", frame.number)).exists() else None
+        liners = self.run.read(read_liners, "liners", frame.number) if self._file("liners", frame.number).exists() else None
         entry["chunk"] = self._block_chunk(blocks, slots, liners)
         if liners is not None:
             entry["liners"] = greatest_of_liners(liners)
             self.extent.add_linings(liners)
         detached = blocks["detached"].astype(bool)
         entry["ranges"] = {name: range_of(name, values, detached) for name, values in all_fields(blocks).items()}
-        if (bolts := self._file("bolts", frame.number)).exists():
-            found = read_bolts(bolts)
+        if self._file("bolts", frame.number).exists():
+            found = self.run.read(read_bolts, "bolts", frame.number)
             entry["bolts"] = self._bolts(found)
             self.extent.add_bolts(found)
         self._poses_at_hand[frame.number] = self._poses(blocks, slots, reference)
@@ -165,7 +166,7 @@ class RunPack:
         file = self._file("contacts", frame["number"])
         if not file.exists():
             return None
-        contacts = read_contacts(file)
+        contacts = self.run.read(read_contacts, "contacts", frame["number"])
         if len(contacts["blocks"]) and not np.all(self._known(contacts["blocks"])):
             raise ResultError(f"{file}: contacts name blocks that no frame has: the two files are of different runs, or damaged. Run the case again.")
         rows, order = self.rows.rows_of(contacts, self.shapes.slot_of_id, self._poses_of(frame), self.shapes.radius)
@@ -191,7 +192,7 @@ class RunPack:
 
     def _poses_of(self, frame):
         if frame["number"] not in self._poses_at_hand:
-            blocks = read_block_arrays(self._file("blocks", frame["number"]))
+            blocks = self.run.read(read_block_arrays, "blocks", frame["number"])
             return self._poses(blocks, self.shapes.slots(blocks), frame["reference"])
         return self._poses_at_hand[frame["number"]]
 
@@ -243,7 +244,7 @@ class RunPack:
             made_by = run.provenance()
         except ResultError:
             made_by = {}
-        facts = {"name": Path(run.folder).resolve().name, "state": "interrupted" if self.is_over and run.state() == "running" else run.state(), "origin": self.shapes.origin.tolist(), "blocks": len(self.shapes.id),
+        facts = {"name": printable(Path(run.folder).resolve().name), "state": "interrupted" if self.is_over and run.state() == "running" else run.state(), "origin": self.shapes.origin.tolist(), "blocks": len(self.shapes.id),
                  "case": Path(str(made_by.get("case_file", ""))).name, "program": " ".join(filter(None, [made_by.get("hdem_version", ""), made_by.get("git_commit", "")[:10]])),
                  "static": put("s", self.static_chunk()), "rows": put("r", self.contact_row_chunk()), "tables_chunk": put("h", tables_chunk), "tables": tables,
                  "outlines": self.outlines, "waters": self.waters, "frames": frames, "contacts_left_out": self.contacts_left_out()}

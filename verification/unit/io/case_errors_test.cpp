@@ -321,6 +321,14 @@ TEST(CaseErrors, FilesThatCannotBeRead)
     EXPECT_THAT(problem_of(folder / "empty.toml"), HasSubstr("there is no rock"));
 }
 
+TEST(CaseErrors, MoreMaterialsThanTheTableOfTheirPairsHolds)
+{
+    std::string text = two_blocks;
+    for (int i = 0; i < 4096; ++i)
+        text += "\n[material.m" + std::to_string(i) + "]\ndensity = 1.0\n";
+    EXPECT_THAT(problems_of(text), ElementsAre(HasSubstr("4097 materials (at most 4096")));
+}
+
 TEST(CaseErrors, ThousandsAreCutShort)
 {
     std::string text;

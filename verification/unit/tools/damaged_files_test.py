@@ -5,6 +5,7 @@
 
 Exit code 77 (skipped) without h5py or matplotlib. verification/fuzz/damaged_results.py tries many more.
 """
+import fcntl
 import json
 import mmap
 import os
@@ -200,7 +201,7 @@ class DamagedFiles(unittest.TestCase):
         os.mkfifo(self.folder / "picture.png")
         done = subprocess.run([HDEM, "plot", self.folder, "-o", self.folder / "picture.png"], capture_output=True, text=True, check=False, timeout=PATIENCE)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
-        self.assertIn("picture.png: no file. Give", done.stderr)
+        self.assertIn("picture.png: no file, but a pipe or a device. Give", done.stderr)
 
     def test_values_of_a_run_that_blew_up_are_drawn_as_far_as_they_go(self):
         for value in (1e308, -1e308, np.inf, np.nan):
@@ -220,6 +221,23 @@ class DamagedFiles(unittest.TestCase):
         done = subprocess.run([HDEM, "plot", self.folder, "--frame", "1", "--contacts"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("blocks that this frame does not have", done.stderr)
+
+    def test_frame_that_went_away_is_told_from_one_that_was_removed(self):
+        frame = self.folder / "frames/blocks_000001.hdf"
+        frame.unlink()
+        for run_goes_on, words in ((False, f"{frame}: no such file, but the results name it: it was removed. Run the case again"),
+                                   (True, f"{frame}: is not there any more: it went away while it was read, as when the run is begun anew. Try again.")):
+            with open(self.folder / ".lock", "wb") as lock:
+                if run_goes_on:
+                    fcntl.flock(lock, fcntl.LOCK_EX)
+                done = subprocess.run([HDEM, "plot", self.folder, "--frame", "1"], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(words, done.stderr)
+        run = hdem_io.open_run(self.folder)
+        os.replace(shutil.copy(self.whole / "results.h5", self.folder / "anew"), self.folder / "results.h5")
+        self.refused(lambda: run.blocks(1), "Try again")
+        (self.folder / "results.h5").unlink()
+        self.refused(run.energy, "results.h5: is not there any more")
 
     def test_many_damaged_files(self):
         done = subprocess.run([FUZZ / "damaged_results.py", HDEM, TOOLS, "--results", "150", "--frames", "400", "--draw-every", "40"], capture_output=True, text=True,

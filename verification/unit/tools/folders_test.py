@@ -8,38 +8,10 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-HDEM, CASES = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-SLAB = """
-[domain]
-width = 4
-height = 2
-fixed = ["bottom"]
-[[joint_set]]
-dip_deg = 0.0
-spacing = 1.0
-[[joint_set]]
-dip_deg = 90.0
-spacing = 1.0
-[material.rock]
-density = 2700.0
-[joint.default]
-normal_stiffness = 7e9
-shear_stiffness = 5e8
-friction_angle_deg = 35.0
-[[stage]]
-name = "one"
-cycles = 200
-[[stage]]
-name = "two"
-cycles = 200
-[output]
-row_every = 50
-frame_every = 100
-"""
+from folder_scratch import CASES, FINISHED, HDEM, OUT_OF_TIME, REFUSED, SLAB, FolderTest, content
+
 # The last stage begins with what the first, whose length varies, leaves: one block slides away in it.
 SLIDES_FIRST = """
 [material.rock]
@@ -85,41 +57,9 @@ set = ["joint.default.friction_angle_deg = 25", "joint.key.friction_angle_deg = 
 until = ["converged", "displacement > 0.02"]
 max_cycles = 100000
 """
-FINISHED, REFUSED, OUT_OF_TIME = 0, 2, 5
 
 
-def content(folder):
-    """Names and times of all files: what was written anew differs."""
-    return {file.relative_to(folder): file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file() and file.name != ".lock"}
-
-
-class Folders(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="hdem_folders_")
-        self.addCleanup(scratch.cleanup)
-        self.root = Path(scratch.name)
-        self.folder = self.root / "out"
-        self.case = self.write("slab.toml", SLAB)
-        self.other = self.write("wider.toml", SLAB.replace("width = 4", "width = 6"))
-
-    def write(self, name, text):
-        (self.root / name).write_text(text, encoding="utf-8")
-        return self.root / name
-
-    def hdem(self, *arguments, code=FINISHED):
-        done = subprocess.run([HDEM, *map(str, arguments)], capture_output=True, text=True, check=False, cwd=self.root, timeout=120)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout + done.stderr
-
-    def run_case(self, *arguments, code=FINISHED):
-        return self.hdem("run", self.case, "-o", self.folder, "-q", *arguments, code=code)
-
-    def expect_untouched(self, message, *command):
-        """The command is refused, and all is as it was."""
-        before = content(self.folder)
-        self.assertRegex(self.hdem(*command, code=REFUSED), message)
-        self.assertEqual(content(self.folder), before)
-
+class Folders(FolderTest):
     def test_fos_begins_its_last_stage_with_its_own_run(self):
         case, longer = self.write("slides.toml", SLIDES_FIRST), ["--set", "stage[0].cycles=8000"]
         self.hdem("fos", case, "-o", self.folder, "-q")
@@ -161,7 +101,7 @@ class Folders(unittest.TestCase):
         self.expect_untouched("of another one", "run", "--restart", self.folder, "-q", "--set", "stage[1].cycles=700")
 
     def test_a_refused_restart_puts_nothing_aside(self):
-        self.run_case("--set", "output.checkpoint_every=100")
+        self.run_case("--set", "output.checkpoint_every=150")
         previous = self.folder / "checkpoint.previous.h5"
         self.assertTrue(previous.exists())
         self.expect_untouched("keeps its blocks", "run", "--restart", previous, "-q", "--set", "joint.default.cohesion=1")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Names and titles are texts in pictures, pages, file names and on the screen, whatever characters they have.
+"""Names and titles are texts in pictures, pages, file names and on the screen, whatever characters they have. Outputs take the place of nothing else.
 
     hostile_texts_test.py HDEM TOOLS    the program, and the folder of its scripts
 
@@ -7,6 +7,8 @@ Exit code 77 (skipped) without h5py or matplotlib.
 """
 import html
 import json
+import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -26,6 +28,9 @@ import small_case
 HDEM, TOOLS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(TOOLS))
 import plain_text    # noqa: E402
+
+VIEWER = HDEM.parent.parent / "share/hdem/view/viewer.html"
+COMMANDS = {"report": "page.html", "plot": "picture.svg"} | ({"view": "view.html"} if VIEWER.exists() else {})    # and the name of an output
 
 # Templates of re.sub, formulas of matplotlib, tags and entities of HTML, formats, words of a shell, other alphabets.
 TEXTS = [r"\g<1> \q \1 {} {0} %s", "$x^{$ a_b^c", "$$", "<script>alert(1) &amp &", "-o $(touch x) `y` \"q\" 'q'", "Grüße 岩"]
@@ -143,6 +148,80 @@ class FileNames(unittest.TestCase):
         for text, expected in (("../up", "_._up"), ("a/b", "a_b"), (".hidden", "_hidden"), ("", "_"), ("a b\\g", "a b\\g"), ("x\ny", "x\ufffdy")):
             self.assertEqual(plain_text.as_file_name(text), expected)
         self.assertLessEqual(len(plain_text.as_file_name("岩" * 200).encode()), 200)
+
+
+class Outputs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="hdem_outputs_test_")
+        cls.root = Path(cls.scratch.name)
+        cls.results = small_case.run(HDEM, cls.root)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def said(self, code, command, *arguments, **more):
+        """On both channels; errors are one line."""
+        done = subprocess.run([HDEM, command, *arguments], capture_output=True, check=False, cwd=self.root, **more)
+        self.assertEqual((done.returncode, done.stderr.count(b"\n")), (code, 1 if code else 0), done.stderr)
+        self.assertEqual(list(self.root.rglob("*.tmp")), [])
+        return done.stdout + done.stderr
+
+    def test_take_the_place_of_no_file_of_hdem(self):
+        names = [file.relative_to(self.root) for file in self.results.rglob("*") if file.suffix in (".json", ".h5", ".log", ".series") or file.name == "blocks_000000.hdf"]
+        self.assertGreater(len(names), 6)
+        before = {name: (self.root / name).read_bytes() for name in names}
+        for command in COMMANDS:
+            for name in [*names, "elsewhere/plan.json"]:
+                self.assertIn(b": hdem itself writes files of this name, for runs and sweeps. Give ", self.said(2, command, "out", "-o", name))
+        self.assertEqual({name: (self.root / name).read_bytes() for name in names}, before)
+        self.assertFalse((self.root / "elsewhere").exists())
+
+    def test_take_the_place_of_nothing_that_was_read(self):
+        frame = self.root / "picture.png"    # under a name of its own
+        os.link(self.results / "results.h5", frame)
+        for command in COMMANDS:
+            self.assertIn(b"picture.png: was read, and would be lost. Give ", self.said(2, command, "out", "-o", "picture.png"))
+        frame.unlink()
+
+    def test_earlier_ones_stay_where_space_is_short(self):
+        for command, name in COMMANDS.items():
+            (self.root / name).write_text("before", encoding="utf-8")
+            said = self.said(1, command, "out", "-o", name, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024)))
+            self.assertIn(f"error: hdem {command}: {name}: cannot be written (File too large). Free space, or give ".encode(), said)
+            self.assertEqual((self.root / name).read_text(encoding="utf-8"), "before")
+
+    def test_links_are_replaced_and_not_what_they_lead_to(self):
+        precious = self.root / "precious"
+        precious.write_text("kept", encoding="utf-8")
+        for command, name in COMMANDS.items():
+            link = self.root / name
+            link.unlink(missing_ok=True)
+            link.symlink_to("precious")
+            self.said(0, command, "out", "-o", name)
+            self.assertFalse(link.is_symlink())
+            self.assertGreater(len(link.read_bytes()), 1000)
+            self.assertEqual(precious.read_text(encoding="utf-8"), "kept")
+
+    def test_of_a_pipe_is_the_page_alone(self):
+        self.assertRegex(self.said(0, "report", "out", "-o", "/dev/stdout"), rb"(?s)^<!DOCTYPE html>.*</html>\n?$")
+        reader, writer = os.pipe()
+        os.close(reader)
+        self.assertIn(b": cannot be written (Broken pipe). Give", self.said(1, "report", "out", "-o", f"/dev/fd/{writer}", pass_fds=(writer,)))
+        os.close(writer)
+        self.assertIn(b"/dev/full: cannot be written (No space left on device). Free space, or give another place with -o.", self.said(1, "report", "out", "-o", "/dev/full"))
+        self.assertTrue(os.path.exists("/dev/full"))
+
+    def test_names_of_any_bytes_are_read_and_shown_without_steering_the_screen(self):
+        for name in (b"n\xff\xfe", b"red\x1b[31m", b"two\nlines"):
+            folder = os.path.join(os.fsencode(self.root), name)
+            os.rename(self.results, folder)
+            for command in COMMANDS:
+                said = self.said(0, command, name)
+                self.assertEqual(said.count(b"\n"), 1, said)
+                self.assertNotIn(b"\x1b", said)
+            os.rename(folder, self.results)
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ class SmallRun(unittest.TestCase):
         code, said = self.plot(self.folder, "-o", self.folder)
         self.assertEqual(code, 2)
         self.assertIn("a folder. Give the name of a picture with -o.", said)
-        self.assertEqual(self.plot(self.folder, "-o", "/proc/x.png"), (1, "error: hdem plot: /proc/x.png: No such file or directory\n"))
+        self.assertEqual(self.plot(self.folder, "-o", "/proc/x.png"), (1, "error: hdem plot: /proc/x.png: cannot be written (No such file or directory). Give the name of a picture with -o.\n"))
 
     def test_frames_are_those_of_the_ends_of_stages(self):
         self.assertEqual([(frame.cycle, frame.stage) for frame in self.run_.frames if frame.cycle > 0], [(200, "settle"), (1700, "fall")])

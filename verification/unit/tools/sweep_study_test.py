@@ -4,13 +4,14 @@
     sweep_study_test.py HDEM TOOLS    the program, and the folder of its scripts
 """
 import json
+import os
 import subprocess
 import sys
 import unittest
 
 from sweep_scratch import TOOLS, Scratch
 import numpy as np
-from sweep_parts import designs, estimates, plans
+from sweep_parts import designs, estimates, plans, runs
 from sweep_parts.common import SweepError
 from sweep_parts.criterion import Criterion
 from sweep_parts.work import Enough
@@ -61,15 +62,16 @@ class Designs(unittest.TestCase):
     def test_each_sixteenth_of_a_range_has_one_of_sixteen_runs(self):
         for kind in designs.DESIGNS:
             for seed in (1, 2):
-                values = np.array(designs.sample(kind, ["0:16", "-8:8"], 16, seed), dtype=float)
+                values = np.array(designs.sample(kind, [("a", "0:16"), ("b", "-8:8")], 16, seed), dtype=float)
                 self.assertEqual(sorted(np.floor(values[:, 0])), list(range(16)), kind)
                 self.assertEqual(sorted(np.floor(values[:, 1])), list(range(-8, 8)), kind)
-        self.assertEqual(designs.sample("sobol", ["0:1"], 8, 3), designs.sample("sobol", ["0:1"], 8, 3))
-        self.assertNotEqual(designs.sample("sobol", ["0:1"], 8, 3), designs.sample("sobol", ["0:1"], 8, 4))
+        varied = [("a", "0:1")]
+        self.assertEqual(designs.sample("sobol", varied, 8, 3), designs.sample("sobol", varied, 8, 3))
+        self.assertNotEqual(designs.sample("sobol", varied, 8, 3), designs.sample("sobol", varied, 8, 4))
 
     def test_distributions_have_their_mean_and_deviation(self):
         for kind in designs.DESIGNS:
-            values = np.array(designs.sample(kind, ["normal:30:3", "lognormal:10:4", "whole:1:4"], 1024, 1), dtype=float)
+            values = np.array(designs.sample(kind, [("a", "normal:30:3"), ("b", "lognormal:10:4"), ("c", "whole:1:4")], 1024, 1), dtype=float)
             self.assertAlmostEqual(values[:, 0].mean(), 30.0, delta=0.01)
             self.assertAlmostEqual(values[:, 0].std(), 3.0, delta=0.03)
             self.assertAlmostEqual(values[:, 1].mean(), 10.0, delta=0.05)
@@ -78,11 +80,15 @@ class Designs(unittest.TestCase):
             self.assertEqual([(values[:, 2] == n).sum() for n in range(1, 5)], [256] * 4)
 
     def test_what_is_no_distribution_is_refused(self):
-        for text in ("1,2,3", "1", "2:1", "normal:1", "normal:1:0", "lognormal:-1:2", "whole:1.5:3", "gamma:1:2", "nan:1"):
-            with self.assertRaises(SweepError, msg=text):
-                designs.sample("latin", [text], 4, 1)
+        for text in ("1,2,3", "1", "2:1", "normal:1", "normal:1:0", "lognormal:-1:2", "whole:1.5:3", "gamma:1:2", "nan:1", "whole:1:99999999999999999999999",
+                     "whole:-1e300:1"):
+            with self.assertRaisesRegex(SweepError, f"--vary a={text}: ", msg=text):
+                designs.sample("latin", [("a", text)], 4, 1)
+        with self.assertRaisesRegex(SweepError, "from -9007199254740992 to 9007199254740992"):
+            designs.sample("latin", [("a", f"whole:0:{2**53 + 2}")], 4, 1)
+        designs.sample("latin", [("a", f"whole:{-2**53}:{2**53}")], 4, 1)
         with self.assertRaisesRegex(SweepError, "Take 64 or 128"):
-            designs.sample("sobol", ["0:1"], 100, 1)
+            designs.sample("sobol", [("a", "0:1")], 100, 1)
 
 
 class Work(Scratch):
@@ -116,9 +122,13 @@ class Work(Scratch):
         self.work()
         options = type("", (), {"until_width": 0.2, "at_least": 5, "level": 0.95, "fails": ["fallen>0"]})
         order = plans.order_of(plans.read(self.folder / "s"))
-        self.assertTrue(Enough(options).reached(self.folder / "s", order))
+        plan = plans.read(self.folder / "s")
+
+        def reached():
+            return Enough(options, lambda number: runs.summary_of(self.folder / "s", plan, number)).reached(order)
+        self.assertTrue(reached())
         (self.folder / f"s/run_{order[3]:06d}/summary.json").unlink()
-        self.assertFalse(Enough(options).reached(self.folder / "s", order))
+        self.assertFalse(reached())
 
     def test_exit_code_is_that_of_the_worst(self):
         self.plan("--vary", "x=1:4")
@@ -220,6 +230,10 @@ class Collect(Scratch):
         self.assertEqual((sum(int(row["runs"]) for row in rows), sum(int(row["failed"]) for row in rows)), (12, 5))
         self.assertEqual((float(rows[0]["from"]), float(rows[-1]["to"])), (101.0, 284.0))
         self.assertTrue((self.folder / "s/histogram_moved.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_pictures_are_not_written_into_pipes(self):
+        os.mkfifo(self.folder / "s/histogram_moved.png")
+        self.assertIn("s/histogram_moved.png: no file, but a pipe or a device. Move away", self.sweep("collect", "s", "--histogram", "moved", code=2))
 
     def test_runs_without_the_number_are_told(self):
         file = self.folder / "s/run_000003/summary.json"

@@ -205,6 +205,55 @@ class Sweep(unittest.TestCase):
         (self.folder / "small.toml").write_text(small_case.CASE, encoding="utf-8")
         self.assertEqual(self.sweep("run", "s", "2", "--program", program)[0], 0)
 
+    def test_values_are_compared_as_values(self):
+        for varied, words in (("a=1,1.0", "--vary a: 1.0 is the same value as 1, and would count twice"), ("a=x,'x'", "'x' is the same value as x"), ("a=1,01", "01 is no number in TOML"),
+                              ("a=.5,1", ".5 is no number in TOML"), ("a=[0,1],[0,1]", "[0,1] is given twice"), ("a=[0,1],[0", "brackets or quotes do not match"),
+                              ("a=1]", "--vary a=1]: brackets or quotes do not match")):
+            code, said = self.sweep("plan", "small.toml", "-o", "t", "--vary", varied, "--program", "nowhere")
+            self.assertEqual((code, said.count("\n")), (2, 1), said)
+            self.assertIn(words, said)
+        self.assertEqual([list(run.values()) for run in self.plan("gravity.vector=[0,-9.81],[0,-5]", "contact.method='force',hybrid")],
+                         [["[0,-9.81]", "'force'"], ["[0,-9.81]", "hybrid"], ["[0,-5]", "'force'"], ["[0,-5]", "hybrid"]])
+
+    def test_runs_with_other_values_than_the_plan_do_not_count(self):
+        varied = ("--vary", "joint.default.friction_angle_deg=5,30")
+        self.plan(varied[1])
+        self.assertEqual(self.sweep("run", "s", 1, 2, "--program", HDEM, "--", "--quiet")[0], 0)
+        self.assertEqual(self.sweep("collect", "s")[0], 0)
+        first, second = self.folder / "s/run_000001", self.folder / "s/run_000002"
+        first.rename(self.folder / "s/other")
+        second.rename(first)
+        words = "error: sweep: s/run_000001: is no run of this plan: {} has joint.default.friction_angle_deg = 30, the plan 5. Move the folder away, and run this again.\n"
+        self.assertEqual(self.sweep("collect", "s"), (1, "s/table.csv: 0 of 2 runs done, 1 foreign, 1 missing\n" + words.format("results.h5")))
+        self.assertEqual((self.table()[0]["state"], "cycles" in self.table()[0]), ("foreign", False))
+        for file in ("results.h5", "checkpoint.h5"):
+            for command in (["run", "s", 1], ["work", "s", "--jobs", "1"]):
+                self.assertEqual(self.sweep(*command, "--program", self.recorder()), (2, words.format(file)))
+            (first / "summary.json").unlink(missing_ok=True)
+            (first / "results.h5").unlink(missing_ok=True)    # the checkpoint says it, too
+        self.assertNotIn("s/run_000001", self.words())    # the other one was missing, and was run
+
+    def test_outputs_take_the_place_of_no_file_of_the_sweep(self):
+        self.plan("generator.seed=1:2")
+        before = (self.folder / "s/plan.json").read_bytes()
+        for name, words in (("s/plan.json", "hdem itself writes files of this name"), ("s/run_000001", "hdem itself"), ("small.toml", "was read, and would be lost"), ("s", "a folder")):
+            code, said = self.sweep("collect", "s", "-o", name)
+            self.assertEqual((code, said.count("\n")), (2, 1), said)
+            self.assertIn(f"error: sweep: {name}: {words}", said)
+        self.assertEqual((self.folder / "s/plan.json").read_bytes(), before)
+        self.assertEqual((self.folder / "small.toml").read_text(encoding="utf-8"), small_case.CASE)
+        (self.folder / "s/table.csv").symlink_to("plan.json")
+        self.assertEqual(self.sweep("collect", "s")[0], 1)
+        self.assertEqual((self.folder / "s/plan.json").read_bytes(), before)
+
+    def test_texts_of_the_user_do_not_steer_the_screen(self):
+        for code, words in ((0, ["plan", "small.toml", "-o", "\x1b[31m", "--vary", "generator.seed=1"]), (1, ["collect", "\x1b[31m"]), (2, ["plan", "\x1b[31m", "-o", "t", "--vary", "a=1"]),
+                            (2, ["collect", "s", "--\x1b[31m"]), (2, ["plan", "small.toml", "-o", "t", "--vary", "generator.seed=1", "--bisect", "\x1b[31m"])):
+            found, said = self.sweep(*words)
+            self.assertEqual(found, code, said)
+            self.assertNotIn("\x1b", said)
+            self.assertEqual(said.count("\n"), 1, said)
+
     def test_errors_say_what_is_wrong(self):
         self.assertEqual(self.sweep("plan", "small.toml", "-o", "u/t", "--vary", "generator.seed=1")[0], 0)
         self.plan("generator.seed=1")
@@ -217,6 +266,8 @@ class Sweep(unittest.TestCase):
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:x"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1,1,2"], "a: 1 is given twice"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:0"], "not a range"),
+                                 (["plan", "small.toml", "-o", "small.toml", "--vary", "generator.seed=1"], "-o small.toml: is a file. Give the name of a folder."),
+                                 (["plan", "small.toml", "-o", "t", "--vary", "a=1:2", "--design", "latin", "--runs", "2", "--design-seed", "-1"], "--design-seed -1: must be 0 or greater"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=3:2.5"], "not a range"),
                                  (["plan", "small.toml", "-o", "t", "--vary", "a=1:2:-3"], "not a range"),
                                  (["run", "s", "2"], "not in the plan"), (["collect", "u"], "cannot be read"),
