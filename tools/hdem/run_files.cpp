@@ -27,14 +27,12 @@ std::unique_ptr<RunRecorder> make_recorder(const RunStart& start, const RunOptio
 }
 }  // namespace
 
-std::unique_ptr<Log> begin_log(const RunStart& start, const RunOptions& options)
+std::unique_ptr<Log> begin_log(RunStart& start, const RunOptions& options)
 {
     const std::vector<std::string> notes = clear_for_run(start, options.overwrite);
-    auto log = std::make_unique<Log>(start.folder / "run.log", options.quiet,
-                                     start.restarted && !start.moved ? Log::Begin::behind_the_last_run : Log::Begin::anew);
-    for (const std::string& note : notes)
-        log->line(note);
-    return log;
+    start.notes.insert(start.notes.end(), notes.begin(), notes.end());
+    return std::make_unique<Log>(start.folder / "run.log", options.quiet,
+                                 start.restarted && !start.moved ? Log::Begin::behind_the_last_run : Log::Begin::anew);
 }
 
 namespace

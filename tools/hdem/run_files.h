@@ -11,8 +11,8 @@
 
 namespace hdem
 {
-/// The log of a run that begins, in its folder, once what an older run left there is gone. See clear_for_run.
-[[nodiscard]] std::unique_ptr<Log> begin_log(const RunStart& start, const RunOptions& options);
+/// The log of a run that begins, in its folder, once what an older run left there is gone: see clear_for_run, whose notes `start` takes.
+[[nodiscard]] std::unique_ptr<Log> begin_log(RunStart& start, const RunOptions& options);
 
 class RunFiles
 {

@@ -129,6 +129,18 @@ class FolderOwner(FolderTest):
         self.assertIn("the factor of safety in this folder is replaced", self.hdem("run", slab, "-o", self.folder))
         self.assertIn("are replaced", self.hdem("run", slab, "-o", self.folder, "--set", "joint.default.cohesion=1e6"))
 
+    def test_logs_begin_with_the_program(self):
+        """By it a folder is known, also that of a run that was killed before it had results."""
+        self.run_case()
+        self.hdem("run", self.other, "-o", self.folder, "-q")
+        log = (self.folder / "run.log").read_text(encoding="utf-8")
+        self.assertTrue(log.startswith("hdem "), log[:100])
+        self.assertIn("are replaced", log)
+        for file in self.folder.iterdir():
+            if file.is_file() and file.name not in ("run.log", "summary.json"):
+                file.unlink()
+        self.run_case()
+
     def test_words_that_mean_nothing_are_refused(self):
         self.run_case()
         for words in (["--threads", "0x10"], ["--threads", "1e2"], ["--threads", "-1"], ["--max-wall", "1e400"], ["--max-wall", "nan"], ["--restart", ""]):
