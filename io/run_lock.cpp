@@ -124,6 +124,11 @@ RunLock::RunLock(fs::path folder) : folder_(std::move(folder)), file_(folder_ / 
 {
     make_folder(folder_);
     take();
+    if (struct stat found = {}; ::stat(folder_.c_str(), &found) == 0)
+    {
+        folder_number_ = found.st_ino;
+        folder_device_ = found.st_dev;
+    }
     write_owner();
     remove_leftovers(folder_);
     remove_leftovers(folder_ / "frames");
@@ -142,17 +147,20 @@ RunLock::~RunLock()
 
 bool RunLock::is_held() const
 {
-    struct stat by_name = {};
-    const bool is_seen = ::lstat(file_.c_str(), &by_name) == 0 || errno == ENOENT || errno == ENOTDIR;
-    return !is_seen || is_under(file_, descriptor_);  // a file system that does not answer now has lost nothing
+    struct stat found = {};
+    if (::lstat(file_.c_str(), &found) == 0)
+        return is_under(file_, descriptor_);
+    if (::stat(folder_.c_str(), &found) == 0)  // the file alone is gone, as where /tmp is tidied up: nobody else is here
+        return found.st_ino == folder_number_ && found.st_dev == folder_device_;
+    return errno != ENOENT && errno != ENOTDIR;  // a file system that does not answer now has lost nothing
 }
 
 void RunLock::check() const
 {
     if (!is_held())
         throw RunError(
-            fmt::format("{}: (the folder, or its file .lock, was moved or removed while the run went on). The run ends here, "
-                        "since another one may write under this name. Go on with --restart and the folder's new name.",
+            fmt::format("{}: (the folder was moved or removed while the run went on, or another run has taken it). The run "
+                        "ends here and writes nothing more. Go on with --restart and the folder's new name.",
                         printable(folder_.string())));
 }
 

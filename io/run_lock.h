@@ -1,6 +1,8 @@
 #pragma once
 /// One run at a time in a folder.
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 
@@ -19,7 +21,7 @@ class RunLock
     /// Removes the file, if it is still this one, and folders that were made for it if nothing else came into them.
     ~RunLock();
 
-    /// False once the folder or the file was moved or removed: another run may be under this name by now.
+    /// False once the folder was moved or removed, or the file is another one: another run may be under this name by now.
     [[nodiscard]] bool is_held() const;
     /// Throws RunError where it is not. To be asked before anything is written under a name in the folder.
     void check() const;
@@ -35,6 +37,8 @@ class RunLock
     std::filesystem::path folder_;
     std::filesystem::path file_;
     std::filesystem::path first_made_;  ///< the uppermost folder that was missing; empty when none was
+    ino_t folder_number_ = 0;
+    dev_t folder_device_ = 0;
     int descriptor_ = -1;
 };
 }  // namespace hdem

@@ -82,6 +82,19 @@ TEST(RunLock, RemovesWhatKilledRunsHaveLeftAndNothingElse)
         EXPECT_TRUE(std::filesystem::exists(file)) << file;
 }
 
+TEST(RunLock, IsLostWithTheFolderButNotWithItsFile)
+{
+    const ScratchFolder scratch("lock_lost");
+    const RunLock lock(scratch / "run");
+    std::filesystem::remove(lock.file());
+    EXPECT_TRUE(lock.is_held());
+    std::ofstream(lock.file()) << "of another run";
+    EXPECT_FALSE(lock.is_held());
+    EXPECT_THROW(lock.check(), RunError);
+    std::filesystem::rename(scratch / "run", scratch / "moved");
+    EXPECT_FALSE(lock.is_held());
+}
+
 TEST(RunLock, TemporaryNamesAreNeverTheSame)
 {
     EXPECT_NE(temporary_name("a"), temporary_name("a"));

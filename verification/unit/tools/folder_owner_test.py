@@ -61,7 +61,7 @@ class FolderOwner(FolderTest):
             wait_for(self.folder / "frames/blocks_000001.hdf")
             take_away()
             self.run_case()
-            self.assertIn("was moved or removed", first.communicate(timeout=60)[1])
+            self.assertIn("moved or removed", first.communicate(timeout=60)[1])
             self.assertEqual(first.returncode, RUN_FAILED)
             alone = self.root / "alone"
             self.hdem("run", self.case, "-o", alone, "-q")
