@@ -99,10 +99,11 @@ std::vector<std::unique_ptr<RunLock>> lock_parts(const fs::path& folder)
     return locks;
 }
 
-void remove_if_empty(const fs::path& folder)
+void remove_if_empty(const fs::path& part)
 {
     std::error_code failed;
-    fs::remove(folder, failed);
+    fs::remove(part / "frames", failed);
+    fs::remove(part, failed);
 }
 
 void remove_files_of_run(const fs::path& folder)
@@ -110,7 +111,6 @@ void remove_files_of_run(const fs::path& folder)
     for (const char* name : files_of_run)
         remove_file(folder / name);
     remove_frames(folder);
-    remove_if_empty(folder / "frames");
 }
 
 /// @return what is replaced, where that is not what this run will write again
