@@ -154,6 +154,10 @@ void refuse_files_of_others(const fs::path& folder)
     for (const char* name : files_of_run)
         refuse_if_filled(folder / name);
     refuse_if_filled(folder / "run.log");
+    std::error_code missing;
+    for (const fs::directory_entry& frame : fs::directory_iterator(folder / "frames", missing))
+        if (frame.path().extension() == ".hdf")
+            refuse_if_filled(frame.path());
 }
 
 void check_folder(const fs::path& folder)

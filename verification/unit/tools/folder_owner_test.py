@@ -71,7 +71,8 @@ class FolderOwner(FolderTest):
 
     def test_files_that_are_not_of_hdem_stay(self):
         self.folder.mkdir()
-        for name in ("results.h5", "summary.json", "view.html", "run.log"):
+        (self.folder / "frames").mkdir()
+        for name in ("results.h5", "summary.json", "view.html", "run.log", "frames/blocks_000000.hdf"):
             (self.folder / name).write_text("mine", encoding="utf-8")
             self.expect_untouched(name, "run", self.case, "-o", self.folder, "-q")
             self.expect_untouched(f"{name}|holds a run", "critical", CASES / "fos/slab.toml", "--vary", "gravity.tilt_deg=0:1", "--fails", "detached>0", "-o", self.folder)
