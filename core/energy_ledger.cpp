@@ -1,5 +1,6 @@
 #include "core/energy_ledger.h"
 
+#include "core/contact/contact_forces_wide.h"
 #include "core/contact/contact_report.h"
 #include "core/kernels.h"
 #include "core/motion/equilibrium.h"
@@ -27,6 +28,22 @@ double one_step_push(const State& state, const Contact& contact)
 }
 }  // namespace
 
+namespace
+{
+SpringEnergies spring_energies(const Model& model, const State& state)
+{
+    static const bool has_wide = has_wide_packs();
+    constexpr Index wide = 2 * lanes;
+    const Index all = state.contacts.size(), by_eight = has_wide ? (all + lanes - 1) / wide * wide : 0;
+    SpringEnergies sums;
+    if (by_eight > 0)
+        add_spring_energies_by_eight({0, by_eight}, model, state.blocks, state.contacts, sums);
+    if (by_eight < all)
+        kernels().add_spring_energies({by_eight, all}, model, state.blocks, state.contacts, sums);
+    return sums;
+}
+}  // namespace
+
 StoredEnergy stored_energy(const Model& model, const State& state)
 {
     StoredEnergy stored;
@@ -38,11 +55,13 @@ StoredEnergy stored_energy(const Model& model, const State& state)
         if (state.blocks.is_free(i))
             stored.one_step_fall += 0.5 * model.mass[i] * fall * fall;
     }
-    for (Index i = 0; i < state.contacts.size(); ++i)
+    const auto impulsive = [](const std::vector<std::uint8_t>& regime)
+    { return std::ranges::find(regime, static_cast<std::uint8_t>(Regime::impulse)) != regime.end(); };
+    const bool has_impulses = std::ranges::any_of(state.contacts.regime, impulsive);
+    for (Index i = 0; has_impulses && i < state.contacts.size(); ++i)
         if (!is_spring(state.contacts.regime[0][i]) && !is_spring(state.contacts.regime[1][i]) && is_closed_contact(state, i))
             stored.one_step_fall += one_step_push(state, state.contacts.get(i));
-    SpringEnergies springs;
-    kernels().add_spring_energies(model, state.blocks, state.contacts, springs);
+    const SpringEnergies springs = spring_energies(model, state);
     stored.elastic_shear = springs.shear;
     stored.pending = springs.pending;
     stored.elastic_normal = springs.held - state.ledger.coasting - stored.elastic_shear;

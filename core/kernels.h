@@ -29,7 +29,8 @@ struct Kernels
     void (*add_loads)(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
                       ContactLoads& kept);
     /// Of stored_energy.
-    void (*add_spring_energies)(const Model& model, const Blocks& blocks, const Contacts& contacts, SpringEnergies& sums);
+    void (*add_spring_energies)(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                                SpringEnergies& sums);
     /// update_velocities.
     void (*advance_velocities)(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
     /// update_positions.

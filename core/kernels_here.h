@@ -14,7 +14,8 @@ void sum_loads(IndexRange range, const Model& model, const BlockContacts& list, 
                const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
 void add_loads(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
                ContactLoads& kept);
-void add_spring_energies(const Model& model, const Blocks& blocks, const Contacts& contacts, SpringEnergies& sums);
+void add_spring_energies(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                         SpringEnergies& sums);
 void advance_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
 Travel advance_positions(IndexRange range, const Model& model, Blocks& blocks, std::vector<Triple>* pseudo);
 Index eliminate_diagonal(const Strip& strip, const double* smallest, double* factor);

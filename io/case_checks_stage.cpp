@@ -183,8 +183,7 @@ class StageCheck : public CaseCheck
         if (!ends_at_rest(stage) && given(path + ".solver") && asks_for_statics(stage))
             problems_.warn(path + ".solver", object, "solver", "has no effect: the stage does not look for rest",
                            "Add \"converged\" to until, or remove this key.");
-        else if (asks_for_statics(stage) && !resolve_rules(def_)[number_of(stage)].tries_statics && def_.bolts.empty() &&
-                 def_.liners.empty())
+        else if (asks_for_statics(stage) && !rules_[number_of(stage)].tries_statics && def_.bolts.empty() && def_.liners.empty())
             problems_.warn(
                 path + ".solver", object, "solver = \"static\"",
                 "has no effect: a static solution needs gravity and the default damping, and no loads, prescribed motions, "
@@ -196,6 +195,8 @@ class StageCheck : public CaseCheck
     {
         return static_cast<std::size_t>(&stage - def_.stages.data());
     }
+
+    const std::vector<StageRules> rules_ = resolve_rules(def_);
 };
 }  // namespace
 

@@ -285,7 +285,7 @@ SectionSpec output_section()
               .range = count}),
          field<&OutputDef::frame_every>({.name = "frame_every",
                                          .effect = "Cycles between frames for ParaView; 0: one at the end of each stage. With more "
-                                                   "than 1000 stages, only if 100 cycles have passed since the last frame.",
+                                                   "than 1000 stages, only if 1000 cycles have passed since the last frame.",
                                          .range = count_or_none}),
          field<&OutputDef::contacts>({.name = "contacts", .effect = "Write contact frames as well."}),
          field<&OutputDef::checkpoint_every>(

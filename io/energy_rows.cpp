@@ -1,21 +1,13 @@
 #include "io/energy_rows.h"
 
+#include "core/contact/point_counts.h"
 #include "core/energy_ledger.h"
 #include "core/motion/equilibrium.h"
-
-#include <algorithm>
 
 namespace hdem
 {
 namespace
 {
-double points_in(Regime regime, const State& state)
-{
-    std::int64_t points = 0;
-    for (const auto& end : state.contacts.regime)
-        points += std::count(end.begin(), end.end(), static_cast<std::uint8_t>(regime));
-    return static_cast<double>(points);
-}
 /// Of blocks that move as they are told: work of the loads that nothing else shows.
 double driven_kinetic_energy(const Model& model, const Blocks& blocks)
 {
@@ -43,12 +35,9 @@ void sample_energies(const Model& model, const State& state, std::vector<double>
 {
     Equilibrium sums;
     add_equilibrium({0, state.blocks.size()}, model, state, ConvergenceBlocks::all, sums);
-    row = {sums.kinetic_energy,
-           sums.unbalanced_force_ratio(),
-           sums.greatest_speed,
-           points_in(Regime::stick, state),
-           points_in(Regime::slip, state),
-           points_in(Regime::impulse, state)};
+    row = {sums.kinetic_energy, sums.unbalanced_force_ratio(), sums.greatest_speed};
+    const std::array<Index, 4> points = count_points(state.contacts);
+    row.insert(row.end(), points.begin() + 1, points.end());
     for (const LedgerTerm& term : ledger_terms)
         if (term.side != LedgerSide::aside)
             row.push_back(state.ledger.*term.value);

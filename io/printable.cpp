@@ -46,6 +46,9 @@ bool is_control(std::uint32_t code)
 
 std::string printable(std::string_view text)
 {
+    const auto is_plain = [](char c) { return (c >= 0x20 && c < 0x7f) || c == '\n' || c == '\t'; };
+    if (std::ranges::all_of(text, is_plain))  // nearly all are
+        return std::string(text);
     std::string out;
     out.reserve(text.size());
     while (!text.empty())

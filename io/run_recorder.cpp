@@ -19,9 +19,9 @@ bool is_worth_a_copy(const Model& model)
     return static_cast<std::size_t>(model.blocks()) + blocks_a_stage * model.stages.size() <= most_copied;
 }
 
-/// With more stages than this a frame at the end of a stage comes so many cycles after the last one at the earliest: it takes as long as fifty.
+/// With more stages than this a frame at the end of a stage comes so many cycles after the last one at the earliest: it takes as long as forty.
 constexpr std::size_t many_stages = 1000;
-constexpr std::int64_t cycles_a_frame = 100;
+constexpr std::int64_t cycles_a_frame = 1000;
 }  // namespace
 
 RunRecorder::RunRecorder(std::filesystem::path folder, const Model& model, Provenance provenance)

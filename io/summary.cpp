@@ -185,22 +185,33 @@ Json joint_sets_json(const RunSummary& s)
                         {"welded_share", set.length > 0.0 ? set.welded / set.length : 0.0}});
     return sets;
 }
+
+/// Room for all keys is made at once: there may be thousands of stages, and nlohmann copies an object that grows.
+Json stage_json(const StageSummary& stage)
+{
+    constexpr std::size_t keys = 10;
+    Json json = Json::object();
+    auto& object = json.get_ref<Json::object_t&>();
+    object.reserve(keys);
+    object.emplace_back("name", stage.name);
+    object.emplace_back("cycles", stage.cycles);
+    object.emplace_back("until_converged", stage.sought_rest);
+    object.emplace_back("converged", stage.at_rest);
+    object.emplace_back("ended_by", stage.ended_by);
+    object.emplace_back("end_value", stage.end_value ? Json(*stage.end_value) : Json());
+    object.emplace_back("end_time", stage.end_time);
+    object.emplace_back("to_come", stage.to_come);
+    object.emplace_back("not_at_rest", stage.not_at_rest);
+    object.emplace_back("static_solution", statics_json(stage.statics));
+    return json;
+}
 }  // namespace
 
 std::string summary_text(const RunSummary& s)
 {
     Json stages = Json::array();
     for (const StageSummary& stage : s.stages)
-        stages.push_back({{"name", stage.name},
-                          {"cycles", stage.cycles},
-                          {"until_converged", stage.sought_rest},
-                          {"converged", stage.at_rest},
-                          {"ended_by", stage.ended_by},
-                          {"end_value", stage.end_value ? Json(*stage.end_value) : Json()},
-                          {"end_time", stage.end_time},
-                          {"to_come", stage.to_come},
-                          {"not_at_rest", stage.not_at_rest},
-                          {"static_solution", statics_json(stage.statics)}});
+        stages.push_back(stage_json(stage));
     Json bolts = Json::array();
     for (const BoltSummary& bolt : s.bolts)
         bolts.push_back({{"name", bolt.name},
@@ -236,7 +247,7 @@ std::string summary_text(const RunSummary& s)
         {"converged", s.converged},
         {"met_ends", s.met_ends},
         {"cycles_after_excavation", s.cycles_after_excavation ? Json(*s.cycles_after_excavation) : Json()},
-        {"stages", stages},
+        {"stages", std::move(stages)},
         {"kinetic_energy", s.kinetic_energy},
         {"kinetic_energy_limit", s.kinetic_energy_limit},
         {"unbalanced_force_ratio", s.unbalanced_force_ratio},
@@ -248,11 +259,11 @@ std::string summary_text(const RunSummary& s)
         {"detached_before", s.detached_before},
         {"lost_blocks", s.lost_blocks},
         {"joint_sets", joint_sets_json(s)},
-        {"bolts", bolts},
+        {"bolts", std::move(bolts)},
         {"liners", liners_json(s)},
         {"energy", energy_json(s)},
         {"wall_seconds", s.wall_seconds},
-        {"stage_wall_seconds", stage_seconds},
+        {"stage_wall_seconds", std::move(stage_seconds)},
         {"contact_point_updates_per_second", s.contact_point_updates_per_second},
         {"timing", timing_json(s)},
         {"state_hash", fmt::format("{:016x}", s.state_hash)},

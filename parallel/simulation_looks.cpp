@@ -1,6 +1,7 @@
 /// What a simulation finds in its state: the largest step, problems, and whether it rests.
 
 #include "core/boundary/servo.h"
+#include "core/contact/point_counts.h"
 #include "core/detection/contact_tracking.h"
 #include "core/motion/loads.h"
 #include "core/motion/rest.h"
@@ -185,11 +186,6 @@ bool Simulation::holds_rest()
 
 ContactCounts Simulation::count_contacts() const
 {
-    ContactCounts counts;
-    for (int k = 0; k < 2; ++k)
-        for (const std::uint8_t regime : state_.contacts.regime[k])
-            ++counts.points[regime];
-    counts.points[0] = 0;
-    return counts;
+    return {count_points(state_.contacts)};
 }
 }  // namespace hdem

@@ -5,6 +5,7 @@
 //
 #include "core/contact/contact_pass.h"
 #include "core/contact/joint_reaction.h"
+#include "core/contact/spring_energies.h"
 
 namespace hdem
 {
@@ -27,6 +28,12 @@ ContactTally evaluate_by_eight(IndexRange range, const Model& model, const Regim
 {
     return evaluate_by<WidePack>(range, model, rule, blocks, contacts, loads, sums, needs);
 }
+
+void add_spring_energies_by_eight(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                                  SpringEnergies& sums)
+{
+    add_energies<WidePack>(range, model, blocks, contacts, sums);
+}
 }  // namespace hdem
 
 #else
@@ -43,6 +50,12 @@ ContactTally evaluate_by_eight(IndexRange range, const Model& model, const Regim
                                Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs)
 {
     return kernels().evaluate_contacts(range, model, rule, blocks, contacts, loads, sums, needs);
+}
+
+void add_spring_energies_by_eight(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                                  SpringEnergies& sums)
+{
+    kernels().add_spring_energies(range, model, blocks, contacts, sums);
 }
 }  // namespace hdem
 #endif

@@ -2,6 +2,7 @@
 /// The contact stage on processors with AVX-512, eight contacts at a time.
 
 #include "core/contact/contact_forces.h"
+#include "core/energy_ledger.h"
 
 namespace hdem
 {
@@ -14,4 +15,9 @@ namespace hdem
 [[nodiscard]] ContactTally evaluate_by_eight(IndexRange range, const Model& model, const RegimeRule& rule, const Blocks& blocks,
                                              Contacts& contacts, ContactLoads& loads, const ContactTally& sums,
                                              const PassNeeds& needs);
+
+/// Of stored_energy.
+/// @pre  as above; any laws
+void add_spring_energies_by_eight(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
+                                  SpringEnergies& sums);
 }  // namespace hdem

@@ -114,14 +114,8 @@ class LawLanes
     [[gnu::noinline]] void reload(const Index* law)
     {
         std::memcpy(last_.data(), law, sizeof last_);
-        for (int i = 0; i < P::width; ++i)
-        {
-            const CoulombSlip& joint = laws_[law[i]];
-            joint_.law.normal_stiffness.v[i] = joint.normal_stiffness;
-            joint_.law.shear_stiffness.v[i] = joint.shear_stiffness;
-            joint_.law.friction_coefficient.v[i] = joint.friction_coefficient;
-            joint_.law.cohesion.v[i] = joint.cohesion;
-        }
+        BasicCoulombSlip<P>& joint = joint_.law;
+        load_rows(laws_.data(), law, 0, joint.normal_stiffness, joint.shear_stiffness, joint.friction_coefficient, joint.cohesion);
         joint_.normal_compliance = P(1.0) / joint_.law.normal_stiffness;
         joint_.shear_compliance = P(1.0) / joint_.law.shear_stiffness;
     }
@@ -152,7 +146,7 @@ static_assert(std::endian::native == std::endian::little);
 }
 
 /// Points that bore a spring's force.
-[[nodiscard]] inline Mask are_springs(const std::uint8_t* regime)
+[[nodiscard]] inline Mask are_springs(const std::uint8_t* regime, Mask)
 {
     const WordLanes now = load_bytes(regime);
     const auto is = [&](Regime one) { return now == byte_ones * static_cast<std::uint32_t>(one); };

@@ -173,7 +173,7 @@ template <typename Row>
 [[gnu::always_inline]] inline void load_rows(const Row* rows, const Index* at, std::ptrdiff_t offset, WidePack& a, WidePack& b,
                                              WidePack& c, WidePack& d)
 {
-    const auto row = [=](int i) { return _mm256_load_pd(reinterpret_cast<const double*>(rows + at[i]) + offset); };
+    const auto row = [=](int i) { return _mm256_loadu_pd(reinterpret_cast<const double*>(rows + at[i]) + offset); };
     const auto two = [&](int i, int j) { return _mm512_insertf64x4(_mm512_castpd256_pd512(row(i)), row(j), 1); };
     const __m512d r02 = two(0, 2), r13 = two(1, 3), r46 = two(4, 6), r57 = two(5, 7);
     const __m512d low_03 = _mm512_unpacklo_pd(r02, r13), high_03 = _mm512_unpackhi_pd(r02, r13);
@@ -193,6 +193,13 @@ template <typename Row>
 {
     return {
         static_cast<__mmask8>(_mm_cmpeq_epi8_mask(load_eight_bytes(regime), _mm_set1_epi8(static_cast<char>(Regime::impulse))))};
+}
+
+[[nodiscard]] inline WideMask are_springs(const std::uint8_t* regime, WideMask)
+{
+    const __m128i now = load_eight_bytes(regime);
+    const auto are = [&](Regime one) { return _mm_cmpeq_epi8_mask(now, _mm_set1_epi8(static_cast<char>(one))); };
+    return {static_cast<__mmask8>(are(Regime::stick) | are(Regime::slip))};
 }
 
 [[nodiscard]] inline WideMask did_slip(const std::uint8_t* regime, WideMask)

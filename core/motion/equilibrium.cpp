@@ -32,6 +32,14 @@ double unbalance_with(double net_force, Index block, const Model& model, const B
     const double moment = blocks.inertia[block].inverse_inertia > 0.0 ? std::abs(blocks.force[block].moment) : 0.0;
     return (net_force + moment / model.radius[block]) / model.mass[block];
 }
+
+/// Can unbalance_with exceed this? Without its two divisions; in doubt yes.
+bool may_be_unbalanced_more(double than, double net_force, Index block, const Model& model, const Blocks& blocks)
+{
+    constexpr double rounding = 1.0 - 1e-12;
+    const double radius = model.radius[block];
+    return !(net_force * radius + std::abs(blocks.force[block].moment) <= rounding * (than * model.mass[block] * radius));
+}
 }  // namespace
 
 double unbalance(Index block, const Model& model, const Blocks& blocks)
@@ -50,9 +58,17 @@ double clear_unbalance(Index block, const Model& model, const Blocks& blocks)
     return rounding > 0.01 * at_rest ? std::max(found - std::min(rounding, 10.0 * at_rest), 0.0) : found;
 }
 
+namespace
+{
+double rim_speed_at(double speed, Index block, const Model& model, const Blocks& blocks)
+{
+    return speed + std::abs(blocks.motion[block].w) * model.radius[block];
+}
+}  // namespace
+
 double rim_speed(Index block, const Model& model, const Blocks& blocks)
 {
-    return blocks.velocity(block).norm() + std::abs(blocks.motion[block].w) * model.radius[block];
+    return rim_speed_at(blocks.velocity(block).norm(), block, model, blocks);
 }
 
 namespace
@@ -76,11 +92,13 @@ struct ForceSum
     }
 };
 
-/// Loads on each block of `range` that acted in the last cycle [N]. Tractions on sides count only without gravity: they are part of the stress in the rock, beside which
+/// Loads on each block of `range` that acted in the last cycle [N]; empty without any. Tractions on sides count only without gravity: they are part of the stress in the rock, beside which
 /// its weight is small.
 std::vector<ForceSum> loads_on(IndexRange range, const Model& model, const State& state)
 {
-    std::vector<ForceSum> loads(static_cast<std::size_t>(range.size()));
+    std::vector<ForceSum> loads;
+    if (!model.loads.empty() || (model.gravity.isZero() && !model.boundaries.empty()))
+        loads.resize(static_cast<std::size_t>(range.size()));
     for (const Load& load : model.loads)
         if (const double factor = last_factor_of(load, model, state); factor != 0.0)
             for (const Index i : load.blocks)
@@ -105,20 +123,27 @@ void add_equilibrium(IndexRange range, const Model& model, const State& state, C
     {
         if (!blocks.is_free(i) || (only_standing && blocks.is_loose(i, model.convergence.loose_distance)))
             continue;
-        ForceSum& loaded = loads[i - range.begin];
-        const double greatest = std::max(gravity, loaded.net().norm() / model.mass[i]);
+        double greatest = gravity;
+        Vec2 applied = model.mass[i] * model.gravity;
+        if (!loads.empty())
+        {
+            ForceSum& loaded = loads[i - range.begin];
+            greatest = std::max(greatest, loaded.net().norm() / model.mass[i]);
+            loaded.add(applied);
+            applied = loaded.net();
+        }
         const double scale = greatest > 0.0 ? greatest : earth_gravity;
         sums.kinetic_energy += kinetic_energy(model, blocks, i);
         const double net = net_force(i, blocks);
         sums.unbalanced_force += net;
-        loaded.add(model.mass[i] * model.gravity);
-        sums.applied_force += loaded.net().norm();
+        sums.applied_force += applied.norm();
         sums.free_mass += model.mass[i];
-        sums.greatest_speed = std::max(sums.greatest_speed, blocks.velocity(i).norm());
+        const double speed = blocks.velocity(i).norm();
+        sums.greatest_speed = std::max(sums.greatest_speed, speed);
         if (sums.unbalanced.block == no_index ||
-            unbalance_with(net, i, model, blocks) > scale * sums.unbalanced.value)  // the clear one is no greater
+            may_be_unbalanced_more(scale * sums.unbalanced.value, net, i, model, blocks))  // the clear one is no greater
             sums.unbalanced.add(clear_unbalance(i, model, blocks) / scale, i);
-        sums.fastest.add(rim_speed(i, model, blocks), i);
+        sums.fastest.add(rim_speed_at(speed, i, model, blocks), i);
     }
 }
 

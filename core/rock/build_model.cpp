@@ -121,8 +121,10 @@ void warn_of_few_blocks(const CaseDef& def, const Blocks& blocks, std::vector<Pr
     Index free = 0;
     for (Index b = 0; b < blocks.size(); ++b)
         free += blocks.is_free(b) ? 1 : 0;
+    if (free >= least_static_blocks)
+        return;
     const std::vector<StageRules> rules = resolve_rules(def);
-    for (std::size_t s = 0; s < def.stages.size() && free < least_static_blocks; ++s)
+    for (std::size_t s = 0; s < def.stages.size(); ++s)
         if (rules[s].tries_statics)
             problems.push_back({.severity = Problem::Severity::warning,
                                 .key = "stage[" + std::to_string(s) + "].solver",

@@ -145,6 +145,7 @@ StageRules approach_rules(const Model& model, const State& state)
 std::vector<StageRules> resolve_rules(const CaseDef& def)
 {
     std::vector<StageRules> rules;
+    rules.reserve(def.stages.size());
     StageSetting setting{.method = def.contact.method,
                          .preset = def.damping.preset,
                          .damping = def.damping,

@@ -32,17 +32,20 @@ Log::~Log()
     std::fclose(file_);
 }
 
-void Log::line(const std::string& text)
+void Log::lines(std::span<const std::string> texts)
 {
     if (progress_shown_)
         std::fputs("\r\033[K", stderr);
     progress_shown_ = false;
-    if (!quiet_)
+    for (const std::string& text : texts)
     {
-        say("{}\n", text);
-        std::fflush(stdout);
+        if (!quiet_)
+            say("{}\n", text);
+        fmt::print(file_, "{}\n", printable(text));
     }
-    to_file(text);
+    if (!quiet_)
+        std::fflush(stdout);
+    std::fflush(file_);
 }
 
 void Log::to_file(const std::string& text)
@@ -140,23 +143,25 @@ void RowObserver::begin_stage(const Model& model, const State& state)
     const std::int64_t most = last_cycle(stage, state.stage_begin_cycle, model.time_step) - state.stage_begin_cycle;
     stage_time_ = std::chrono::steady_clock::now();
     first_cycle_ = state.cycle;
-    log_.line("");
+    std::vector<std::string> lines = {""};
     if (state.cycle > state.stage_begin_cycle)
-        log_.line(fmt::format("goes on after cycle {}", state.cycle));
-    log_.line(ends_at_rest(stage)
-                  ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name, most,
-                                simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
-              : stage.ends.empty() ? fmt::format("stage \"{}\": {} cycles", stage.name, most)
-                                   : fmt::format("stage \"{}\": at most {} cycles", stage.name, most));
+        lines.push_back(fmt::format("goes on after cycle {}", state.cycle));
+    lines.push_back(ends_at_rest(stage)
+                        ? fmt::format("stage \"{}\": until converged, at most {} cycles; kinetic energy limit {:.4g} J", stage.name,
+                                      most, simulation_.equilibrium().kinetic_energy_at(model.convergence.mean_speed))
+                    : stage.ends.empty() ? fmt::format("stage \"{}\": {} cycles", stage.name, most)
+                                         : fmt::format("stage \"{}\": at most {} cycles", stage.name, most));
     for (const StageEndDef& end : stage.ends)
-        log_.line(fmt::format("until     {}", printable(end.text)));
+        lines.push_back(fmt::format("until     {}", printable(end.text)));
     for (const std::string& note : step_notes(model, resolve_rules(model, state).step))
-        log_.line(note);
+        lines.push_back(note);
     if (simulation_.statics() && state.cycle == state.stage_begin_cycle)
-        log_.line(statics_note(model, *simulation_.statics()));
-    log_.line(fmt::format("{:>9} {:>11} {:>9} {:>12} {:>11} {:>11} {:>7} {:>7} {:>7} {:>7} {:>10} {:>12}", "cycle", "time [s]",
-                          "step [s]", "kinetic [J]", "unbalanced", "worst block", "moving", "stick", "slip", "impulse", "cycles/s",
-                          "time left"));
+        lines.push_back(statics_note(model, *simulation_.statics()));
+    static const std::string heads = fmt::format("{:>9} {:>11} {:>9} {:>12} {:>11} {:>11} {:>7} {:>7} {:>7} {:>7} {:>10} {:>12}",
+                                                 "cycle", "time [s]", "step [s]", "kinetic [J]", "unbalanced", "worst block",
+                                                 "moving", "stick", "slip", "impulse", "cycles/s", "time left");
+    lines.push_back(heads);
+    log_.lines(lines);
 }
 
 void RowObserver::observe(const Model& model, const State& state)

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace hdem
@@ -26,7 +27,9 @@ class Log
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
 
-    void line(const std::string& text);
+    void line(const std::string& text) { lines({&text, 1}); }
+    /// Written at once: calls of the system cost more than texts where stages are short.
+    void lines(std::span<const std::string> texts);
     /// Only to the log file: what the screen is told by others.
     void to_file(const std::string& text);
     /// Overwritten by the next line; only on a terminal, never in the log.

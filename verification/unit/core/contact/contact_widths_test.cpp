@@ -78,10 +78,19 @@ void expect_same_motion(const CaseRun& run, const Pass& pass, const std::string&
     EXPECT_EQ(std::memcmp(&works[0], &works[1], sizeof works[0]), 0) << what;
     EXPECT_EQ(travel[0].way, travel[1].way) << what;
     EXPECT_EQ(travel[0].speed_squared, travel[1].speed_squared) << what;
-    SpringEnergies energies[2];
-    plain_kernels().add_spring_energies(run.model(), state.blocks, state.contacts, energies[0]);
-    kernels().add_spring_energies(run.model(), state.blocks, state.contacts, energies[1]);
-    EXPECT_EQ(std::memcmp(&energies[0], &energies[1], sizeof energies[0]), 0) << what;
+    const Index count = state.contacts.size(), eights = (count + lanes - 1) / (2 * lanes) * 2 * lanes;
+    const auto energies_by = [&](const Kernels& by, bool wide)
+    {
+        SpringEnergies sums;
+        if (wide && eights > 0)
+            add_spring_energies_by_eight({0, eights}, run.model(), state.blocks, state.contacts, sums);
+        by.add_spring_energies({wide ? eights : 0, count}, run.model(), state.blocks, state.contacts, sums);
+        return sums;
+    };
+    const SpringEnergies by_plain = energies_by(plain_kernels(), false), by_four = energies_by(kernels(), false);
+    EXPECT_EQ(std::memcmp(&by_plain, &by_four, sizeof by_plain), 0) << what;
+    const SpringEnergies by_eight = energies_by(kernels(), has_wide_packs());
+    EXPECT_EQ(std::memcmp(&by_plain, &by_eight, sizeof by_plain), 0) << what;
 }
 
 Index expect_same_bits(const CaseRun& run, const std::string& what)
