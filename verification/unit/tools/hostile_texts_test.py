@@ -186,9 +186,12 @@ class Outputs(unittest.TestCase):
         frame.unlink()
 
     def test_earlier_ones_stay_where_space_is_short(self):
+        limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))}
+        if subprocess.run([HDEM, "--version"], check=False, capture_output=True, **limit).returncode == 66:
+            self.skipTest("the thread sanitizer itself needs larger files")
         for command, name in COMMANDS.items():
             (self.root / name).write_text("before", encoding="utf-8")
-            said = self.said(1, command, "out", "-o", name, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024)))
+            said = self.said(1, command, "out", "-o", name, **limit)
             self.assertIn(f"error: hdem {command}: {name}: cannot be written (File too large). Free space, or give ".encode(), said)
             self.assertEqual((self.root / name).read_text(encoding="utf-8"), "before")
 
