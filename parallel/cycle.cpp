@@ -34,7 +34,7 @@ double damping_of_liners(const DampingRule& rule)
 
 /// Below this many contacts a team loses more by waiting than it gains.
 constexpr Index least_contacts_a_thread = 256;
-constexpr std::int64_t timed_every = 16;
+constexpr std::int64_t timed_every = 17;  // a prime: looks are made every 4, 16 or 256 cycles, and are to have their share
 }  // namespace
 
 StageSamples& CycleRunner::samples_of(const Team& team)
@@ -64,6 +64,7 @@ Index CycleRunner::run(const Model& model, State& state, std::int64_t cycles, Th
     if (!same)
         prepare(model, state);
     forget_stable_steps(rules_.step, state);
+    rest_unknown_ = true;
     threads.limit(static_cast<int>(std::max<Index>(1, state.contacts.size() / least_contacts_a_thread)));
     samples_.resize(std::max(samples_.size(), static_cast<std::size_t>(threads.rule().most)));
     for (ContactPart& part : partition_.contacts)  // whoever has had the state may have changed anything
@@ -108,7 +109,8 @@ bool CycleRunner::run_piece(const Model& model, State& state, std::int64_t first
     bool stable = true;
     for (std::int64_t now = first; now < end && stable && !state.contacts_outdated; ++now)
     {
-        const std::int64_t weight = (now - first) % timed_every == 0 ? std::min(timed_every, end - now) : 0;
+        // Not in the first cycle of each call: blocks at rest are looked for in it.
+        const std::int64_t weight = now % timed_every == 0 ? timed_every : (now == first_evaluation_ ? 1 : 0);
         StageClock clock(samples.sampled, static_cast<double>(weight));
         stable = cycle(model, state, team, now, way, clock);
     }
@@ -135,7 +137,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     }
     // Where no loads have been found yet all contacts take part.
     if (rules_.rest.leaves_out && now != first_evaluation_ && (state.rest_changed || now == first_evaluation_ + 1))
-        leave_out(state, team);
+        leave_out(state, team, now);
     if (rules_.step.varies)
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
     // close_cycle makes the next step the last one: nobody may go on before.

@@ -54,7 +54,7 @@ class CycleRunner
     /// Closed contact points summed over all cycles.
     [[nodiscard]] std::int64_t contact_point_updates() const { return contact_point_updates_; }
 
-    /// One entry a thread. All of its time in cycles, shared out to the stages as in every 16th cycle; searches for contacts are all timed.
+    /// One entry a thread. All of its time in cycles, shared out to the stages as in every 17th cycle; searches for contacts are all timed.
     [[nodiscard]] std::vector<StageTimes> stage_times() const;
     /// Forget the times so far.
     void forget_times() { samples_.clear(); }
@@ -89,7 +89,9 @@ class CycleRunner
     void find_fast(const Model& model, const State& state, const Team& team);
     void store_tilts(State& state, const Team& team);
     void add_up_contacts(State& state);
-    void leave_out(const State& state, const Team& team);
+    void leave_out(const State& state, const Team& team, std::int64_t now);
+    [[nodiscard]] bool saves_enough() const;
+    void mark_woken(const Contacts& contacts);
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
     void find_groups(const Model& model, State& state, const Team& team);
@@ -106,8 +108,9 @@ class CycleRunner
     int sums_for_ = 0;                      ///< threads that share the contacts
     std::vector<ContactLoads> part_loads_;  ///< of a part, for each thread
     Index least_for_sums_;                  ///< contacts
-    bool left_out_ = false;                 ///< some contact or block is
-    bool sums_run_ = false;                 ///< in this stretch of cycles, while nothing is left out
+    bool left_out_ = false;                 ///< contacts are
+    bool rest_unknown_ = true;              ///< blocks may have been stopped or woken between two calls of run
+    bool sums_run_ = false;                 ///< in this stretch of cycles, while no contacts are left out
     bool has_loads_ = false;                ///< work_.loads are those of all contacts
     LinerSolvers liner_solvers_;
     ContactRebuild rebuild_;

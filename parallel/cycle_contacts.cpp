@@ -36,12 +36,13 @@ void fetch_ahead(const Partition& partition, Index now, Index end, const Blocks&
 
 void CycleRunner::evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock)
 {
-    const bool whole = !has_loads_ || !left_out_;  // each part is evaluated in one pass
+    const bool all = !has_loads_ || !left_out_;
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
         fetch_ahead(partition_, i, mine.end, state.blocks, sums_run() ? sums_.sums.data() : nullptr);
+        const bool whole = all || part.is_whole;  // evaluated in one pass
         part.ledger = {};
         part.searched = 0;
         if (part.tally.stale > 0)
@@ -66,7 +67,7 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, d
             part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, loads, part.tally, needs);
             sums_.add(part.range, loads, rules_.damping.needs_joint(), work_.loads);
         }
-        else if (!has_loads_)
+        else if (whole)
             part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, work_.loads, part.tally, needs);
         else
             for (const IndexRange& range : part.active)

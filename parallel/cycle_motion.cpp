@@ -21,6 +21,7 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
 {
     part.ledger = {};
     part.rest_changed = false;
+    part.woken.clear();
     add_work_before(part.pushed, work_.constant, state, part.ledger);
     const auto sum_up = [&](IndexRange range)
     { sum_forces(range, model, work_.block_contacts, work_.loads, work_.external, rules_.damping.needs_joint(), state.blocks); };
@@ -85,7 +86,8 @@ void CycleRunner::change_velocities(const Model& model, State& state, std::int64
     VelocityWorks works;
     if (rules_.rest.leaves_out)
         for (const IndexRange& range : part.active)
-            part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger) || part.rest_changed;
+            part.rest_changed = update_rest(range, model, rules_.rest, now, state.blocks, part.ledger, part.woken) ||
+                                part.rest_changed;
     for (const IndexRange& range : part.active)
         update_velocities(range, model, rules_.damping, state.blocks, works);  // Eqs. (11)-(14), (20)-(22)
     works.add_to(part.ledger);

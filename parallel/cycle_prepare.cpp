@@ -60,6 +60,8 @@ void CycleRunner::prepare(const Model& model, const State& state)
     for (ContactPart& part : partition_.contacts)
     {
         part.unstable = no_index;
+        part.is_whole = true;
+        part.is_woken = false;
         part.stiff.clear();
         part.forget();
         if (rules_.contact.law != ContactLaw::impulses)
@@ -77,6 +79,8 @@ void CycleRunner::prepare(const Model& model, const State& state)
     std::ranges::sort(loaded);
     for (BlockPart& part : partition_.blocks)
     {
+        part.woken.clear();
+        part.is_woken = false;
         find_flying(part.range, work_.block_contacts, state.blocks, part.flying);
         std::erase_if(part.flying,
                       [&](Index b)
@@ -137,18 +141,63 @@ void CycleRunner::prepare_forces(const Model& model, const State& state)
     }
 }
 
-void CycleRunner::leave_out(const State& state, const Team& team)
+/// The parts to which a woken block is new: those of its contacts, and of the blocks on which these act.
+void CycleRunner::mark_woken(const Contacts& contacts)
 {
+    for (const BlockPart& part : partition_.blocks)
+        for (const Index block : part.woken)
+            for (Index e = work_.block_contacts.begin[block]; e < work_.block_contacts.begin[block + 1]; ++e)
+            {
+                const Index contact = work_.block_contacts.entry[e] / 2;
+                partition_.contacts[contact / largest_part].is_woken = true;
+                for (const Index other : {contacts.ref[contact], contacts.inc[contact]})
+                    partition_.blocks[other / blocks_a_part].is_woken = true;
+            }
+}
+
+void CycleRunner::leave_out(const State& state, const Team& team, std::int64_t now)
+{
+    const bool all = rest_unknown_ || looks_at_rest(now) || now == first_evaluation_ + 1;
+    if (!all)
+        team.alone([&] { mark_woken(state.contacts); });
     const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));
     const IndexRange block_parts = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = contact_parts.begin; i < contact_parts.end; ++i)
-        find_active_contacts(partition_.contacts[i].range, state.blocks, state.contacts, partition_.contacts[i].active);
+    {
+        ContactPart& part = partition_.contacts[i];
+        if (!all && !part.is_woken)
+            continue;
+        find_active_contacts(part.range, state.blocks, state.contacts, part.active);
+        part.is_whole = part.active.size() == 1 && part.active[0].size() == part.range.size();
+        part.is_woken = false;
+    }
     for (Index i = block_parts.begin; i < block_parts.end; ++i)
-        find_active_blocks(partition_.blocks[i].range, work_.block_contacts, state.contacts, state.blocks,
-                           partition_.blocks[i].active);
-    const auto misses = [](const auto& part)
-    { return part.active.size() != 1 || part.active[0].begin != part.range.begin || part.active[0].end != part.range.end; };
+    {
+        BlockPart& part = partition_.blocks[i];
+        if (all || part.is_woken)
+            find_active_blocks(part.range, work_.block_contacts, state.contacts, state.blocks, part.active);
+        part.is_woken = false;
+    }
     team.barrier(
-        [&] { left_out_ = std::ranges::any_of(partition_.contacts, misses) || std::ranges::any_of(partition_.blocks, misses); });
+        [&]
+        {
+            rest_unknown_ = false;
+            if (all)
+                left_out_ = saves_enough();
+        });
+}
+
+/// While sums form contact by contact, to leave out a few contacts saves less than the lists of the others cost (perf/measured.md).
+bool CycleRunner::saves_enough() const
+{
+    constexpr Index least_share = 2;  // the half
+    Index all = 0, active = 0;
+    for (const ContactPart& part : partition_.contacts)
+    {
+        all += part.range.size();
+        for (const IndexRange& range : part.active)
+            active += range.size();
+    }
+    return sums_run_ ? least_share * active < all : active < all;
 }
 }  // namespace hdem

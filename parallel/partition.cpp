@@ -8,8 +8,6 @@ namespace hdem
 {
 namespace
 {
-constexpr Index blocks_a_part = 64;
-
 template <typename Part>
 void cut(Index size, Index a_part, std::vector<Part>& parts)
 {

@@ -30,6 +30,8 @@ struct ContactPart
     bool is_hit = false;                 ///< at one of them blocks hit each other
     bool unsolved = false;               ///< they need more than sweeps
     std::vector<IndexRange> active;      ///< contacts that are not left out, see core/motion/rest.h
+    bool is_whole = true;                ///< none is left out
+    bool is_woken = false;               ///< blocks of theirs were woken in the last cycle
     std::vector<StiffContact> stiff;     ///< to be looked at in every cycle
     Index unstable = no_index;           ///< of these, found in this cycle
     double answer = 0.0;                 ///< greatest_answer of its springs [1/s2]
@@ -48,10 +50,14 @@ struct ContactPart
 
 inline constexpr double unknown_speed = std::numeric_limits<double>::infinity();
 
+inline constexpr Index blocks_a_part = 64;
+
 struct BlockPart
 {
     IndexRange range;
     std::vector<IndexRange> active;  ///< blocks that are not left out
+    std::vector<Index> woken;        ///< in this cycle
+    bool is_woken = false;           ///< their contacts with other blocks were, in the last cycle
     std::vector<Index> summed;       ///< blocks whose sums do not form contact by contact, see RunningSums
     std::vector<Index> flying;       ///< blocks with nothing near them
     std::vector<Index> fast;         ///< blocks that may fall or slide together, in this cycle

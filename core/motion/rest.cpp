@@ -67,7 +67,7 @@ void collect(IndexRange range, std::vector<IndexRange>& active, const IsActive& 
 }  // namespace
 
 bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std::int64_t cycle, Blocks& blocks,
-                 EnergyLedger& ledger)
+                 EnergyLedger& ledger, std::vector<Index>& woken)
 {
     const bool check = cycle % rest_every == 0;
     bool changed = false;
@@ -83,9 +83,11 @@ bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std
                 stop(b, model, blocks, ledger);
             continue;
         }
-        const bool woken = (blocks.force[b].contacts & contact_impulse) != 0 || is_out_of_balance(b, rule.waking, model, blocks);
-        changed = changed || woken || rest == stopped;
-        rest = woken ? 0 : left_out;
+        const bool wakes = (blocks.force[b].contacts & contact_impulse) != 0 || is_out_of_balance(b, rule.waking, model, blocks);
+        if (wakes)
+            woken.push_back(b);
+        changed = changed || wakes || rest == stopped;
+        rest = wakes ? 0 : left_out;
     }
     return changed;
 }

@@ -29,9 +29,17 @@ struct RestRule
 inline constexpr std::int64_t rest_every = 16;  ///< cycles between checks
 
 /// Stop quiet blocks of `range`, wake others; forces are those of this cycle, velocities those of the last.
-/// @return  whether contacts or blocks are to be left out, or taken in again, from the next cycle on
+/// @param woken  the blocks that are woken are added to it
+/// @return  whether contacts or blocks may be left out, or must be taken in again, from the next cycle on
 bool update_rest(IndexRange range, const Model& model, const RestRule& rule, std::int64_t cycle, Blocks& blocks,
-                 EnergyLedger& ledger);
+                 EnergyLedger& ledger, std::vector<Index>& woken);
+
+/// Which blocks and contacts are left out is looked at as a whole in cycles in which stopped blocks have just become left out. In between only what is woken is taken in
+/// again: to evaluate a contact at rest once more changes nothing.
+[[nodiscard]] constexpr bool looks_at_rest(std::int64_t cycle)
+{
+    return cycle % rest_every == 2;
+}
 
 /// All blocks take part again.
 void wake_all(Blocks& blocks);

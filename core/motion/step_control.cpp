@@ -149,10 +149,10 @@ bool moves(Index block, const StepRule& rule, const Model& model, const Blocks& 
 
 /// Do only narrow contacts hold a block, as a corner beside a corner does? As it gives way by a thousandth of its size, they become many times as long and stiff. So they are looked at
 /// whenever speeds are.
-bool is_held_narrowly(Index block, const Model& model, const Blocks& blocks)
+bool is_held_narrowly(Index block, double size, const Model& model, const Blocks& blocks)
 {
     const double step = blocks.stable_step[block];
-    return step * step * model.greatest_stiffness * model.size(block) > narrow_step * model.mass[block];
+    return step * step * model.greatest_stiffness * size > narrow_step * model.mass[block];
 }
 
 bool is_alone(Index block, const BlockContacts& list)
@@ -160,14 +160,18 @@ bool is_alone(Index block, const BlockContacts& list)
     return list.begin[block] == list.begin[block + 1];
 }
 
-/// How long a block may move as it does [s].
-double motion_bound(Index block, const Model& model, const BlockContacts& list, const Blocks& blocks)
+/// How long a block may move as it does, or longer than `least` if that is less [s].
+double motion_bound(Index block, double size, double least, const Model& model, const BlockContacts& list, const Blocks& blocks)
 {
     const BlockMotion& m = blocks.motion[block];
-    const double speed = std::sqrt(m.vx * m.vx + m.vy * m.vy) + std::abs(m.w) * model.radius[block];
+    const double shift_squared = m.vx * m.vx + m.vy * m.vy, turn = std::abs(m.w) * model.radius[block];
     const bool alone = is_alone(block, list);
     const double share = blocks.force[block].contacts == 0 ? approach_share : slide_share;
-    const double way = alone ? flight_share * blocks.margin[block] : share * model.size(block);
+    const double way = alone ? flight_share * blocks.margin[block] : share * size;
+    constexpr double at_least = 2.001;  // (a + b)^2 <= 2 (a^2 + b^2): most blocks need neither a root nor a division
+    if (!alone && at_least * (shift_squared + turn * turn) * least * least < way * way)
+        return infinity;
+    const double speed = std::sqrt(shift_squared) + turn;
     const double rate = alone ? swing_rate(block, model) : 0.0;
     return std::min(speed > 0.0 ? way / speed : infinity, rate > 0.0 ? swing_share / rate : infinity);
 }
@@ -200,17 +204,20 @@ StepBound bound_steps(IndexRange range, const StepRule& rule, bool look_at_all, 
         const bool takes_part = blocks.takes_part(b);
         if (!takes_part && !is_beside_moving(b, list, contacts, blocks))
             continue;
-        if (look_at_all || blocks.stable_step[b] == not_looked_at || is_held_narrowly(b, model, blocks))
+        const double size = model.size(b);
+        if (look_at_all || blocks.stable_step[b] == not_looked_at || is_held_narrowly(b, size, model, blocks))
             blocks.stable_step[b] = stable_step_of(b, model, list, contacts, blocks);
-        const double share = is_held_narrowly(b, model, blocks) ? narrow_share * rule.stable_share : rule.stable_share;
-        const double least = std::min(share * blocks.stable_step[b], motion_bound(b, model, list, blocks));
-        const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * model.size(b) / rule.falls_by) : infinity;
+        const double share = is_held_narrowly(b, size, model, blocks) ? narrow_share * rule.stable_share : rule.stable_share;
+        const double stable = share * blocks.stable_step[b];
+        const double least = std::min(stable, motion_bound(b, size, std::min(stable, bound.touching), model, list, blocks));
+        const double falls = rule.falls_by > 0.0 ? std::sqrt(fall_share * size / rule.falls_by) : infinity;
         const bool is_loose = blocks.is_loose(b, rule.loose_distance);
         if (is_loose && is_alone(b, list))
             bound.flying = std::min(bound.flying, least);
         else
             bound.touching = std::min({bound.touching, least, falls});
-        bound.standing_moves = bound.standing_moves || (takes_part && !is_loose && moves(b, rule, model, blocks));
+        bound.standing_moves =  // asked for only where a given step is kept
+            bound.standing_moves || (rule.keeps_given && takes_part && !is_loose && moves(b, rule, model, blocks));
     }
     return bound;
 }

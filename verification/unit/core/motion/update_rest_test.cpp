@@ -18,7 +18,8 @@ class UpdateRest : public testing::Test
 
     bool update(bool check, std::int64_t cycle = rest_every)
     {
-        return update_rest({pair_.a, pair_.a + 1}, pair_.model, rule_, check ? cycle : cycle + 1, pair_.state.blocks, ledger_);
+        return update_rest({pair_.a, pair_.a + 1}, pair_.model, rule_, check ? cycle : cycle + 1, pair_.state.blocks, ledger_,
+                           woken_);
     }
     BlockMotion& motion() { return pair_.motion(pair_.a); }
     BlockForce& force() { return pair_.state.blocks.force[pair_.a]; }
@@ -28,6 +29,7 @@ class UpdateRest : public testing::Test
 
     test::BlockPair pair_;
     EnergyLedger ledger_;
+    std::vector<Index> woken_;
     const RestRule rule_{.leaves_out = true, .quiet_speed = 1e-4, .quiet = 5e-4, .waking = 0.1};
 };
 
@@ -81,9 +83,11 @@ TEST_F(UpdateRest, WakesInAnyCycleByAForceOrAnImpulse)
         motion() = {};
         force() = {};
         rest() = left_out;
+        woken_.clear();
         disturb();
         const bool changed = update(false);
         EXPECT_EQ(changed, rest() == 0);
+        EXPECT_EQ(woken_, changed ? std::vector<Index>{pair_.a} : std::vector<Index>{});
         return rest() == 0;
     };
     const double limit = rule_.waking * mass();
