@@ -126,7 +126,7 @@ void StaticSearch::number(Part& part, Unknowns unknowns)
         for (const Index i : part.contacts)
             pairs.push_back({part.unknowns.of_block[state_.contacts.ref[i]], part.unknowns.of_block[state_.contacts.inc[i]]});
     part.tangent.set_pattern(size, pairs);
-    part.symmetric.set_pattern(size, pairs);
+    part.symmetric = part.tangent;
     std::vector<Vec2> places(static_cast<std::size_t>(size));
     for (Index u = 0; u < size; ++u)
         places[u] = {start_[block[u]].x, start_[block[u]].y};
@@ -171,12 +171,13 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
         return End::gave_up;
     double best = std::numeric_limits<double>::infinity();
     int since_best = 0;
-    bool is_careful = false;
+    bool is_careful = false, is_known = false;  // known: the imbalance
     StaticRule goal = rule_;
     for (int i = 0;; ++i, ++since_best)
     {
         stop_if_asked(rule_);
-        find_imbalance(whole_, false, false);
+        if (!is_known)
+            find_imbalance(whole_, false, false);
         tally_ = renew(whole_, {.part_all_open = whole_.imbalance.ratio() < parts_below, .is_first = i == 0});
         if (tally_.newly_parted > 0)
             find_imbalance(whole_, false, false);
@@ -217,7 +218,7 @@ StaticSearch::End StaticSearch::iterate(const Pass& pass)
         // For the rest of the pass: after long steps it would soon be as far off as before.
         is_careful = is_careful || since_best >= shortens_after;
         shorten_step(whole_, pass.far_share, is_careful ? short_far : pass.far_share);
-        take_step(whole_, is_careful ? 0.0 : pass.least_share);
+        is_known = take_step(whole_, is_careful ? 0.0 : pass.least_share);
     }
 }
 

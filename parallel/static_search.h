@@ -77,6 +77,8 @@ class StaticSearch
     End iterate(const Pass& pass);
     void number(Part& part, Unknowns unknowns);
     void find_imbalance(Part& part, bool frozen, bool along_step);
+    void find_loads(const Part& part, bool frozen);
+    void sum_up(Part& part, bool along_step);
     PointTally renew(const Part& part, const PointRule& rule);
     void restrain(const Part& part, double far);
     bool hold_loose();
@@ -85,7 +87,7 @@ class StaticSearch
     bool find_step(Part& part);
     [[nodiscard]] double greatest_way_of_step(const Part& part);
     void shorten_step(Part& part, double far_share, double next_far_share);
-    void take_step(Part& part, double least_share);
+    bool take_step(Part& part, double least_share);
     void place(const Part& part, double share);
     void relax_spots();
     [[nodiscard]] std::vector<Index> blocks_around_spots() const;

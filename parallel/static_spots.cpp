@@ -111,7 +111,8 @@ void StaticSearch::relax_spots()
             tangents_[i] = tangents[k];
         }
     }
-    find_imbalance(whole_, false, false);
+    find_loads(spots_, false);  // those of all other contacts are as before
+    sum_up(whole_, false);
 }
 
 void StaticSearch::step_spots(double goal)
@@ -119,8 +120,8 @@ void StaticSearch::step_spots(double goal)
     for (int step = 0; step < most_steps && find_step(spots_); ++step)
     {
         shorten_step(spots_, Pass().far_share, Pass().far_share);
-        take_step(spots_, 0.0);
-        find_imbalance(spots_, false, false);
+        if (!take_step(spots_, 0.0))
+            find_imbalance(spots_, false, false);
         const PointTally tally = renew(spots_, {});
         if (tally.newly_parted > 0)
             find_imbalance(spots_, false, false);

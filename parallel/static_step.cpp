@@ -21,7 +21,17 @@ constexpr int most_restraints = 3;   // of points that go farther, until the ste
 
 void StaticSearch::find_imbalance(Part& part, bool frozen, bool along_step)
 {
+    find_loads(part, frozen);
+    sum_up(part, along_step);
+}
+
+void StaticSearch::find_loads(const Part& part, bool frozen)
+{
     for_contacts(part, [&](IndexRange range) { put_loads(range, model_, state_, points_, frozen, loads_); });
+}
+
+void StaticSearch::sum_up(Part& part, bool along_step)
+{
     const std::vector<double> none;
     part.imbalance = sum_pieces<Imbalance>(
         threads_, static_cast<Index>(part.unknowns.block.size()),
@@ -57,17 +67,17 @@ bool StaticSearch::find_step(Part& part)
                   [&](const Team& team)
                   {
                       const IndexRange rows = team.share(static_cast<Index>(part.unknowns.block.size()));
-                      const auto stiffness = [&](Index k, bool coupled)
+                      const auto stiffness = [&](Index k, int side)
                       {
                           const Index i = part.is_whole ? k : part.contacts[k];
-                          Matrix6 stiff = tangents_[i].stiffness(coupled);
+                          RowPair both = tangents_[i].stiffness(side);
                           if (part.has_prescribed)
-                              leave_out_prescribed(state_.blocks.inertia[state_.contacts.ref[i]],
-                                                   state_.blocks.inertia[state_.contacts.inc[i]], stiff);
-                          return stiff;
+                              for (Matrix36* own : {&both.coupled, &both.symmetric})
+                                  leave_out_prescribed(state_.blocks.inertia[state_.contacts.ref[i]],
+                                                       state_.blocks.inertia[state_.contacts.inc[i]], side, *own);
+                          return both;
                       };
-                      part.tangent.assemble(rows, [&](Index i) { return stiffness(i, true); });
-                      part.symmetric.assemble(rows, [&](Index i) { return stiffness(i, false); });
+                      BlockMatrix::assemble(rows, stiffness, part.tangent, part.symmetric);
                       for (Index u = rows.begin; u < rows.end; ++u)
                       {
                           finish_diagonal(state_.blocks.inertia[part.unknowns.block[u]], shift, part.tangent.diagonal(u));
@@ -135,14 +145,15 @@ void StaticSearch::place(const Part& part, double share)
 }
 
 /// All of the step if that brings enough. Else the share of it at which the work along it ends: with shear strengths frozen forces are those of a convex energy. Not less than `least_share`.
-void StaticSearch::take_step(Part& part, double least_share)
+/// @return  whether the part's imbalance is that of the places where the blocks are now
+bool StaticSearch::take_step(Part& part, double least_share)
 {
     from_ = moved_;
     const double before = part.imbalance.ratio();
     place(part, 1.0);
     find_imbalance(part, false, false);
     if (part.imbalance.ratio() < enough_gain * before)
-        return;
+        return true;
     const auto work_at = [&](double share)
     {
         place(part, share);
@@ -151,13 +162,13 @@ void StaticSearch::take_step(Part& part, double least_share)
     };
     double high = 1.0, work_high = work_at(1.0);
     if (work_high >= 0.0)
-        return;
+        return false;
     double low = least_share;
     double work_low = work_at(low);
     if (work_low <= 0.0)
     {
         place(part, std::max(low, 1.0 / 64.0));
-        return;
+        return false;
     }
     for (int i = 0; i < line_search_steps; ++i)
     {
@@ -165,7 +176,7 @@ void StaticSearch::take_step(Part& part, double least_share)
                                         high - 0.1 * (high - low));
         const double work = work_at(share);
         if (std::abs(work) < 0.1 * work_low)
-            return;
+            return false;
         if (work > 0.0)
         {
             low = share;
@@ -178,5 +189,6 @@ void StaticSearch::take_step(Part& part, double least_share)
         }
     }
     place(part, std::max(low, 1.0 / 64.0));
+    return false;
 }
 }  // namespace hdem

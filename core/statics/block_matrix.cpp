@@ -129,20 +129,27 @@ void BlockMatrix::set_zero()
     std::fill(coupling_.begin(), coupling_.end(), Matrix3::Zero());
 }
 
-void BlockMatrix::add_row(Index pair, int side, const Matrix6& stiffness)
+void BlockMatrix::set_row_zero(Index row)
+{
+    diagonal_[row].setZero();
+    for (Index entry = graph_.begin[row]; entry < graph_.begin[row + 1]; ++entry)
+        coupling_[half_[entry]].setZero();
+}
+
+void BlockMatrix::add_row(Index pair, int side, const Matrix36& rows)
 {
     const Index block = side == 0 ? pairs_[pair].a : pairs_[pair].b;
-    diagonal_[block] += stiffness.block<3, 3>(3 * side, 3 * side);
+    diagonal_[block] += rows.middleCols<3>(3 * side);
     if (const Index half = half_of_[pair]; half != no_index)
-        coupling_[half ^ side] += stiffness.block<3, 3>(3 * side, 3 - 3 * side);
+        coupling_[half ^ side] += rows.middleCols<3>(3 - 3 * side);
 }
 
 void BlockMatrix::add(Index pair, const Matrix6& stiffness)
 {
     if (pairs_[pair].a != no_index)
-        add_row(pair, 0, stiffness);
+        add_row(pair, 0, stiffness.topRows<3>());
     if (pairs_[pair].b != no_index)
-        add_row(pair, 1, stiffness);
+        add_row(pair, 1, stiffness.bottomRows<3>());
 }
 
 void BlockMatrix::multiply(IndexRange rows, const double* x, double* y) const

@@ -10,6 +10,13 @@ namespace hdem
 {
 using Matrix3 = Eigen::Matrix3d;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;  ///< the rows of one of two blocks
+
+/// The same rows with the friction that makes a tangent unsymmetric, and without.
+struct RowPair
+{
+    Matrix36 coupled, symmetric;
+};
 
 /// Two blocks that touch, by their numbers among the unknowns; no_index: a block that cannot move.
 struct CoupledPair
@@ -48,9 +55,11 @@ class BlockMatrix
     /// Add the stiffness of pair i of the list; its unknowns are those of a, then those of b. What belongs to a block that cannot move is left out.
     void add(Index pair, const Matrix6& stiffness);
 
-    /// The same for all pairs, row by row, so that threads may share the rows: values of `rows` become the sums of stiffness(i), bit by bit those of add().
+    /// The same for all pairs of two matrices of one pattern, row by row, so that threads may share the rows: their values of `rows` become the sums of
+    /// stiffness(i, side), bit by bit those of add().
+    /// @param stiffness  rows of a (side 0) or of b (1) of pair i
     template <typename Stiffness>
-    void assemble(IndexRange rows, const Stiffness& stiffness);
+    static void assemble(IndexRange rows, const Stiffness& stiffness, BlockMatrix& coupled, BlockMatrix& symmetric);
 
     [[nodiscard]] Matrix3& diagonal(Index block) { return diagonal_[block]; }
     [[nodiscard]] const Matrix3& diagonal(Index block) const { return diagonal_[block]; }
@@ -66,7 +75,8 @@ class BlockMatrix
     void multiply(IndexRange rows, const double* x, double* y) const;
 
   private:
-    void add_row(Index pair, int side, const Matrix6& stiffness);
+    void set_row_zero(Index row);
+    void add_row(Index pair, int side, const Matrix36& rows);
 
     BlockGraph graph_;
     std::vector<CoupledPair> pairs_;
@@ -79,15 +89,20 @@ class BlockMatrix
 };
 
 template <typename Stiffness>
-void BlockMatrix::assemble(IndexRange rows, const Stiffness& stiffness)
+void BlockMatrix::assemble(IndexRange rows, const Stiffness& stiffness, BlockMatrix& coupled, BlockMatrix& symmetric)
 {
     for (Index row = rows.begin; row < rows.end; ++row)
     {
-        diagonal_[row].setZero();
-        for (Index entry = graph_.begin[row]; entry < graph_.begin[row + 1]; ++entry)
-            coupling_[half_[entry]].setZero();
-        for (Index k = list_begin_[row]; k < list_begin_[row + 1]; ++k)
-            add_row(list_[k] / 2, list_[k] % 2, stiffness(list_[k] / 2));
+        coupled.set_row_zero(row);
+        symmetric.set_row_zero(row);
+        for (Index k = coupled.list_begin_[row]; k < coupled.list_begin_[row + 1]; ++k)
+        {
+            const Index pair = coupled.list_[k] / 2;
+            const int side = coupled.list_[k] % 2;
+            const RowPair both = stiffness(pair, side);
+            coupled.add_row(pair, side, both.coupled);
+            symmetric.add_row(pair, side, both.symmetric);
+        }
     }
 }
 }  // namespace hdem

@@ -50,12 +50,20 @@ void forward_strip(const Strip& strip, Index panels, const double* factor, doubl
         subtract_rows<1>(factor + strip.panel(p), stride, strip.width, from, x + p * lanes);
 }
 
-/// sum <- sum + L^T x  over one row panel.
-void add_transposed(const double* panel, Index columns, const double* x, Pack* sum)
+/// sum <- sum + L^T x  over `rows` row panels, one after the other.
+template <int rows>
+void add_transposed(const double* panel, std::size_t stride, Index columns, const double* x, Pack* sum)
 {
-    const Pack row = Pack::load(x);
+    Pack row[rows];
+    for (int r = 0; r < rows; ++r)
+        row[r] = Pack::load(x + r * lanes);
     for (Index j = 0; j < columns; ++j)
-        sum[j] += Pack::load(panel + j * lanes) * row;
+    {
+        Pack s = sum[j];
+        for (int r = 0; r < rows; ++r)
+            s += Pack::load(panel + r * stride + static_cast<std::size_t>(j) * lanes) * row[r];
+        sum[j] = s;
+    }
 }
 
 void backward_strip(const Strip& strip, Index panels, const double* factor, double* x)
@@ -63,8 +71,12 @@ void backward_strip(const Strip& strip, Index panels, const double* factor, doub
     std::array<Pack, strip_columns> sum;
     std::fill_n(sum.begin(), strip.width, Pack(0.0));
     const Index groups = (strip.width + lanes - 1) / lanes;
-    for (Index p = strip.first_panel + groups; p < panels; ++p)
-        add_transposed(factor + strip.panel(p), strip.width, x + p * lanes, sum.data());
+    const std::size_t stride = static_cast<std::size_t>(strip.width) * lanes;
+    Index p = strip.first_panel + groups;
+    for (; p + 4 <= panels; p += 4)
+        add_transposed<4>(factor + strip.panel(p), stride, strip.width, x + p * lanes, sum.data());
+    for (; p < panels; ++p)
+        add_transposed<1>(factor + strip.panel(p), stride, strip.width, x + p * lanes, sum.data());
     for (Index g = groups - 1; g >= 0; --g)
     {
         const Index first = g * lanes;
@@ -78,7 +90,7 @@ void backward_strip(const Strip& strip, Index panels, const double* factor, doub
             for (Index i = 0; i < j; ++i)
                 own[i] -= tile[i * lanes + j] * own[j];
         }
-        add_transposed(panel, first, own, sum.data());
+        add_transposed<1>(panel, stride, first, own, sum.data());
     }
 }
 }  // namespace

@@ -58,17 +58,18 @@ std::vector<CoupledPair> coupled_pairs(const Contacts& contacts, const Unknowns&
     return pairs;
 }
 
-void leave_out_prescribed(const BlockInertia& ref, const BlockInertia& inc, Matrix6& stiffness)
+void leave_out_prescribed(const BlockInertia& ref, const BlockInertia& inc, int side, Matrix36& rows)
 {
-    for (int side = 0; side < 2; ++side)
+    for (int of = 0; of < 2; ++of)
     {
-        const std::array<bool, 3> fixed = prescribed(side == 0 ? ref : inc);
+        const std::array<bool, 3> fixed = prescribed(of == 0 ? ref : inc);
         for (int i = 0; i < 3; ++i)
+        {
             if (fixed[i])
-            {
-                stiffness.row(3 * side + i).setZero();
-                stiffness.col(3 * side + i).setZero();
-            }
+                rows.col(3 * of + i).setZero();
+            if (fixed[i] && of == side)
+                rows.row(i).setZero();
+        }
     }
 }
 

@@ -33,7 +33,7 @@ enum Held : std::uint8_t
 [[nodiscard]] std::vector<CoupledPair> coupled_pairs(const Contacts& contacts, const Unknowns& unknowns);
 
 /// Take out of a contact's stiffness what belongs to motions that are prescribed.
-void leave_out_prescribed(const BlockInertia& ref, const BlockInertia& inc, Matrix6& stiffness);
+void leave_out_prescribed(const BlockInertia& ref, const BlockInertia& inc, int side, Matrix36& rows);
 
 /// Finish the diagonal of a row: 1 where a motion is prescribed, and all of it times 1 + `shift`.
 void finish_diagonal(const BlockInertia& inertia, double shift, Matrix3& diagonal);

@@ -103,20 +103,27 @@ BlockLoad load_on(double e_x, double e_y, double f_t, double f_m, double moment)
 }
 }  // namespace
 
-Matrix6 ContactTangent::stiffness(bool coupled) const
+RowPair ContactTangent::stiffness(int side) const
 {
-    Matrix6 sum = Matrix6::Zero();
+    RowPair rows{Matrix36::Zero(), Matrix36::Zero()};
+    const bool is_coupled = point[0].coupling != 0.0 || point[1].coupling != 0.0;
     for (int k = 0; k < 2; ++k)
     {
         const PointTangent& p = point[k];
         Eigen::Matrix<double, 6, 1> across, along;  // of overlap and way by the unknowns
         across << e_y, -e_x, -ref_t[k], -e_y, e_x, inc_t[k];
         along << -e_x, -e_y, ref_m[k], e_x, e_y, -inc_m[k];
-        sum += p.normal * across * across.transpose() + p.shear * along * along.transpose();
-        if (coupled)
-            sum -= p.coupling * along * across.transpose();
+        const Eigen::Vector3d own_across = across.segment<3>(3 * side), own_along = along.segment<3>(3 * side);
+        const Matrix36 elastic = p.normal * own_across * across.transpose() + p.shear * own_along * along.transpose();
+        rows.symmetric += elastic;
+        if (is_coupled)
+            rows.coupled += elastic;
+        if (p.coupling != 0.0)
+            rows.coupled -= p.coupling * own_along * across.transpose();
     }
-    return sum;
+    if (!is_coupled)
+        rows.coupled = rows.symmetric;
+    return rows;
 }
 
 std::array<double, 2> ContactTangent::ways(int k, const double* ref, const double* inc) const

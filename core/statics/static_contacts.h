@@ -34,9 +34,9 @@ struct ContactTangent
     std::array<double, 2> ref_t{}, ref_m{}, inc_t{}, inc_m{};  ///< levers [m]
     std::array<PointTangent, 2> point;
 
-    /// -d(force) / d(place): unknowns x, y, rotation of ref, then of inc. What a change of the lengths and axes does to the forces is left out: of the order
-    /// overlap over length. `coupled`: with the friction that makes it unsymmetric.
-    [[nodiscard]] Matrix6 stiffness(bool coupled) const;
+    /// -d(force) / d(place): unknowns x, y, rotation of ref, then of inc; the rows of ref (side 0) or inc (1). What a change of the lengths and axes does to the
+    /// forces is left out: of the order overlap over length.
+    [[nodiscard]] RowPair stiffness(int side) const;
     /// Change of overlap and way at a point by small moves of ref and inc [m].
     [[nodiscard]] std::array<double, 2> ways(int k, const double* ref, const double* inc) const;
     /// Length of both together [m].

@@ -67,8 +67,13 @@ TEST(BlockMatrix, SumsTheStiffnessOfPairsInTheirOrder)
         const Blocks expected = summed(graph, stiffness);
         EXPECT_TRUE(blocks_of(matrix) == expected);
 
-        matrix.assemble({0, graph.blocks()}, [&](Index i) { return stiffness[i]; });
+        BlockMatrix other = matrix;
+        const auto rows_of = [&](Index i, int side) -> RowPair {
+            return {stiffness[i].middleRows<3>(3 * side), stiffness[stiffness.size() - 1 - i].middleRows<3>(3 * side)};
+        };
+        BlockMatrix::assemble({0, graph.blocks()}, rows_of, matrix, other);
         EXPECT_TRUE(blocks_of(matrix) == expected) << "row by row";
+        EXPECT_TRUE(blocks_of(other) == summed(graph, {stiffness.rbegin(), stiffness.rend()})) << "row by row";
     }
 }
 
