@@ -60,8 +60,7 @@ void ContactRebuild::run(const Model& model, State& state, const Team& team)
         for_chunks(round,
                    [&](Chunk& chunk)
                    {
-                       for (Index k = 0; k < static_cast<Index>(chunk.contacts.size()); ++k)
-                           list_.put(chunk.first + k, chunk.contacts[k]);
+                       put_bearing_first(chunk.contacts, chunk.first, list_);
                        chunk.contacts = std::vector<Contact>();  // = {} would keep its memory
                        chunk.pairs = std::vector<std::uint64_t>();
                    });
@@ -122,7 +121,8 @@ void ContactRebuild::place(IndexRange round)
 
 void ContactRebuild::finish(const Model& model, State& state)
 {
-    group_by_law(model.joints, list_);
+    if (list_.has_memory)
+        group_alike(model.joints, list_);
     for (const Chunk& chunk : chunks_)
         state.ledger.add(chunk.ledger);
     state.contacts = std::move(list_);

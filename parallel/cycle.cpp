@@ -135,6 +135,9 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
             team.alone([&] { state.contacts_outdated = is_order_decayed(model, state); });
         }
     }
+    constexpr std::int64_t regrouped_every = 256;
+    if (!renewed && now % regrouped_every == 0)
+        regroup_contacts(model, state, team);
     // Where no loads have been found yet all contacts take part.
     if (rules_.rest.leaves_out && now != first_evaluation_ && (state.rest_changed || now == first_evaluation_ + 1))
         leave_out(state, team, now);

@@ -63,6 +63,7 @@ class CycleRunner
 
   private:
     void renew_contacts(const Model& model, State& state, const Team& team);
+    void regroup_contacts(const Model& model, State& state, const Team& team);
     [[nodiscard]] bool is_prepared(const Model& model, const State& state, const StageRules& rules) const;
     /// Bounds on the share of their margins that blocks have used up.
     struct Way

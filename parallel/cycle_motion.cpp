@@ -70,12 +70,13 @@ void CycleRunner::find_groups(const Model& model, State& state, const Team& team
             std::vector<Index> fast, bolted;
             for (const BlockPart& part : partition_.blocks)
             {
-                fast.insert(fast.end(), part.fast.begin(), part.fast.end());
+                if (among_all)
+                    fast.insert(fast.end(), part.fast.begin(), part.fast.end());
                 bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
             }
-            if (!among_all)
-                std::erase_if(fast, [&](Index block)
-                              { return !std::ranges::binary_search(state.moving, block, {}, &MovingBlock::block); });
+            for (const MovingBlock& known : state.moving)
+                if (!among_all && std::ranges::binary_search(partition_.blocks[known.block / blocks_a_part].fast, known.block))
+                    fast.push_back(known.block);
             const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
             groups_.find(model, rules_.groups, fast, bolted, ties, state.moving);
         });

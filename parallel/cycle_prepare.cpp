@@ -7,6 +7,7 @@
 #include "core/motion/loads.h"
 #include "core/motion/rest.h"
 #include "core/motion/step_check.h"
+#include "core/state/contact_order.h"
 #include "core/support/installed_support.h"
 #include "parallel/cycle.h"
 #include "parallel/team.h"
@@ -38,6 +39,21 @@ void CycleRunner::renew_contacts(const Model& model, State& state, const Team& t
             prepare_sums(state, team.threads());
         });
     clock.lap(CycleStage::broad);
+}
+
+/// Features that are searched anew may bear no more, or again. Where that is so for many contacts, those that bear are brought together.
+void CycleRunner::regroup_contacts(const Model& model, State& state, const Team& team)
+{
+    constexpr Index least_share = 16;
+    team.alone(
+        [&]
+        {
+            if (least_share * count_misplaced(state.contacts) < state.contacts.size())
+                return;
+            group_alike(model.joints, state.contacts);
+            prepare(model, state);
+            prepare_sums(state, team.threads());
+        });
 }
 
 bool CycleRunner::is_prepared(const Model& model, const State& state, const StageRules& rules) const
@@ -93,6 +109,7 @@ void CycleRunner::prepare(const Model& model, const State& state)
     work_.pseudo.resize(static_cast<std::size_t>(blocks));
     sums_for_ = 0;
     left_out_ = false;
+    rest_unknown_ = true;
     has_loads_ = false;
     prepared_ = true;
     prepared_stage_ = state.stage;
@@ -157,7 +174,7 @@ void CycleRunner::mark_woken(const Contacts& contacts)
 
 void CycleRunner::leave_out(const State& state, const Team& team, std::int64_t now)
 {
-    const bool all = rest_unknown_ || looks_at_rest(now) || now == first_evaluation_ + 1;
+    const bool all = rest_unknown_ || looks_at_rest(now);
     if (!all)
         team.alone([&] { mark_woken(state.contacts); });
     const IndexRange contact_parts = team.share(static_cast<Index>(partition_.contacts.size()));

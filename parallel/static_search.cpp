@@ -2,6 +2,7 @@
 
 #include "core/contact/block_forces.h"
 #include "core/detection/edge_touch.h"
+#include "core/state/contact_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,11 +86,16 @@ void StaticSearch::keep_features(const Contacts& before)
 {
     Contacts& now = state_.contacts;
     const auto parts = [](const Contacts& contacts, Index i) { return std::pair(contacts.part_a[i], contacts.part_b[i]); };
-    for (Index i = 0, old = 0; i < now.size(); ++i)  // both lists are sorted by parts: no joint has a memory here
+    const std::vector<Index> order = order_by_parts(before);
+    auto known = order.begin();
+    for (const Index i : order_by_parts(now))
     {
-        while (old < before.size() && parts(before, old) < parts(now, i))
-            ++old;
-        if (old < before.size() && parts(before, old) == parts(now, i) &&
+        while (known != order.end() && parts(before, *known) < parts(now, i))
+            ++known;
+        if (known == order.end())
+            break;
+        const Index old = *known;
+        if (parts(before, old) == parts(now, i) &&
             (before.ref_edge[old] != now.ref_edge[i] || before.inc_edge[old] != now.inc_edge[i]))
         {
             Contact kept = before.get(old);

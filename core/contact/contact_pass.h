@@ -156,6 +156,22 @@ template <Joints joints, typename P>
         store_use(select(springs, mobilised, -1.0), touch.ex, touch.ey, touching, springs, use);
 }
 
+/// A pack of contacts none of which may bear: they put nothing on their blocks, and nothing of their history changes.
+template <typename P>
+[[gnu::noinline]] void pass_over(const ContactLanes& l, const Blocks& blocks, Index i, bool looks, Contacts& contacts,
+                                 ContactLoads& loads, PassSums<P>& pass)
+{
+    std::fill_n(&loads.load[2 * (i - loads.first)], 2 * P::width, BlockLoad{});
+    std::fill_n(&loads.use[i - loads.first], P::width, JointUse{});
+    if (!looks)
+        return;
+    const BasicEdgeView<P> view = view_edges(load_edges<P>(l), load_motions<P>(blocks.motion, &contacts.ref[i]),
+                                             load_motions<P>(blocks.motion, &contacts.inc[i]));
+    const MaskOf<P> moved = have_moved(l, view, pass.slack);
+    store_flags(moved, &contacts.stale[i]);
+    pass.stale.add(moved);
+}
+
 /// Prefetch the memory of contacts that come later. The processor's own prefetching is too late: without this, a pass over contacts that do not fit
 /// a core's caches takes up to twice as long (perf/measured.md).
 template <Joints joints, typename P>
@@ -208,6 +224,11 @@ template <ContactLaw law, Joints joints, typename P>
         const Index* const at_ref = &contacts.ref[i];
         const Index* const at_inc = &contacts.inc[i];
         fetch_ahead<joints, P>(contacts, i, needs);
+        if (joints != Joints::laws && !any(load_lane<P>(l, l.length) > P(no_length)))
+        {
+            pass_over(l, blocks, i, needs.views, contacts, loads, pass);
+            continue;
+        }
         const BasicEdgePair<P> edges = load_edges<P>(l);
         const BasicMotion<P> ref = load_motions<P>(blocks.motion, at_ref);
         const BasicMotion<P> inc = load_motions<P>(blocks.motion, at_inc);

@@ -13,9 +13,6 @@ namespace hdem
 {
 namespace
 {
-/// Length of the reference edge of a pair that bears nothing: nothing lies over it.
-constexpr double no_length = -1.0;
-
 /// Share of the recycling distance where the blocks are near but bear nothing: which side of a corner a block takes shows within that way, and a side that is found late throws it back.
 constexpr double share_at_corners = 0.1;
 
@@ -62,7 +59,7 @@ double find_features(const Model& model, const Blocks& blocks, Contact& contact)
     if (!scan.has_external())
         return std::numeric_limits<double>::infinity();
     const bool is_pressed = contact.point[0].normal_force + contact.point[1].normal_force > 0.0;
-    const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.edges.length > no_length;
+    const bool was_searched = contact.ref_edge != no_index, was_bearing = was_searched && contact.may_bear();
     const bool keeps_edge = was_bearing || !is_sliding(model, pair, size);  // else the nearest counts: a block may hit it
     const Facing nearest = choose_facing(shapes, pair, scan, keeps_edge ? contact.ref_edge : no_index);
     const Facing facing = is_pressed ? nearest : pass_corner(model, blocks, pair, scan, nearest);

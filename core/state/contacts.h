@@ -62,6 +62,9 @@ struct PointHistory
     double stiffness = 0.0;  ///< d sigma / d closure at the last forces; laws with a memory only [Pa/m]
 };
 
+/// Length of the reference edge of a pair that bears nothing until its features are searched again: nothing lies over it.
+inline constexpr double no_length = -1.0;
+
 /// One contact as a value: what moves between arrays when contacts are re-sorted, saved or restarted.
 struct Contact
 {
@@ -79,6 +82,8 @@ struct Contact
     double last_length = 0.0;     ///< length that each point bore in the last cycle [m]
     EdgePair edges;
     std::array<PointHistory, 2> point;  ///< 0 at the lower t, 1 at the upper
+
+    [[nodiscard]] bool may_bear() const { return edges.length > no_length; }
 };
 
 /// What the cycle reads and writes of four contacts that follow each other: one stretch of memory, for one pass of the laws on a Pack.
@@ -132,6 +137,7 @@ class Contacts
     [[nodiscard]] Contact get(Index i) const;
     void put(Index i, const Contact& contact);
     [[nodiscard]] EdgePair edges(Index i) const;
+    [[nodiscard]] bool may_bear(Index i) const { return lane[i / lanes].length[i % lanes] > no_length; }
 
     [[nodiscard]] double length_floor(Index i) const { return lane[i / lanes].length_floor[i % lanes]; }
     [[nodiscard]] double normal_force(int end, Index i) const { return lane[i / lanes].normal_force[end][i % lanes]; }

@@ -78,6 +78,8 @@ Contact in_user_numbers(const Model& model, const std::vector<Index>& part_numbe
     contact.inc = model.user_number[contact.inc];
     contact.ref_edge -= model.shapes.vertex_begin[ref_part];
     contact.inc_edge -= model.shapes.vertex_begin[inc_part];
+    if (!contact.may_bear())  // overlaps are not kept up to date then, and nothing else is there
+        contact.point = {};
     return contact;
 }
 
