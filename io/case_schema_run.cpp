@@ -129,8 +129,10 @@ SectionSpec stage_section()
                         "least 200 free blocks, gravity and the default damping, and no loads, prescribed motions, bolts, liners, "
                         "domain.hold or impulse method. Blocks that cannot stand fall in the cycles that follow. If there is no "
                         "equilibrium, only cycles are used. A block on the verge of falling may count as stable. `\"dynamic\"`: "
-                        "cycles only.",
-              .choices = {"static", "dynamic"}}),
+                        "cycles only. `\"auto\"`: as `\"static\"` in a stage with relax_cycles in models of 1000 blocks or more "
+                        "without "
+                        "[[history]], where both give the same answer and the static solution comes sooner; else as `\"dynamic\"`.",
+              .choices = {"static", "dynamic", "auto"}}),
          field<&StageDef::excavate>({.name = "excavate",
                                      .effect = "Names of excavations or blocks that are removed.",
                                      .example = "[\"tunnel\"]",
@@ -139,7 +141,8 @@ SectionSpec stage_section()
              {.name = "relax_cycles",
               .effect = "With excavate: the forces of the removed blocks on their neighbours decrease evenly to 0 over this many "
                         "cycles. 0: at once, as in a blast. Rock next to a sudden opening swings, and joints may slip or open that "
-                        "stand in a slow excavation. A stage with until ends only after that. A static solution removes them in "
+                        "stand in a slow excavation. A stage with until ends only after that. A static solution (solver) removes "
+                        "them in "
                         "eight parts. Likewise for a [[boundary]] that ends. In the first stage of rock without [insitu], and in a "
                         "stage by springs after one by impulses, weight, loads, tractions, water and pretension grow from 0 over "
                         "this many cycles. Applied at once, they act up to 1.33 times, "

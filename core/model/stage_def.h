@@ -43,8 +43,9 @@ struct ConvergenceDef
 /// How a stage that ends at rest looks for it.
 enum class RestSolver
 {
-    statics,  ///< by a static solution where that is possible, then by cycles
-    dynamics  ///< by cycles alone
+    statics,   ///< by a static solution where that is possible, then by cycles
+    dynamics,  ///< by cycles alone
+    automatic  ///< as statics where the answer is the same and comes sooner, see resolve_rules; else as dynamics
 };
 
 /// [[stage]]
@@ -56,7 +57,7 @@ struct StageDef
     bool until_converged = false;        ///< or until converged, at most max_cycles
     std::vector<StageEndDef> ends;       ///< or until one of these; the first that is met ends the stage
     std::int64_t max_cycles = 1'000'000;
-    RestSolver solver = RestSolver::dynamics;
+    RestSolver solver = RestSolver::automatic;
     std::int64_t relax_cycles = 0;      ///< over which the forces of excavated blocks are taken off; 0: at once
     double relax_to = 0.0;              ///< share of these forces that is left then, until the stage ends [-]
     std::vector<std::string> excavate;  ///< excavation or block names removed at the start of the stage

@@ -53,8 +53,16 @@ GroupRule groups_of(const StageSetting& s, double settling)
     return settling > 0.0 ? GroupRule{.speed = 2.0 * settling, .seeks_rest = true} : GroupRule{.speed = s.convergence.mean_speed};
 }
 
+/// Where forces of excavated blocks are taken off slowly, cycles and a static solution come to the same answer (verification/README.md, statics.slow); where they vanish at once,
+/// rock swings and slips farther. Histories are to show what lies between.
+bool seeks_statics(const StageSetting& s)
+{
+    return s.solver == RestSolver::statics || (s.solver == RestSolver::automatic && s.relaxes && s.is_large && !s.has_histories);
+}
+
 StageSetting setting_of(const Model& model, const State& state)
 {
+    constexpr Index least_blocks = 1000;  // perf/README.md, "Static solutions"
     const bool begun = state.stage_begun;
     return {.method = state.method,
             .preset = state.damping,
@@ -77,6 +85,9 @@ StageSetting setting_of(const Model& model, const State& state)
             .holds_mean = model.holds_mean,
             .has_step = model.has_step,
             .keeps_released = begun && model.stages[state.stage].relax_to > 0.0,
+            .relaxes = begun && model.stages[state.stage].relax_cycles > 0,
+            .is_large = model.blocks() >= least_blocks,
+            .has_histories = !model.histories.empty(),
             .solver = begun ? model.stages[state.stage].solver : RestSolver::dynamics};
 }
 
@@ -125,7 +136,7 @@ StageRules resolve_rules(const StageSetting& s)
             .tractions_change = s.tractions_change,
             .moves_walls = s.moves_walls,
             .tries_statics = looks_for_rest && is_steady && !s.has_loads && !s.has_support && !s.holds_mean && !s.keeps_released &&
-                             s.method != Method::impulse && s.gravity > 0.0 && s.solver == RestSolver::statics};
+                             s.method != Method::impulse && s.gravity > 0.0 && seeks_statics(s)};
 }
 
 StageRules resolve_rules(const Model& model, const State& state)
@@ -165,6 +176,7 @@ std::vector<StageRules> resolve_rules(const CaseDef& def)
         setting.until_converged = stage.until_converged;
         setting.solver = stage.solver;
         setting.keeps_released = stage.relax_to > 0.0;
+        setting.relaxes = stage.relax_cycles > 0;
         setting.moves_walls = std::ranges::any_of(def.boundaries, [&](const BoundaryDef& side)
                                                   { return moves_walls(side.kind) && acts_in(side, stage.name); });
         setting.is_driven = is_driven(def) || setting.moves_walls;

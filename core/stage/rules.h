@@ -50,7 +50,10 @@ struct StageSetting
     bool holds_mean = false;        ///< domain.hold
     bool has_step = false;          ///< the case gives the time step
     bool keeps_released = false;    ///< a share of them stays to the end of the stage
-    RestSolver solver = RestSolver::dynamics;
+    bool relaxes = false;           ///< they are taken off over cycles
+    bool is_large = false;          ///< the model has so many blocks that a static solution is faster than cycles
+    bool has_histories = false;
+    RestSolver solver = RestSolver::automatic;
 };
 
 struct StageRules

@@ -156,7 +156,13 @@ void RowObserver::begin_stage(const Model& model, const State& state)
     for (const std::string& note : step_notes(model, resolve_rules(model, state).step))
         lines.push_back(note);
     if (simulation_.statics() && state.cycle == state.stage_begin_cycle)
+    {
         lines.push_back(statics_note(model, *simulation_.statics()));
+        if (!asks_for_statics(model.stages[state.stage]))
+            lines.push_back(
+                "note: it is sought as rock is removed slowly here, from a large model; solver = \"dynamic\" in the stage "
+                "looks for rest by cycles alone.");
+    }
     static const std::string heads = fmt::format("{:>9} {:>11} {:>9} {:>12} {:>11} {:>11} {:>7} {:>7} {:>7} {:>7} {:>10} {:>12}",
                                                  "cycle", "time [s]", "step [s]", "kinetic [J]", "unbalanced", "worst block",
                                                  "moving", "stick", "slip", "impulse", "cycles/s", "time left");

@@ -48,9 +48,8 @@ CaseDef tunnel_in_weak_rock(double friction_angle_deg, double cohesion)
 }
 
 /// Bricks between two columns that are held in x and do not turn; one brick of the lowest course is taken out.
-CaseDef bricks_between_rollers(RestSolver solver)
+CaseDef bricks_between_rollers(RestSolver solver, int side = 16)
 {
-    constexpr int side = 16;
     CaseDef scene = scenes::empty_scene();
     scene.contact.method = Method::force;
     scene.joints[0].cohesion = 1e6;
@@ -64,6 +63,15 @@ CaseDef bricks_between_rollers(RestSolver solver)
         }
     scene.stages = {{.name = "weight", .until_converged = true, .max_cycles = 100'000, .solver = solver},
                     {.name = "dig", .until_converged = true, .max_cycles = 100'000, .solver = solver, .excavate = {"b8_0"}}};
+    return scene;
+}
+
+/// The same, many more; the brick is taken out slowly.
+CaseDef many_bricks()
+{
+    CaseDef scene = bricks_between_rollers(RestSolver::automatic, 33);
+    scene.stages[0].solver = RestSolver::statics;
+    scene.stages[1].relax_cycles = 3000;
     return scene;
 }
 
@@ -85,6 +93,48 @@ TEST(StaticWays, BlocksHeldInOneDirectionMoveInTheOther)
     }
     EXPECT_LT(sunk[1].y(), -1e-5);
     EXPECT_LT((sunk[0] - sunk[1]).norm(), 0.01 * sunk[1].norm()) << sunk[0].y() << " " << sunk[1].y();
+}
+
+TEST(StaticWays, AreTheDefaultInLargeModelsWhoseForcesAreTakenOffSlowly)
+{
+    const auto solves = [](const CaseDef& scene)
+    {
+        hdem::Setup setup = build_model(scene);
+        Simulation bricks(std::move(setup.model), std::move(setup.state));
+        bricks.begin_stage(1);
+        return !bricks.state().statics.empty();
+    };
+    EXPECT_TRUE(solves(many_bricks()));
+    CaseDef dynamic = many_bricks(), sudden = dynamic, recorded = dynamic;
+    dynamic.stages[1].solver = RestSolver::dynamics;
+    EXPECT_FALSE(solves(dynamic));
+    sudden.stages[1].relax_cycles = 0;
+    EXPECT_FALSE(solves(sudden));
+    recorded.histories = {{.name = "sinks", .block = "b8_1", .quantities = {"displacement"}}};
+    EXPECT_FALSE(solves(recorded));
+    CaseDef few = bricks_between_rollers(RestSolver::automatic);
+    few.stages[1].relax_cycles = 3000;
+    EXPECT_FALSE(solves(few));
+}
+
+TEST(StaticWays, ByDefaultGiveTheAnswerOfCycles)
+{
+    std::vector<std::vector<Vec2>> moved;
+    for (const RestSolver solver : {RestSolver::automatic, RestSolver::dynamics})
+    {
+        CaseDef scene = many_bricks();
+        scene.stages[1].solver = solver;
+        hdem::Setup setup = build_model(scene);
+        Simulation bricks(std::move(setup.model), std::move(setup.state));
+        const std::vector<StageResult> results = run_stages(bricks, {});
+        EXPECT_EQ(results[1].statics.has_value(), solver == RestSolver::automatic);
+        EXPECT_TRUE(bricks.state().released.empty());
+        std::vector<Vec2>& of = moved.emplace_back();
+        for (const char* const name : {"b8_1", "b7_0", "b9_0", "b8_2"})
+            of.push_back(bricks.state().blocks.displacement(bricks.model().find_block(name)));
+    }
+    for (std::size_t i = 0; i < moved[0].size(); ++i)
+        EXPECT_LT((moved[0][i] - moved[1][i]).norm(), 0.01 * moved[1][0].norm());
 }
 
 /// Here a search that begins again finds a balance that slow removal of the tunnel does not come to: by cycles over 5000 and over 50 000 cycles 116 blocks are lost.
