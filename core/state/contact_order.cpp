@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 namespace hdem
@@ -42,7 +41,10 @@ void group_alike(const JointTable& joints, Contacts& contacts)
     for (Index begin = 0; begin < contacts.size(); begin += contacts_a_stretch)
     {
         const Index end = std::min(contacts.size(), begin + contacts_a_stretch);
-        if (std::ranges::is_sorted(std::views::iota(begin, end), {}, kind_at))
+        Index sorted = begin + 1;
+        while (sorted < end && !(kind_at(sorted) < kind_at(sorted - 1)))
+            ++sorted;
+        if (sorted >= end)
             continue;
         stretch.clear();
         for (Index i = begin; i < end; ++i)
