@@ -107,19 +107,21 @@ HistorySampler::HistorySampler(const Model& model, const HistoryDef& def)
 
 void HistorySampler::find_contacts(const Model& model, const State& state)
 {
-    if (broad_phase_runs_ == state.broad_phase_runs)
+    const std::vector<Index>& block_of = model.shapes.part_block;
+    const auto joins_pair = [&](Index i)
+    {
+        const Index a = block_of[state.contacts.part_a[i]];
+        const Index b = block_of[state.contacts.part_b[i]];
+        return (a == first_ && b == second_) || (a == second_ && b == first_);
+    };
+    if (broad_phase_runs_ == state.broad_phase_runs && std::ranges::all_of(contacts_, joins_pair))  // the order may have changed
         return;
     contacts_.clear();
     first_ = model.slot_of_user[first_user_];  // blocks may have been sorted anew
     second_ = second_user_ == no_index ? no_index : model.slot_of_user[second_user_];
-    const std::vector<Index>& block_of = model.shapes.part_block;
     for (Index i = 0; i < state.contacts.size(); ++i)
-    {
-        const Index a = block_of[state.contacts.part_a[i]];
-        const Index b = block_of[state.contacts.part_b[i]];
-        if ((a == first_ && b == second_) || (a == second_ && b == first_))
+        if (joins_pair(i))
             contacts_.push_back(i);
-    }
     broad_phase_runs_ = state.broad_phase_runs;
 }
 

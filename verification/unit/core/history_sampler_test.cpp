@@ -122,7 +122,28 @@ TEST(HistorySampler, KeepsTheShearAxisWhileTheBlocksAreApart)
     EXPECT_EQ(v.at("overlap"), 0.0);
 }
 
-/// The list is looked through again only when the broad phase has run.
+/// Contacts that bear nothing are put behind the others between two searches for contacts (state/contact_order).
+TEST(HistorySampler, FollowsContactsThroughAChangeOfTheirOrder)
+{
+    SmallRun run = test::small_run();
+    test::add_contact(run, 1, 0, 0, 2);
+    Contact other = run.state.contacts.get(0), own = other;
+    other.part_a = run.model.shapes.part_begin[0];
+    other.part_b = run.model.shapes.part_begin[1];
+    other.inc = 1;
+    own.point[0].normal_force = 7.0;
+    own.point[0].regime = Regime::stick;
+    other.point[0].normal_force = 1000.0;
+    run.state.contacts.put(0, own);
+    run.state.contacts.put(1, other);
+    HistorySampler sampler(run.model, test::history("h", {"ground", "block"}, {"normal_force"}));
+    EXPECT_EQ(sample(sampler, run).at("normal_force"), 7.0);
+    run.state.contacts.put(0, other);
+    run.state.contacts.put(1, own);
+    EXPECT_EQ(sample(sampler, run).at("normal_force"), 7.0);
+}
+
+/// The list is looked through again when the broad phase has run.
 TEST(HistorySampler, FollowsContactsThroughABroadPhase)
 {
     SmallRun run = test::small_run();
