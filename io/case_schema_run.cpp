@@ -54,7 +54,8 @@ SectionSpec convergence_section()
               .unit = "m",
               .effect = "A block that moved farther than this in its stage is loose; other blocks are standing rock. In a stage "
                         "with `until = \"converged\"` under the default damping, standing rock keeps its springs, loose blocks may "
-                        "meet by impulses, and a loose block in flight takes longer steps. While standing rock is slower than ten "
+                        "meet by impulses, a loose block in flight takes longer steps, and one that creeps on in one direction is "
+                        "not damped. While standing rock is slower than ten "
                         "times mean_speed, steps may be longer than a given time.step.",
               .range = length}),
          field<&ConvergenceDef::detached_distance>(

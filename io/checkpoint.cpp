@@ -15,7 +15,7 @@ namespace hdem
 namespace
 {
 constexpr const char* file_type = "hdem-checkpoint";
-const std::vector<std::int64_t> layout = {2, 7};  // a state goes on with the program that knows all of it: others are refused
+const std::vector<std::int64_t> layout = {2, 8};  // a state goes on with the program that knows all of it: others are refused
 
 void write_record(Hdf5Writer& file, const RunRecord& record)
 {

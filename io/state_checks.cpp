@@ -179,6 +179,17 @@ std::optional<Damage> damage_of_blocks(const Model& model, const State& state)
             return Damage{"/blocks/moving_along", "not a direction"};
         last = m.block;
     }
+    last = -1;
+    for (const CreepingBlock& b : state.creeping)
+    {
+        if (b.block <= last || b.block >= blocks.size())
+            return Damage{"/blocks/creeping", "not ascending numbers of blocks"};
+        if (b.looks < 0)
+            return Damage{"/blocks/creeping", "a negative number of looks"};
+        if (!are_finite(b, fields::creeping_way))
+            return Damage{"/blocks/creeping_way", "not a finite number"};
+        last = b.block;
+    }
     if (state.water.size() != (model.water.given ? blocks.present.size() : 0))
         return Damage{"/blocks/water", "not one force a block"};
     for (const Triple& f : state.water)

@@ -189,6 +189,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     if (rules_.contact.law != ContactLaw::springs)
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
+    find_creeping(model, state, team);
     find_groups(model, state, team);
     if (impulses == 0)
         move(model, state, team, now);

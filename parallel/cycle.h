@@ -96,6 +96,7 @@ class CycleRunner
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
     void find_groups(const Model& model, State& state, const Team& team);
+    void find_creeping(const Model& model, State& state, const Team& team);
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);

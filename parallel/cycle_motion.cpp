@@ -4,6 +4,7 @@
 #include "core/boundary/side_forces.h"
 #include "core/contact/block_forces.h"
 #include "core/detection/bearing_force.h"
+#include "core/motion/creeping_blocks.h"
 #include "core/motion/flight.h"
 #include "core/motion/integrator.h"
 #include "core/motion/rest.h"
@@ -35,6 +36,8 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
             note_bearing_forces(range, work_.block_contacts, state.contacts, state.blocks);
     for (const Index b : part.bolted)
         state.blocks.rest[b] = 0;
+    if (std::isfinite(rules_.groups.loose_distance))
+        mark_creeping(part.range, state.creeping, state.blocks);
     if (!state.moving.empty() && std::isfinite(rules_.groups.speed))
         mark_moving(part.range, state.moving, state.blocks);
     if (!part.bolted.empty())
@@ -53,6 +56,20 @@ void CycleRunner::find_fast(const Model& model, const State& state, const Team& 
         if (part.speed_squared > rules_.groups.speed * rules_.groups.speed)
             hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
     }
+}
+
+void CycleRunner::find_creeping(const Model& model, State& state, const Team& team)
+{
+    if (!std::isfinite(rules_.groups.loose_distance) || !looks_for_creep(state.cycle - state.stage_begin_cycle))
+        return;
+    team.alone(
+        [&]
+        {
+            std::vector<Index> bolted;
+            for (const BlockPart& part : partition_.blocks)
+                bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
+            watch_creep(model, rules_.groups, state.blocks, bolted, state.creeping);
+        });
 }
 
 void CycleRunner::find_groups(const Model& model, State& state, const Team& team)

@@ -44,6 +44,7 @@ void forget_stage(const StageDef& def, double time_step, State& state)
     state.statics_taken = false;
     state.blocks.step.next = time_step;
     state.moving.clear();
+    state.creeping.clear();
     wake_all(state.blocks);
 }
 

@@ -14,6 +14,7 @@ struct GroupRule
     double speed = std::numeric_limits<double>::infinity();  ///< blocks that are faster, or their rims [m/s]
     bool seeks_rest =
         false;  ///< then blocks that roll and piles that tip are damped, and slow blocks that fast ones drag along are not
+    double loose_distance = std::numeric_limits<double>::infinity();  ///< blocks that moved farther in their stage may creep [m]
 };
 
 /// Free to move in all directions, and to turn.

@@ -50,7 +50,12 @@ GroupRule groups_of(const StageSetting& s, double settling)
 {
     if (s.preset != DampingPreset::automatic || s.damping.local == 0.0 || s.method == Method::impulse)
         return {};
-    return settling > 0.0 ? GroupRule{.speed = 2.0 * settling, .seeks_rest = true} : GroupRule{.speed = s.convergence.mean_speed};
+    if (settling == 0.0)
+        return {.speed = s.convergence.mean_speed};
+    GroupRule rule{.speed = 2.0 * settling, .seeks_rest = true};
+    if (!s.is_driven && !s.loads_change)  // else blocks may go one way with what moves them
+        rule.loose_distance = s.convergence.loose_distance;
+    return rule;
 }
 
 /// Where forces of excavated blocks are taken off slowly, cycles and a static solution come to the same answer (verification/README.md, statics.slow); where they vanish at once,
@@ -149,7 +154,8 @@ StageRules approach_rules(const Model& model, const State& state)
     StageSetting setting = setting_of(model, state);
     setting.method = Method::force;
     StageRules rules = resolve_rules(setting);
-    rules.damping.frees_sliding = false;  // what slides is not to go far, but to be named
+    rules.damping.frees_sliding = false;                                    // what slides is not to go far, but to be named
+    rules.groups.loose_distance = std::numeric_limits<double>::infinity();  // nor what creeps
     return rules;
 }
 

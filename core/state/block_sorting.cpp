@@ -112,6 +112,9 @@ void sort_blocks(Model& model, State& state)
     for (MovingBlock& moving : state.moving)
         moving.block = moved.block[moving.block];
     std::ranges::sort(state.moving, {}, &MovingBlock::block);
+    for (CreepingBlock& creeping : state.creeping)
+        creeping.block = moved.block[creeping.block];
+    std::ranges::sort(state.creeping, {}, &CreepingBlock::block);
     move_contacts(moved, state.contacts);
     state.contacts_outdated = true;
 }

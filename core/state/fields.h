@@ -104,6 +104,9 @@ inline constexpr auto released_force = [](auto& f) { return std::tie(f.x, f.y, f
 // MovingBlock:
 inline constexpr auto moving_block = [](auto& m) { return std::tie(m.block, m.how); };
 inline constexpr auto moving_along = [](auto& m) { return std::tie(m.t_x, m.t_y); };
+// CreepingBlock:
+inline constexpr auto creeping_block = [](auto& b) { return std::tie(b.block, b.looks); };
+inline constexpr auto creeping_way = [](auto& b) { return std::tie(b.x, b.y, b.turn, b.by_x, b.by_y, b.by_turn); };
 // Triple:
 inline constexpr auto triple = [](auto& f) { return std::tie(f.x, f.y, f.w); };
 // BoltRecord:
@@ -117,6 +120,7 @@ inline constexpr auto liner_record = [](auto& l)
 { return std::tie(l.thrust, l.moment, l.displacement, l.parted, l.stored, l.spent); };
 static_assert(listed<ReleasedForce>(released_block, released_force) == field_count<ReleasedForce>());
 static_assert(listed<MovingBlock>(moving_block, moving_along) == field_count<MovingBlock>());
+static_assert(listed<CreepingBlock>(creeping_block, creeping_way) == field_count<CreepingBlock>());
 static_assert(listed<Triple>(triple) == field_count<Triple>());
 static_assert(listed<BoltRecord>(bolt_status, bolt_record) == field_count<BoltRecord>());
 static_assert(listed<LinerRecord>(liner_installed, liner_counts, liner_record) == field_count<LinerRecord>());

@@ -39,6 +39,15 @@ struct MovingBlock
     float t_x = 1.0F, t_y = 0.0F;  ///< direction of the joints on which it slides [-]
 };
 
+/// A loose block that is slow (core/motion/creeping_blocks.h), as last looked at.
+struct CreepingBlock
+{
+    Index block = no_index;
+    std::int32_t looks = 0;                        ///< in succession at which it had gone on in the same direction
+    double x = 0.0, y = 0.0, turn = 0.0;           ///< where it was [m]; its rotation times its radius [m]
+    double by_x = 0.0, by_y = 0.0, by_turn = 0.0;  ///< way since the look before [m]
+};
+
 struct State
 {
     Blocks blocks;
@@ -47,6 +56,7 @@ struct State
     std::vector<Index> next_to_excavation;  ///< blocks that touched what was excavated, ascending
     std::vector<ReleasedForce> released;    ///< still to be removed in the running stage, ascending by block
     std::vector<MovingBlock> moving;        ///< as last found, ascending by block
+    std::vector<CreepingBlock> creeping;    ///< loose slow blocks that may creep, ascending by block
     std::vector<Triple> water;     ///< forces and moments of water, one a block, as last found; empty without water [N], [N m]
     std::int64_t water_until = 0;  ///< cycle up to which they hold
     SupportState support;

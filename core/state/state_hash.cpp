@@ -48,11 +48,12 @@ struct NamedBlocks
     std::vector<Index> next_to_excavation;
     std::vector<ReleasedForce> released;
     std::vector<MovingBlock> moving;
+    std::vector<CreepingBlock> creeping;
 };
 
 NamedBlocks in_user_order(const Model& model, const State& state)
 {
-    NamedBlocks named{state.next_to_excavation, state.released, state.moving};
+    NamedBlocks named{state.next_to_excavation, state.released, state.moving, state.creeping};
     for (Index& block : named.next_to_excavation)
         block = model.user_number[block];
     std::ranges::sort(named.next_to_excavation);
@@ -62,6 +63,9 @@ NamedBlocks in_user_order(const Model& model, const State& state)
     for (MovingBlock& moving : named.moving)
         moving.block = model.user_number[moving.block];
     std::ranges::sort(named.moving, {}, &MovingBlock::block);
+    for (CreepingBlock& creeping : named.creeping)
+        creeping.block = model.user_number[creeping.block];
+    std::ranges::sort(named.creeping, {}, &CreepingBlock::block);
     return named;
 }
 

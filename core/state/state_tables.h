@@ -56,7 +56,7 @@ void for_each_counter(AnyState& state, const Use& use)
     use("feature_searches", state.feature_searches);
 }
 static_assert(field_count<Steps>() == 2 && field_count<WorstResidual>() == 3 && field_count<SupportState>() == 3 &&
-                  field_count<State>() == 34,
+                  field_count<State>() == 35,
               "a new member needs its line above, or its list");
 
 /// Memory of the ends of the running stage.
@@ -100,12 +100,14 @@ void for_each_of_blocks(AnyState& state, const Use& use)
         use(As<double>{}, "/blocks/water", state.water, fields::triple);
 }
 
-/// Blocks that move together.
+/// Blocks that move together, or creep.
 template <typename AnyState, typename Use>
 void for_each_of_groups(AnyState& state, const Use& use)
 {
     use(As<std::int32_t>{}, "/blocks/moving", state.moving, fields::moving_block);
     use(As<float>{}, "/blocks/moving_along", state.moving, fields::moving_along);
+    use(As<std::int32_t>{}, "/blocks/creeping", state.creeping, fields::creeping_block);
+    use(As<double>{}, "/blocks/creeping_way", state.creeping, fields::creeping_way);
 }
 
 /// One row a block, of values that each cycle finds anew before it uses them. They are saved because observers of a state read them; the run does not depend on them.

@@ -214,6 +214,8 @@ TEST(CheckpointReader, RefusesAnotherVersionAndAnotherModel)
     change("version", {3, 0});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 3.0 (this hdem"));
     change("version", {2, 7});
+    EXPECT_THAT(refusal_of(file), testing::HasSubstr("version = 2.7 (this hdem"));
+    change("version", {2, 8});
     EXPECT_EQ(refusal_of(file), "accepted");
     change("model_hash", {5});
     EXPECT_THAT(refusal_of(file), testing::HasSubstr("Go on with the hdem that wrote it"));

@@ -59,6 +59,7 @@ inline std::pair<Model, State> run_with_everything()
     State state = simulation.state();
     state.came_loose = {{.stage = 1, .block = 3}};  // as static solutions leave them, which there are none of with such joints
     state.moving = {{.block = 2}, {.block = 5, .how = FreeMotion::flies, .t_x = 0.6F, .t_y = 0.8F}};  // nothing falls here
+    state.creeping = {{.block = 1, .looks = 3, .x = 0.5}, {.block = 4, .by_turn = -1e-6}};
     state.statics = {{.stage = 1, .end = StaticEnd::balanced, .iterations = 7, .residual = 1e-9}};
     return {simulation.model(), std::move(state)};
 }

@@ -96,6 +96,10 @@ TEST_F(StateChecks, TellOfBlocksThatDoNotFit)
         {[](State& s) { s.moving[1].block = 2; }, "/blocks/moving", "not ascending numbers of blocks"},
         {[](State& s) { s.moving[1].how = static_cast<FreeMotion>(4); }, "/blocks/moving", "an unknown motion"},
         {[](State& s) { s.moving[1].t_x = std::numeric_limits<float>::infinity(); }, "/blocks/moving_along", "not a direction"},
+        {[](State& s) { s.creeping[1].block = 1; }, "/blocks/creeping", "not ascending numbers of blocks"},
+        {[](State& s) { s.creeping[1].block = s.blocks.size(); }, "/blocks/creeping", "not ascending numbers of blocks"},
+        {[](State& s) { s.creeping[1].looks = -1; }, "/blocks/creeping", "a negative number of looks"},
+        {[](State& s) { s.creeping[1].by_x = no_number; }, "/blocks/creeping_way", "not a finite number"},
         {[](State& s) { s.water.pop_back(); }, "/blocks/water", "not one force a block"},
         {[](State& s) { s.water[3].w = no_number; }, "/blocks/water", "not a force"},
     });
