@@ -55,7 +55,7 @@ class OlderVersions(unittest.TestCase):
 
     def test_checkpoints_of_another_version_are_refused_and_stay_as_they_are(self):
         folder = small_case.run(HDEM, self.root)
-        for version in ([1, 0], [2, 0], [2, 1], [2, 9], [3, 0]):
+        for version in ([1, 0], [2, 0], [2, 7], [2, 9], [3, 0]):
             for name in ("checkpoint.h5", "checkpoint.previous.h5"):
                 if (folder / name).exists():
                     with h5py.File(folder / name, "r+") as opened:
@@ -63,7 +63,7 @@ class OlderVersions(unittest.TestCase):
             before = {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}
             refused = subprocess.run([HDEM, "run", "--restart", folder], capture_output=True, text=True, check=False)
             self.assertEqual(refused.returncode, 2)
-            self.assertRegex(refused.stderr, rf"checkpoint.h5: version = {version[0]}\.{version[1]} \(this hdem \S+ reads version 2\.7\)\. "
+            self.assertRegex(refused.stderr, rf"checkpoint.h5: version = {version[0]}\.{version[1]} \(this hdem \S+ reads version 2\.8\)\. "
                                              r"Go on with the hdem that wrote it: \S+, commit \w+\.\n$")
             self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}, before)
             again = subprocess.run([HDEM, "run", self.root / "small.toml", "-o", folder, "--quiet"], capture_output=True, text=True, check=False)
