@@ -1,4 +1,5 @@
 #include "core/motion/creeping_blocks.h"
+#include "core/stage/rules.h"
 #include "parallel/stages.h"
 #include "verification/unit/block_pair.h"
 #include "verification/unit/case_run.h"
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -137,6 +139,41 @@ TEST_F(WatchCreep, MarksWhatCreepsAsIfNoJointBoreIt)
     mark_creeping({0, blocks().size()}, slow_, blocks());
     EXPECT_EQ(blocks().force[a_].mobilised, -1.0F);
     EXPECT_EQ(blocks().force[a_].reserve, 0.0);
+}
+
+/// What moves blocks along may move them one way, and the cycles that approach a static solution are to name what moves.
+TEST(CreepingBlocks, AreLookedForWhereRestIsSoughtOnly)
+{
+    const DampingDef damping{.local = 0.8};
+    const ConvergenceDef convergence{.loose_distance = 0.07};
+    const StageSetting rest{.damping = damping, .convergence = convergence, .until_converged = true};
+    EXPECT_EQ(resolve_rules(rest).groups.loose_distance, 0.07);
+    const auto never = std::numeric_limits<double>::infinity();
+    StageSetting other = rest;
+    other.until_converged = false;
+    EXPECT_EQ(resolve_rules(other).groups.loose_distance, never);
+    other = rest;
+    other.preset = DampingPreset::paper;
+    EXPECT_EQ(resolve_rules(other).groups.loose_distance, never);
+    other = rest;
+    other.is_driven = true;
+    EXPECT_EQ(resolve_rules(other).groups.loose_distance, never);
+    other = rest;
+    other.loads_change = true;
+    EXPECT_EQ(resolve_rules(other).groups.loose_distance, never);
+    CaseDef scene = scenes::block_on_ground();
+    scene.stages = {{.name = "rest", .until_converged = true}};
+    const CaseRun run(scene);
+    EXPECT_LT(resolve_rules(run.model(), run.state()).groups.loose_distance, 1.0);
+    EXPECT_EQ(approach_rules(run.model(), run.state()).groups.loose_distance, never);
+}
+
+TEST(CreepingBlocks, AreForgottenWhereAStageBegins)
+{
+    CaseDef scene = scenes::block_on_ground();
+    scene.stages = {{.name = "rest", .until_converged = true}};
+    const CaseRun run(scene, [](const Model& model, State& state) { state.creeping = {{.block = model.find_block("block")}}; });
+    EXPECT_TRUE(run.state().creeping.empty());
 }
 
 /// Four blocks with hollow corners that fall into a bin and lean on its walls (rest.concave, scene 44).

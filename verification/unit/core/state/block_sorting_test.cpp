@@ -61,6 +61,8 @@ TEST(BlockSorting, LeavesSmallModelsAlone)
 TEST(BlockSorting, KeepsNamesNumbersStateAndContactHistory)
 {
     Wall wall(30);
+    wall.state.moving = {{.block = 2}, {.block = 500, .how = FreeMotion::flies}};
+    wall.state.creeping = {{.block = 3, .looks = 4, .x = 0.5}, {.block = 600, .by_y = -1e-6}};
     const Wall before = wall;
     wall.shuffle();
     EXPECT_NE(wall.model.user_number, before.model.user_number);
