@@ -18,6 +18,18 @@
 
 namespace hdem
 {
+namespace
+{
+/// The blocks that all parts list.
+std::vector<Index> all_of(const std::vector<BlockPart>& parts, std::vector<Index> BlockPart::*list)
+{
+    std::vector<Index> blocks;
+    for (const BlockPart& part : parts)
+        blocks.insert(blocks.end(), (part.*list).begin(), (part.*list).end());
+    return blocks;
+}
+}  // namespace
+
 void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& part)
 {
     part.ledger = {};
@@ -62,14 +74,8 @@ void CycleRunner::find_creeping(const Model& model, State& state, const Team& te
 {
     if (!std::isfinite(rules_.groups.loose_distance) || !looks_for_creep(state.cycle - state.stage_begin_cycle))
         return;
-    team.alone(
-        [&]
-        {
-            std::vector<Index> bolted;
-            for (const BlockPart& part : partition_.blocks)
-                bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
-            watch_creep(model, rules_.groups, state.blocks, bolted, state.creeping);
-        });
+    team.alone([&]
+               { watch_creep(model, rules_.groups, state.blocks, all_of(partition_.blocks, &BlockPart::bolted), state.creeping); });
 }
 
 void CycleRunner::find_groups(const Model& model, State& state, const Team& team)
@@ -84,18 +90,12 @@ void CycleRunner::find_groups(const Model& model, State& state, const Team& team
     team.alone(
         [&]
         {
-            std::vector<Index> fast, bolted;
-            for (const BlockPart& part : partition_.blocks)
-            {
-                if (among_all)
-                    fast.insert(fast.end(), part.fast.begin(), part.fast.end());
-                bolted.insert(bolted.end(), part.bolted.begin(), part.bolted.end());
-            }
+            std::vector<Index> fast = among_all ? all_of(partition_.blocks, &BlockPart::fast) : std::vector<Index>();
             for (const MovingBlock& known : state.moving)
                 if (!among_all && std::ranges::binary_search(partition_.blocks[known.block / blocks_a_part].fast, known.block))
                     fast.push_back(known.block);
             const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
-            groups_.find(model, rules_.groups, fast, bolted, ties, state.moving);
+            groups_.find(model, rules_.groups, fast, all_of(partition_.blocks, &BlockPart::bolted), ties, state.moving);
         });
 }
 

@@ -3,6 +3,7 @@
 #include "core/geometry/space_curve.h"
 #include "core/model/block_order.h"
 #include "core/state/fields.h"
+#include "core/state/renumber.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -106,15 +107,9 @@ void sort_blocks(Model& model, State& state)
     for (Index& block : state.next_to_excavation)
         block = moved.block[block];
     std::sort(state.next_to_excavation.begin(), state.next_to_excavation.end());
-    for (ReleasedForce& force : state.released)
-        force.block = moved.block[force.block];
-    std::ranges::sort(state.released, {}, &ReleasedForce::block);
-    for (MovingBlock& moving : state.moving)
-        moving.block = moved.block[moving.block];
-    std::ranges::sort(state.moving, {}, &MovingBlock::block);
-    for (CreepingBlock& creeping : state.creeping)
-        creeping.block = moved.block[creeping.block];
-    std::ranges::sort(state.creeping, {}, &CreepingBlock::block);
+    renumber(moved.block, state.released);
+    renumber(moved.block, state.moving);
+    renumber(moved.block, state.creeping);
     move_contacts(moved, state.contacts);
     state.contacts_outdated = true;
 }

@@ -1,6 +1,7 @@
 #include "core/state/state_hash.h"
 
 #include "core/state/hash_stream.h"
+#include "core/state/renumber.h"
 #include "core/state/state_tables.h"
 
 #include <algorithm>
@@ -57,15 +58,9 @@ NamedBlocks in_user_order(const Model& model, const State& state)
     for (Index& block : named.next_to_excavation)
         block = model.user_number[block];
     std::ranges::sort(named.next_to_excavation);
-    for (ReleasedForce& force : named.released)
-        force.block = model.user_number[force.block];
-    std::ranges::sort(named.released, {}, &ReleasedForce::block);
-    for (MovingBlock& moving : named.moving)
-        moving.block = model.user_number[moving.block];
-    std::ranges::sort(named.moving, {}, &MovingBlock::block);
-    for (CreepingBlock& creeping : named.creeping)
-        creeping.block = model.user_number[creeping.block];
-    std::ranges::sort(named.creeping, {}, &CreepingBlock::block);
+    renumber(model.user_number, named.released);
+    renumber(model.user_number, named.moving);
+    renumber(model.user_number, named.creeping);
     return named;
 }
 
