@@ -44,6 +44,8 @@ struct DampingRule
     LocalDamping form = LocalDamping::by_axis;
     double settling =
         0.0;  ///< below this speed (along the joint, or of the rim) all of local damping acts, above twice this speed only what unused friction allows [m/s]
+    double turning = std::numeric_limits<
+        double>::infinity();  ///< from this speed on damping that turns a motion gives no energy (most_at_turn) [m/s]
     bool follows_support =
         false;                  ///< local damping opposes motions against `support`: a block that rides on a base is at rest there
     SupportMotion support;      ///< of this cycle
@@ -64,7 +66,8 @@ struct BasicBlockDamping
     bool slides = false;     ///< one of the blocks slides; else local_across is local, and braking is 0
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
     LocalDamping form = LocalDamping::by_axis;
-    double settling = 0.0;  ///< [m/s]
+    double settling = 0.0;                                     ///< [m/s]
+    double turning = std::numeric_limits<double>::infinity();  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -117,7 +120,8 @@ template <typename R>
             .slides = some,
             .global = select(acting.impulses, R(rule.global), none),
             .form = rule.form,
-            .settling = rule.settling};
+            .settling = rule.settling,
+            .turning = rule.turning};
 }
 
 /// Force left of `force` once local damping has opposed the motion:
@@ -141,21 +145,46 @@ template <typename R>
     return force - select(velocity > zero, drag, select(velocity < zero, -drag, zero));
 }
 
+/// Share of a motion that counts as slow: 1 up to the speed, 0 from twice of it on.
+template <typename R>
+[[nodiscard]] inline R slow_share(R speed, double slow)
+{
+    const R zero = 0.0;
+    return slow > 0.0 ? max(min(R(2.0) - speed / R(slow), R(1.0)), zero) : zero;
+}
+
+/// Greatest damping force in the cycle in which `force` turns a motion round, from p / dt to q / dt = p / dt + F, p and q momenta [N]. Damping opposes q but works along
+/// p + q, so it gives energy where |q| < |p|. Fast motions lose only what keeps the energy on a spring least, slow ones are stopped as ever:
+///
+///   |F_d| <= max(|q| - 2 |p|, (|q| - |p|) / 2, 0) / dt   of fast motions, |q| / dt of slow ones (slow = 1)
+///
+/// (core/tried.md: other forms. At all speeds, vibration would hold back what begins to tip.)
+template <typename R>
+[[nodiscard]] inline R most_at_turn(R before, R after, R slow)
+{
+    const R zero = 0.0;
+    const R p = abs(before), q = abs(after);
+    const R fast = max(max(q - R(2.0) * p, R(0.5) * (q - p)), zero);
+    return select(before * after < zero, fast + slow * (q - fast), q);
+}
+
 /// The same with sgn of the velocity at the end of the step, and no more than stops the block there:
 ///
 ///   F_d = m v / dt + F,  |F_d| <= alpha |F|
 ///
 /// Never turns a motion round, and is stable wherever the springs are without damping. For slow motions it differs from the form above in one cycle of each
 /// turning point.
+/// @param slow   share of the motion that counts as slow, see most_at_turn [-]
 /// @param limit  greatest damping force [N]
 template <typename R>
-[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha,
+[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha, R slow = 1.0,
                                           R limit = std::numeric_limits<double>::infinity())
 {
     const R zero = 0.0;
     const auto is_free = inverse_mass > zero;
-    const R stop = velocity / (select(is_free, inverse_mass, R(1.0)) * dt) + force;
-    const R most = min(alpha * abs(force), limit);
+    const R before = velocity / (select(is_free, inverse_mass, R(1.0)) * dt);
+    const R stop = before + force;
+    const R most = min(min(alpha * abs(force), limit), most_at_turn(before, stop, slow));
     return select(is_free, force - max(min(stop, most), -most), force);
 }
 
@@ -165,14 +194,6 @@ struct DampedForce
 {
     R x, y;
 };
-
-/// Share of local damping that acts on slow motions whatever friction has left: 1 up to the speed, 0 from twice of it on.
-template <typename R>
-[[nodiscard]] inline R settling_share(R speed, double settling)
-{
-    const R zero = 0.0;
-    return settling > 0.0 ? max(min(R(2.0) - speed / R(settling), R(1.0)), zero) : zero;
-}
 
 /// Local damping of translation. A block that can move along one axis only is damped along it.
 template <typename R>
@@ -186,14 +207,15 @@ template <typename R>
     const R m = acting.t_x * acting.y - acting.t_y * acting.x;
     const auto along = [&](R force, R velocity, R inverse_mass)
     {
-        const R limit = acting.reserve + settling_share(abs(velocity), damping.settling) * damping.local * abs(force);
-        return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, limit);
+        const R limit = acting.reserve + slow_share(abs(velocity), damping.settling) * damping.local * abs(force);
+        return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, slow_share(abs(velocity), damping.turning),
+                                  limit);
     };
     const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
     const R v_m = acting.t_x * vy - acting.t_y * vx;
-    const R across = damping.slides ? max(damping.local_across, settling_share(abs(v_m), damping.settling) * damping.local)
+    const R across = damping.slides ? max(damping.local_across, slow_share(abs(v_m), damping.settling) * damping.local)
                                     : damping.local;
-    const R damped_m = stopped_by_damping(m, v_m, inertia.inverse_mass_x, dt, across);
+    const R damped_m = stopped_by_damping(m, v_m, inertia.inverse_mass_x, dt, across, slow_share(abs(v_m), damping.turning));
     const DampedForce<R> damped = {acting.t_x * damped_t - acting.t_y * damped_m, acting.t_y * damped_t + acting.t_x * damped_m};
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
     if (!any(on_axis))
@@ -221,9 +243,10 @@ template <typename R>
 {
     if (damping.form == LocalDamping::by_axis)
         return locally_damped(acting.moment, w, damping.local_rotation);
-    const R slow = settling_share(abs(w) * radius, damping.settling);
+    const R rim = abs(w) * radius;
+    const R slow = slow_share(rim, damping.settling);
     const R damped = stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt,
-                                        max(damping.local_rotation, slow * damping.local));
+                                        max(damping.local_rotation, slow * damping.local), slow_share(rim, damping.turning));
     if (!damping.slides)
         return damped;
     return damped + braked_rotation(acting.moment, w, inertia.inverse_inertia, dt, (R(1.0) - slow) * damping.braking);

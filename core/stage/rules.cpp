@@ -44,6 +44,9 @@ constexpr double settling_speeds = 40.0;
 /// Of the same: while rock that stands is faster a given step is kept.
 constexpr double slow_speeds = 10.0;
 
+/// Rock that vibrates is slower, blocks that hit are faster [m/s] (core/tried.md, "Damping in the cycle in which a motion turns round").
+constexpr double impact_speed = 0.04;
+
 /// Blocks that fall or slide together are free of local damping. Where rest is looked for slower ones are damped in any case; elsewhere as soon as they are faster than
 /// rock at rest.
 GroupRule groups_of(const StageSetting& s, double settling)
@@ -123,6 +126,7 @@ StageRules resolve_rules(const StageSetting& s)
                         .global = 2.0 * s.damping.global_damping_ratio * s.damping.average_frequency,
                         .form = s.preset == DampingPreset::automatic ? LocalDamping::along_joint : LocalDamping::by_axis,
                         .settling = settling,
+                        .turning = impact_speed,
                         .follows_support = s.preset == DampingPreset::automatic && s.is_driven && !s.moves_walls},
             .groups = groups_of(s, settling),
             .step = {.varies = looks_for_rest && is_steady && !s.times_to_come,

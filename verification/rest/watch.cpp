@@ -11,7 +11,7 @@ namespace hdem::verification::rest
 namespace
 {
 constexpr double beyond_energy = 0.01;
-constexpr std::int64_t energy_every = 8;  // cycles
+constexpr std::int64_t energy_span = 4;  // cycles
 constexpr double
     settling = 1e-3;  // of a block's size: where nothing moves farther, energies count against the weight's work along it
 }  // namespace
@@ -27,8 +27,7 @@ void EnergyWatch::observe(const Model& model, const State& state)
             greatest_energy_ += state.blocks.is_free(i) ? settling * model.size(i) * model.mass[i] * model.gravity.norm() : 0.0;
         }
     look_at_speeds(model, state);
-    if (state.cycle % energy_every == 0)
-        look_at_energy(model, state);
+    look_at_energy(model, state);
 }
 
 void EnergyWatch::look_at_speeds(const Model& model, const State& state)
@@ -56,8 +55,13 @@ void EnergyWatch::look_at_energy(const Model& model, const State& state)
     const StoredEnergy stored = stored_energy(model, state);
     const double energy = stored.total() - stored.pending - state.ledger.gravity_work - state.ledger.load_work -
                           state.ledger.boundary - state.ledger.water;
-    least_energy_ = std::min(least_energy_, energy);
-    rise_ = std::max(rise_, energy - least_energy_);
+    span_energy_ = std::max(span_energy_, energy);
+    rise_ = std::max(rise_, span_energy_ - least_energy_);
+    if (state.cycle % energy_span == 0)
+    {
+        least_energy_ = std::min(least_energy_, span_energy_);
+        span_energy_ = -1e300;
+    }
     greatest_energy_ = std::max({greatest_energy_, stored.total(), std::abs(state.ledger.gravity_work)});
     if (state.cycle == 0)
         return;

@@ -30,8 +30,9 @@ class EnergyWatch final : public Observer
     void observe(const Model& model, const State& state) override;
 
     [[nodiscard]] const Peak& peak() const { return peak_; }
-    /// Greatest rise of kinetic and elastic energy less the work of gravity and loads, from any moment to a later one, as a share of the greatest
-    /// energy of the run [-].
+    /// Greatest rise of kinetic and elastic energy less the work of gravity and loads, from any four cycles to a later one, as a share of the greatest
+    /// energy of the run [-]. Of the four, the greatest energy counts: a contact that becomes longer while it is compressed loses energy in one cycle and gives a
+    /// part of it back in the next.
     [[nodiscard]] double rise() const { return greatest_energy_ > 0.0 ? rise_ / greatest_energy_ : 0.0; }
     /// Greatest part of the energy that the ledger does not explain, as a share of its greatest term [-].
     [[nodiscard]] double residual() const { return residual_ > 0.0 ? residual_ / greatest_term_ : 0.0; }
@@ -46,7 +47,8 @@ class EnergyWatch final : public Observer
     std::vector<Vec2> start_;
     double initial_ = 0.0;  ///< kinetic energy at the start [J]
     Peak peak_;
-    double least_energy_ = 1e300;   ///< [J]
+    double span_energy_ = -1e300;   ///< greatest of these cycles so far [J]
+    double least_energy_ = 1e300;   ///< least of earlier spans [J]
     double rise_ = 0.0;             ///< [J]
     double greatest_energy_ = 0.0;  ///< [J]
     double residual_ = 0.0;         ///< [J]
