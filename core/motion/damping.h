@@ -27,6 +27,9 @@ enum class LocalDamping
     along_joint  ///< the components along and across the block's most mobilised joint, against the new velocity (stopped_by_damping)
 };
 
+/// Above all speeds [m/s]
+inline constexpr double no_speed = std::numeric_limits<double>::infinity();
+
 /// How all held blocks move, where they move as one rigid body.
 struct SupportMotion
 {
@@ -66,8 +69,8 @@ struct BasicBlockDamping
     bool slides = false;     ///< one of the blocks slides; else local_across is local, and braking is 0
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
     LocalDamping form = LocalDamping::by_axis;
-    double settling = 0.0;                                     ///< [m/s]
-    double turning = std::numeric_limits<double>::infinity();  ///< [m/s]
+    double settling = 0.0;      ///< [m/s]
+    double turning = no_speed;  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -153,19 +156,21 @@ template <typename R>
     return slow > 0.0 ? max(min(R(2.0) - speed / R(slow), R(1.0)), zero) : zero;
 }
 
-/// Greatest damping force in the cycle in which `force` turns a motion round, from p / dt to q / dt = p / dt + F, p and q momenta [N]. Damping opposes q but works along
-/// p + q, so it gives energy where |q| < |p|. Fast motions lose only what keeps the energy on a spring least, slow ones are stopped as ever:
+/// Greatest damping force in the cycle in which a force F turns a motion round, from `before` p / dt to `after` q / dt = p / dt + F, with p and q momenta [N]. Damping opposes
+/// q but works along p + q, so it gives energy where |q| < |p|. Fast motions lose only what keeps the energy of a block on a spring least, slow ones are stopped:
 ///
-///   |F_d| <= max(|q| - 2 |p|, (|q| - |p|) / 2, 0) / dt   of fast motions, |q| / dt of slow ones (slow = 1)
+///   |F_d| <= max(|q| - 2 |p|, (|q| - |p|) / 2, 0) / dt   of fast motions, |q| / dt of slow ones
 ///
 /// (core/tried.md: other forms. At all speeds, vibration would hold back what begins to tip.)
+/// @param speed  of the motion [m/s]
+/// @param slow   up to this speed it counts as slow, from twice of it on as fast [m/s]
 template <typename R>
-[[nodiscard]] inline R most_at_turn(R before, R after, R slow)
+[[nodiscard]] inline R most_at_turn(R before, R after, R speed, double slow)
 {
     const R zero = 0.0;
     const R p = abs(before), q = abs(after);
     const R fast = max(max(q - R(2.0) * p, R(0.5) * (q - p)), zero);
-    return select(before * after < zero, fast + slow * (q - fast), q);
+    return select((before * after < zero) & (speed > R(slow)), fast + slow_share(speed, slow) * (q - fast), q);
 }
 
 /// The same with sgn of the velocity at the end of the step, and no more than stops the block there:
@@ -174,17 +179,19 @@ template <typename R>
 ///
 /// Never turns a motion round, and is stable wherever the springs are without damping. For slow motions it differs from the form above in one cycle of each
 /// turning point.
-/// @param slow   share of the motion that counts as slow, see most_at_turn [-]
 /// @param limit  greatest damping force [N]
+/// @param speed, slow  see most_at_turn; without them all motions count as slow
 template <typename R>
-[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha, R slow = 1.0,
+[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha, R speed = 0.0, double slow = no_speed,
                                           R limit = std::numeric_limits<double>::infinity())
 {
     const R zero = 0.0;
     const auto is_free = inverse_mass > zero;
     const R before = velocity / (select(is_free, inverse_mass, R(1.0)) * dt);
     const R stop = before + force;
-    const R most = min(min(alpha * abs(force), limit), most_at_turn(before, stop, slow));
+    R most = min(alpha * abs(force), limit);
+    if (slow < no_speed)
+        most = min(most, most_at_turn(before, stop, speed, slow));
     return select(is_free, force - max(min(stop, most), -most), force);
 }
 
@@ -205,17 +212,19 @@ template <typename R>
     const R zero = 0.0;
     const R t = acting.t_x * acting.x + acting.t_y * acting.y;
     const R m = acting.t_x * acting.y - acting.t_y * acting.x;
+    // Nearly all rock is slow: then nothing is to be looked at below.
+    const auto may_be_fast = (damping.local > zero) & (vx * vx + vy * vy > R(0.5 * damping.turning * damping.turning));
+    const double turning = any(may_be_fast) ? damping.turning : no_speed;
     const auto along = [&](R force, R velocity, R inverse_mass)
     {
         const R limit = acting.reserve + slow_share(abs(velocity), damping.settling) * damping.local * abs(force);
-        return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, slow_share(abs(velocity), damping.turning),
-                                  limit);
+        return stopped_by_damping(force, velocity, inverse_mass, dt, damping.local, abs(velocity), turning, limit);
     };
     const R damped_t = along(t, acting.t_x * vx + acting.t_y * vy, inertia.inverse_mass_x);
     const R v_m = acting.t_x * vy - acting.t_y * vx;
     const R across = damping.slides ? max(damping.local_across, slow_share(abs(v_m), damping.settling) * damping.local)
                                     : damping.local;
-    const R damped_m = stopped_by_damping(m, v_m, inertia.inverse_mass_x, dt, across, slow_share(abs(v_m), damping.turning));
+    const R damped_m = stopped_by_damping(m, v_m, inertia.inverse_mass_x, dt, across, abs(v_m), turning);
     const DampedForce<R> damped = {acting.t_x * damped_t - acting.t_y * damped_m, acting.t_y * damped_t + acting.t_x * damped_m};
     const auto on_axis = (inertia.inverse_mass_x == zero) | (inertia.inverse_mass_y == zero);
     if (!any(on_axis))
@@ -243,10 +252,11 @@ template <typename R>
 {
     if (damping.form == LocalDamping::by_axis)
         return locally_damped(acting.moment, w, damping.local_rotation);
-    const R rim = abs(w) * radius;
+    const R zero = 0.0, rim = abs(w) * radius;
     const R slow = slow_share(rim, damping.settling);
     const R damped = stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt,
-                                        max(damping.local_rotation, slow * damping.local), slow_share(rim, damping.turning));
+                                        max(damping.local_rotation, slow * damping.local), rim,
+                                        any((damping.local > zero) & (rim > R(damping.turning))) ? damping.turning : no_speed);
     if (!damping.slides)
         return damped;
     return damped + braked_rotation(acting.moment, w, inertia.inverse_inertia, dt, (R(1.0) - slow) * damping.braking);

@@ -18,7 +18,7 @@ using test::CaseRun;
 RC_GTEST_PROP(LocalDamping, GivesNoEnergyToFastMotions, (int f, int v))
 {
     const double force = f, velocity = v, inverse_mass = 0.5, dt = 0.1;
-    const double left = stopped_by_damping(force, velocity, inverse_mass, dt, 0.8, 0.0);
+    const double left = stopped_by_damping(force, velocity, inverse_mass, dt, 0.8, std::abs(velocity), 1e-9);
     const double after = velocity + left * inverse_mass * dt;
     const double size = std::abs(velocity) + std::abs(force);
     RC_ASSERT((left - force) * (velocity + after) <= 1e-14 * size * size);
