@@ -27,8 +27,8 @@ enum class LocalDamping
     along_joint  ///< the components along and across the block's most mobilised joint, against the new velocity (stopped_by_damping)
 };
 
-/// Above all speeds [m/s]
-inline constexpr double no_speed = std::numeric_limits<double>::infinity();
+/// For a limit that no motion reaches [m/s]
+inline constexpr double above_all_speeds = std::numeric_limits<double>::infinity();
 
 /// How all held blocks move, where they move as one rigid body.
 struct SupportMotion
@@ -47,8 +47,7 @@ struct DampingRule
     LocalDamping form = LocalDamping::by_axis;
     double settling =
         0.0;  ///< below this speed (along the joint, or of the rim) all of local damping acts, above twice this speed only what unused friction allows [m/s]
-    double turning = std::numeric_limits<
-        double>::infinity();  ///< from this speed on damping that turns a motion gives no energy (most_at_turn) [m/s]
+    double turning = above_all_speeds;  ///< from this speed on damping that turns a motion gives no energy (most_at_turn) [m/s]
     bool follows_support =
         false;                  ///< local damping opposes motions against `support`: a block that rides on a base is at rest there
     SupportMotion support;      ///< of this cycle
@@ -69,8 +68,8 @@ struct BasicBlockDamping
     bool slides = false;     ///< one of the blocks slides; else local_across is local, and braking is 0
     R global = 0.0;          ///< alpha_d of Eqs. (20), (21) [1/s]
     LocalDamping form = LocalDamping::by_axis;
-    double settling = 0.0;      ///< [m/s]
-    double turning = no_speed;  ///< [m/s]
+    double settling = 0.0;              ///< [m/s]
+    double turning = above_all_speeds;  ///< [m/s]
 };
 using BlockDamping = BasicBlockDamping<double>;
 
@@ -182,15 +181,15 @@ template <typename R>
 /// @param limit  greatest damping force [N]
 /// @param speed, slow  see most_at_turn; without them all motions count as slow
 template <typename R>
-[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha, R speed = 0.0, double slow = no_speed,
-                                          R limit = std::numeric_limits<double>::infinity())
+[[nodiscard]] inline R stopped_by_damping(R force, R velocity, R inverse_mass, R dt, R alpha, R speed = 0.0,
+                                          double slow = above_all_speeds, R limit = std::numeric_limits<double>::infinity())
 {
     const R zero = 0.0;
     const auto is_free = inverse_mass > zero;
     const R before = velocity / (select(is_free, inverse_mass, R(1.0)) * dt);
     const R stop = before + force;
     R most = min(alpha * abs(force), limit);
-    if (slow < no_speed)
+    if (slow < above_all_speeds)
         most = min(most, most_at_turn(before, stop, speed, slow));
     return select(is_free, force - max(min(stop, most), -most), force);
 }
@@ -214,7 +213,7 @@ template <typename R>
     const R m = acting.t_x * acting.y - acting.t_y * acting.x;
     // Nearly all rock is slow: then nothing is to be looked at below.
     const auto may_be_fast = (damping.local > zero) & (vx * vx + vy * vy > R(0.5 * damping.turning * damping.turning));
-    const double turning = any(may_be_fast) ? damping.turning : no_speed;
+    const double turning = any(may_be_fast) ? damping.turning : above_all_speeds;
     const auto along = [&](R force, R velocity, R inverse_mass)
     {
         const R limit = acting.reserve + slow_share(abs(velocity), damping.settling) * damping.local * abs(force);
@@ -254,9 +253,9 @@ template <typename R>
         return locally_damped(acting.moment, w, damping.local_rotation);
     const R zero = 0.0, rim = abs(w) * radius;
     const R slow = slow_share(rim, damping.settling);
-    const R damped = stopped_by_damping(acting.moment, w, inertia.inverse_inertia, dt,
-                                        max(damping.local_rotation, slow * damping.local), rim,
-                                        any((damping.local > zero) & (rim > R(damping.turning))) ? damping.turning : no_speed);
+    const R damped = stopped_by_damping(
+        acting.moment, w, inertia.inverse_inertia, dt, max(damping.local_rotation, slow * damping.local), rim,
+        any((damping.local > zero) & (rim > R(damping.turning))) ? damping.turning : above_all_speeds);
     if (!damping.slides)
         return damped;
     return damped + braked_rotation(acting.moment, w, inertia.inverse_inertia, dt, (R(1.0) - slow) * damping.braking);

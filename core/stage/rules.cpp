@@ -160,7 +160,7 @@ StageRules approach_rules(const Model& model, const State& state)
     StageRules rules = resolve_rules(setting);
     rules.damping.frees_sliding = false;                                    // what slides is not to go far, but to be named
     rules.groups.loose_distance = std::numeric_limits<double>::infinity();  // nor what creeps
-    rules.damping.turning = no_speed;                                       // what comes away is to be slow
+    rules.damping.turning = above_all_speeds;                               // what comes away is to be slow
     return rules;
 }
 
