@@ -87,6 +87,7 @@ class CycleRunner
     [[nodiscard]] StageSamples& samples_of(const Team& team);
     /// @param is_last  the state is looked at after this cycle
     void evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock);
+    [[nodiscard]] bool may_have_fast(const BlockPart& part) const;
     void find_fast(const Model& model, const State& state, const Team& team);
     void store_tilts(State& state, const Team& team);
     void add_up_contacts(State& state);

@@ -28,6 +28,9 @@ std::vector<Index> all_of(const std::vector<BlockPart>& parts, std::vector<Index
         blocks.insert(blocks.end(), (part.*list).begin(), (part.*list).end());
     return blocks;
 }
+
+/// So few fast blocks are looked at in each cycle: that takes no time.
+constexpr std::size_t few = 128;
 }  // namespace
 
 void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& part)
@@ -56,17 +59,25 @@ void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& par
         hold_by_bolts(work_.bolted, part.range, state.blocks);
 }
 
+bool CycleRunner::may_have_fast(const BlockPart& part) const
+{
+    return part.speed_squared > rules_.groups.speed * rules_.groups.speed;
+}
+
 void CycleRunner::find_fast(const Model& model, const State& state, const Team& team)
 {
     if (!std::isfinite(rules_.groups.speed))
         return;
+    const bool looks = looks_for_groups(state.cycle - state.stage_begin_cycle, !state.moving.empty());
+    std::size_t count = 0;
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         BlockPart& part = partition_.blocks[i];
         part.fast.clear();
-        if (part.speed_squared > rules_.groups.speed * rules_.groups.speed)
+        if ((looks || count <= few) && may_have_fast(part))  // else only the known groups are looked at
             hdem::find_fast(part.range, model, rules_.groups, state.blocks, part.fast);
+        count += part.fast.size();
     }
 }
 
@@ -80,7 +91,6 @@ void CycleRunner::find_creeping(const Model& model, State& state, const Team& te
 
 void CycleRunner::find_groups(const Model& model, State& state, const Team& team)
 {
-    constexpr std::size_t few = 128;  // then looking takes no time
     std::size_t count = 0;
     for (const BlockPart& part : partition_.blocks)
         count += part.fast.size();
@@ -92,7 +102,8 @@ void CycleRunner::find_groups(const Model& model, State& state, const Team& team
         {
             std::vector<Index> fast = among_all ? all_of(partition_.blocks, &BlockPart::fast) : std::vector<Index>();
             for (const MovingBlock& known : state.moving)
-                if (!among_all && std::ranges::binary_search(partition_.blocks[known.block / blocks_a_part].fast, known.block))
+                if (!among_all && may_have_fast(partition_.blocks[known.block / blocks_a_part]) &&
+                    may_group(known.block, model, rules_.groups, state.blocks))
                     fast.push_back(known.block);
             const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
             groups_.find(model, rules_.groups, fast, all_of(partition_.blocks, &BlockPart::bolted), ties, state.moving);

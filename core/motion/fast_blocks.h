@@ -22,6 +22,9 @@ struct GroupRule
 
 [[nodiscard]] bool is_fast(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks);
 
-/// Blocks of `range` that are fast, present and unbound. Appends to `fast`.
+/// Is it fast, present and unbound?
+[[nodiscard]] bool may_group(Index block, const Model& model, const GroupRule& rule, const Blocks& blocks);
+
+/// Blocks of `range` that may form groups, ascending. Appends to `fast`.
 void find_fast(IndexRange range, const Model& model, const GroupRule& rule, const Blocks& blocks, std::vector<Index>& fast);
 }  // namespace hdem

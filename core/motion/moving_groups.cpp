@@ -58,27 +58,44 @@ void MovingGroups::take_outside(Member& member, Index contact, const ContactTies
     member.held = ties.is_somewhere(Tie::sticks, contact);
 }
 
-/// From those that are reached on to all that contacts lead to which let pass.
+/// From those that are reached on to all that contacts lead to which let pass. Most are next to one that comes before them in order: so those are taken
+/// first, and each looks no further than to the first contact that reaches it.
 template <bool MovingGroups::Member::*reached, typename Passes>
 void MovingGroups::flood(const ContactTies& ties, const Passes& passes)
 {
-    queue_.clear();
-    for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
-        if (members_[k].*reached)
-            queue_.push_back(k);
-    while (!queue_.empty())
+    const auto reaches = [&](Index contact, Index next)
     {
-        const Index block = members_[queue_.back()].block;
-        queue_.pop_back();
-        ties.for_contacts(block,
-                          [&](Index contact, Index next)
-                          {
-                              const Index other = place_[next];
-                              if (other == no_index || members_[other].*reached || !passes(contact))
-                                  return;
-                              members_[other].*reached = true;
-                              queue_.push_back(other);
-                          });
+        const Index other = place_[next];
+        return other != no_index && members_[other].*reached && passes(contact);
+    };
+    left_.clear();
+    for (Index k = 0; k < static_cast<Index>(members_.size()); ++k)
+        if (!(members_[k].*reached))
+        {
+            members_[k].*reached = ties.any_contact(members_[k].block, reaches);
+            if (!(members_[k].*reached))
+                left_.push_back(k);
+        }
+    for (const Index from : left_)
+    {
+        if (members_[from].*reached || !ties.any_contact(members_[from].block, reaches))
+            continue;
+        members_[from].*reached = true;
+        queue_.assign(1, from);
+        while (!queue_.empty())
+        {
+            const Index block = members_[queue_.back()].block;
+            queue_.pop_back();
+            ties.for_contacts(block,
+                              [&](Index contact, Index next)
+                              {
+                                  const Index other = place_[next];
+                                  if (other == no_index || members_[other].*reached || !passes(contact))
+                                      return;
+                                  members_[other].*reached = true;
+                                  queue_.push_back(other);
+                              });
+        }
     }
 }
 
@@ -217,8 +234,11 @@ void MovingGroups::find_tipping(const Model& model, const GroupRule& rule, const
         bool together = !rule.seeks_rest && gather_together(ties, group) && group.size() > 1;
         for (const Index block : group)
             members_[place_[block]].search = Search::ended;
-        std::ranges::sort(group);
-        together = together && test(group);
+        if (together)
+        {
+            std::ranges::sort(group);
+            together = test(group);
+        }
         for (std::size_t k = 0; k < group.size() && !together; ++k)
             if (!members_[place_[group[k]]].bolted && turns(group[k]))
             {

@@ -87,6 +87,7 @@ class MovingGroups
     std::vector<Group> groups_;
     std::vector<Vec2> along_;   ///< directions of joints to the outside of the group that is gathered
     std::vector<Index> queue_;  ///< members
+    std::vector<Index> left_;   ///< members that are not reached yet
     std::vector<MovingBlock> before_;
     DraggedBlocks dragged_;
 };

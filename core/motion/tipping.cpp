@@ -20,10 +20,9 @@ struct Bearing
 };
 
 /// @param w  of the block, or of its group [rad/s]
-Bearing bearing_of(Index block, double w, Index contact, int end, const ContactTies& ties)
+Bearing bearing_of(Index block, double w, Index contact, int end, const EdgeTouch& touch, const ContactTies& ties)
 {
     const Contacts& contacts = ties.contacts;
-    const EdgeTouch touch = ties.touch(contact);
     const bool is_ref = contacts.ref[contact] == block;
     const auto place = [&](const TouchPoint& p) -> Vec2
     {
@@ -123,12 +122,12 @@ bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& 
     if (!(std::abs(whole.w) * whole.radius > rule.speed))
         return false;
     TippingTest test(whole, model.gravity, !rule.seeks_rest && group.size() == 1);
-    const auto fails = [&](Index block, Index contact, int end)
+    const auto fails = [&](Index block, Index contact, int end, const EdgeTouch& touch)
     {
         const Tie tie = ties.at(contact, end);
         if (tie == Tie::none)
             return false;
-        Bearing bearing = bearing_of(block, whole.w, contact, end, ties);
+        Bearing bearing = bearing_of(block, whole.w, contact, end, touch, ties);
         const Vec2 from_whole = Vec2(ties.blocks.motion[block].x, ties.blocks.motion[block].y) - whole.centroid;
         bearing.at += from_whole;
         bearing.other += from_whole;
@@ -138,8 +137,10 @@ bool tips(const std::vector<Index>& group, const Model& model, const GroupRule& 
         if (ties.any_contact(block,
                              [&](Index contact, Index other)
                              {
-                                 return ties.do_touch(contact) && !std::ranges::binary_search(group, other) &&
-                                        (fails(block, contact, 0) || fails(block, contact, 1));
+                                 if (!ties.do_touch(contact) || std::ranges::binary_search(group, other))
+                                     return false;
+                                 const EdgeTouch touch = ties.touch(contact);
+                                 return fails(block, contact, 0, touch) || fails(block, contact, 1, touch);
                              }))
             return false;
     return test.is_passed();
