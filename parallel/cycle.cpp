@@ -170,7 +170,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
 
     const bool is_last = now + 1 == run_end_ || state.contacts_outdated;
     evaluate(model, state, team, way.in_run, is_last, clock);
-    find_fast(model, state, team);
+    find_fast(model, state, team, now);
     clock.lap(CycleStage::force);
     team.barrier(
         [&]

@@ -88,7 +88,7 @@ class CycleRunner
     /// @param is_last  the state is looked at after this cycle
     void evaluate(const Model& model, State& state, const Team& team, double gone, bool is_last, StageClock& clock);
     [[nodiscard]] bool may_have_fast(const BlockPart& part) const;
-    void find_fast(const Model& model, const State& state, const Team& team);
+    void find_fast(const Model& model, const State& state, const Team& team, std::int64_t now);
     void store_tilts(State& state, const Team& team);
     void add_up_contacts(State& state);
     void leave_out(const State& state, const Team& team, std::int64_t now);

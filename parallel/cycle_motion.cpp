@@ -64,11 +64,11 @@ bool CycleRunner::may_have_fast(const BlockPart& part) const
     return part.speed_squared > rules_.groups.speed * rules_.groups.speed;
 }
 
-void CycleRunner::find_fast(const Model& model, const State& state, const Team& team)
+void CycleRunner::find_fast(const Model& model, const State& state, const Team& team, std::int64_t now)
 {
     if (!std::isfinite(rules_.groups.speed))
         return;
-    const bool looks = looks_for_groups(state.cycle - state.stage_begin_cycle, !state.moving.empty());
+    const bool looks = looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
     std::size_t count = 0;
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
