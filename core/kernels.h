@@ -7,7 +7,7 @@
 ///     motion/integrator_kernels.cpp                             velocities and positions
 ///     statics/front_kernels.cpp, statics/front_solve.cpp        dense part of the static solver's factorisation
 ///
-/// A build for any x86-64 processor holds two versions: plain, and with AVX2 (kernels_avx2.cpp). contact/contact_forces_wide.cpp is for AVX-512.
+/// A build for any x86-64 processor holds two versions: plain, and with AVX2 (kernels_avx2.cpp). contact/contact_forces_wide.cpp and motion/integrator_wide.cpp are for AVX-512.
 
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"

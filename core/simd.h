@@ -191,6 +191,18 @@ inline Mask operator!(Mask a)
     return {~a.v};
 }
 
+/// One after the other.
+template <typename... Packs>
+inline void add_pack(Pack& sum, Pack first, Packs... others)
+{
+    sum += first;
+    ((sum += others), ...);
+}
+inline void max_pack(Pack& most, Pack a)
+{
+    most = max(most, a);
+}
+
 inline Pack abs(Pack a)
 {
     return max(a, -a);

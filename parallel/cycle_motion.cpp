@@ -131,7 +131,7 @@ double CycleRunner::change_positions(const Model& model, State& state, BlockPart
     for (const IndexRange& range : part.active)
     {
         const Travel travel = update_positions(range, model, state.blocks, pseudo);
-        way = std::max(way, travel.way);
+        way = std::max(way, travel.way(state.blocks.step.next));
         part.speed_squared = std::max(part.speed_squared, travel.speed_squared);
     }
     if (state.flies_ahead && !part.flying.empty())

@@ -44,7 +44,7 @@ void move(const Model& model, StageScratch& scratch)
     VelocityWorks works;
     update_velocities(scratch.all_blocks(), model, resolve_rules(model, scratch.state).damping, scratch.state.blocks, works);
     works.add_to(scratch.state.ledger);
-    benchmark::DoNotOptimize(update_positions(scratch.all_blocks(), model, scratch.state.blocks).way);
+    benchmark::DoNotOptimize(update_positions(scratch.all_blocks(), model, scratch.state.blocks));
 }
 
 bool matches_cycle(benchmark::State& bench, const Simulation& run)

@@ -24,7 +24,7 @@ MAY_USE = {
 FOLDERS = ("core", "parallel", "io", "verification", "perf", "tools")
 
 # Floors of core, by folder or by file name without suffix; whatever is not named here is on the top floor.
-FLOOR = {"types": 1, "simd": 1, "huge_pages": 1, "check": 1, "version": 1, "geometry": 2, "joint": 2, "model": 3, "state": 3}
+FLOOR = {"types": 1, "simd": 1, "wide_pack": 1, "huge_pages": 1, "check": 1, "version": 1, "geometry": 2, "joint": 2, "model": 3, "state": 3}
 TOP_FLOOR = 4
 
 OPENMP = re.compile(r"^omp\.h$")

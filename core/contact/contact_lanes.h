@@ -231,11 +231,6 @@ template <typename F>
     return {__builtin_convertvector(!((a <= limit) & (b <= limit)), Mask::V)};
 }
 
-inline void add_pack(Pack a, Pack& sum)
-{
-    sum += a;
-}
-
 /// Change the sign in lanes of `m`.
 [[nodiscard, gnu::always_inline]] inline Pack turned(Mask m, Pack value)
 {

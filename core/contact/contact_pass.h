@@ -267,12 +267,12 @@ template <ContactLaw law, Joints joints, typename P>
             pass.unrested = true;
         add_tilt_forces<joints>(g, rule.dt, needs.tilts, l, sums);
         store_lane(l, l.last_length, g.length);
-        add_pack(sums.friction, pass.friction);
-        add_pack(sums.changes, pass.changes);
+        add_pack(pass.friction, sums.friction);
+        add_pack(pass.changes, sums.changes);
         if constexpr (joints == Joints::laws)
         {
-            add_pack(sums.dilation, pass.dilation);
-            add_pack(sums.broken, pass.broken);
+            add_pack(pass.dilation, sums.dilation);
+            add_pack(pass.broken, sums.broken);
         }
         store_results<joints>(touch, sums, touching, impulsive, &contacts.swapped[i], i, loads);
     }

@@ -1,154 +1,13 @@
 #pragma once
-/// Eight contacts at once on processors with AVX-512: each lane computes what it does in a Pack of four, so the bits are the same.
-/// Only for contact_forces_wide.cpp, which alone is compiled for these processors and is asked only where has_wide_packs().
+/// Eight contacts at once on processors with AVX-512 (core/wide_pack.h).
 
 #include "core/contact/contact_lanes.h"
+#include "core/wide_pack.h"
 
 #include <immintrin.h>
 
-#include <bit>
-
 namespace hdem
 {
-inline constexpr int wide_lanes = 2 * lanes;
-
-struct WideMask
-{
-    __mmask8 v = 0;
-
-    [[nodiscard]] bool has(int lane) const { return ((v >> lane) & 1) != 0; }
-    void set(int lane) { v = static_cast<__mmask8>(v | (1 << lane)); }
-    void clear(int lane) { v = static_cast<__mmask8>(v & ~(1 << lane)); }
-};
-
-struct WidePack
-{
-    static constexpr int width = wide_lanes;
-    using V = double __attribute__((vector_size(64)));
-    V v;
-
-    WidePack() = default;
-    explicit WidePack(V value) : v(value) {}
-    WidePack(double value) : v{value, value, value, value, value, value, value, value} {}
-};
-
-/// The general template aligns to 32 bytes, less than its members need here, which clang refuses.
-template <>
-struct alignas(64) BasicInertia<WidePack>
-{
-    WidePack inverse_mass_x = 0.0, inverse_mass_y = 0.0, inverse_inertia = 0.0, unused = 0.0;
-};
-
-inline WidePack operator+(WidePack a, WidePack b)
-{
-    return WidePack(a.v + b.v);
-}
-inline WidePack operator-(WidePack a, WidePack b)
-{
-    return WidePack(a.v - b.v);
-}
-inline WidePack operator*(WidePack a, WidePack b)
-{
-    return WidePack(a.v * b.v);
-}
-inline WidePack operator/(WidePack a, WidePack b)
-{
-    return WidePack(a.v / b.v);
-}
-inline WidePack operator-(WidePack a)
-{
-    return WidePack(-a.v);
-}
-inline WidePack& operator+=(WidePack& a, WidePack b)
-{
-    return a = a + b;
-}
-inline WidePack& operator-=(WidePack& a, WidePack b)
-{
-    return a = a - b;
-}
-inline WideMask operator<(WidePack a, WidePack b)
-{
-    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)};
-}
-inline WideMask operator>(WidePack a, WidePack b)
-{
-    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)};
-}
-inline WideMask operator<=(WidePack a, WidePack b)
-{
-    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LE_OQ)};
-}
-inline WideMask operator==(WidePack a, WidePack b)
-{
-    return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_EQ_OQ)};
-}
-inline WideMask operator&(WideMask a, WideMask b)
-{
-    return {static_cast<__mmask8>(a.v & b.v)};
-}
-inline WideMask operator|(WideMask a, WideMask b)
-{
-    return {static_cast<__mmask8>(a.v | b.v)};
-}
-inline WideMask operator!(WideMask a)
-{
-    return {static_cast<__mmask8>(~a.v)};
-}
-inline WidePack select(WideMask m, WidePack yes, WidePack no)
-{
-    return WidePack(_mm512_mask_blend_pd(m.v, no.v, yes.v));
-}
-inline WidePack max(WidePack a, WidePack b)
-{
-    return WidePack(_mm512_max_pd(a.v, b.v));  // b where they are equal, as the Pack of four has it
-}
-inline WidePack min(WidePack a, WidePack b)
-{
-    return WidePack(_mm512_min_pd(a.v, b.v));
-}
-inline WidePack abs(WidePack a)
-{
-    return max(a, -a);
-}
-inline WidePack sqrt(WidePack a)
-{
-    return WidePack(_mm512_sqrt_pd(a.v));
-}
-inline bool any(WideMask m)
-{
-    return m.v != 0;
-}
-
-using WideBits = std::uint64_t __attribute__((vector_size(64)));
-
-inline WideBits bits_of(WidePack x)
-{
-    return std::bit_cast<WideBits>(x.v);
-}
-
-/// How many lanes of masks were set.
-class WideCount
-{
-  public:
-    void add(WideMask m) { count_ += __builtin_popcount(m.v); }
-    [[nodiscard]] std::int64_t total() const { return count_; }
-
-  private:
-    std::int64_t count_ = 0;
-};
-[[nodiscard]] inline WideCount count_of(WideMask)
-{
-    return {};
-}
-
-/// Lane by lane as two Packs that follow each other.
-inline void add_pack(WidePack a, Pack& sum)
-{
-    sum.v += _mm512_castpd512_pd256(a.v);
-    sum.v += _mm512_extractf64x4_pd(a.v, 1);
-}
-
 /// Four lanes of this owner, four of the next.
 template <typename P, typename Owner>
 requires std::is_same_v<P, WidePack>
@@ -173,15 +32,7 @@ template <typename Row>
 [[gnu::always_inline]] inline void load_rows(const Row* rows, const Index* at, std::ptrdiff_t offset, WidePack& a, WidePack& b,
                                              WidePack& c, WidePack& d)
 {
-    const auto row = [=](int i) { return _mm256_loadu_pd(reinterpret_cast<const double*>(rows + at[i]) + offset); };
-    const auto two = [&](int i, int j) { return _mm512_insertf64x4(_mm512_castpd256_pd512(row(i)), row(j), 1); };
-    const __m512d r02 = two(0, 2), r13 = two(1, 3), r46 = two(4, 6), r57 = two(5, 7);
-    const __m512d low_03 = _mm512_unpacklo_pd(r02, r13), high_03 = _mm512_unpackhi_pd(r02, r13);
-    const __m512d low_47 = _mm512_unpacklo_pd(r46, r57), high_47 = _mm512_unpackhi_pd(r46, r57);
-    a.v = _mm512_shuffle_f64x2(low_03, low_47, 0x88);
-    b.v = _mm512_shuffle_f64x2(high_03, high_47, 0x88);
-    c.v = _mm512_shuffle_f64x2(low_03, low_47, 0xdd);
-    d.v = _mm512_shuffle_f64x2(high_03, high_47, 0xdd);
+    load_columns([=](int i) { return reinterpret_cast<const double*>(rows + at[i]) + offset; }, a, b, c, d);
 }
 
 [[nodiscard]] inline __m128i load_eight_bytes(const std::uint8_t* from)

@@ -1,5 +1,5 @@
 #pragma once
-/// Four blocks at once: from the arrays to Packs and back.
+/// As many blocks at once as a pack holds: from the arrays to packs and back. Four; eight of them in wide_blocks.h.
 
 #include "core/motion/damping.h"
 #include "core/state/workspace.h"
@@ -15,23 +15,26 @@ namespace hdem
 {
 inline namespace HDEM_LANES
 {
-/// Run `work(first, count)` for groups of four of `range`; the last may have fewer. For full groups `count` is a compile-time constant, so that its tests vanish.
-template <typename Work>
+/// Run `work(first, count)` for groups of `range` that fill a pack; the last may have fewer. For full groups `count` is a compile-time constant, so that its tests vanish.
+template <typename P, typename Work>
 void for_groups(IndexRange range, const Work& work)
 {
     Index i = range.begin;
-    for (; i + lanes <= range.end; i += lanes)
-        work(i, std::integral_constant<Index, lanes>());
+    for (; i + P::width <= range.end; i += P::width)
+        work(i, std::integral_constant<Index, P::width>());
     if (i < range.end)
         work(i, range.end - i);
 }
 
-/// Columns of up to four rows of four doubles, which begin at from[0], from[stride], ... Rows beyond `count` are zero.
-struct Columns
+/// Columns of rows of four doubles, which begin at from[0], from[stride], ... Rows beyond `count` are zero.
+template <typename P>
+struct Columns;
+
+template <>
+struct Columns<Pack>
 {
     Pack a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 
-    Columns() = default;
     Columns(const double* from, std::ptrdiff_t stride, Index count)
     {
         a = Pack::load(from);
@@ -62,8 +65,12 @@ static_assert(offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) 
 template <typename Entry>
 inline constexpr std::ptrdiff_t row_stride = sizeof(Entry) / sizeof(double);
 
-/// Columns of the members after `reserve` in four BlockForces.
-struct JointColumns
+/// Columns of the members after `reserve` in BlockForces.
+template <typename P>
+struct JointColumns;
+
+template <>
+struct JointColumns<Pack>
 {
     using Words = std::uint32_t __attribute__((vector_size(16)));
     Words mobilised, t_x, t_y, contacts;
@@ -92,32 +99,36 @@ struct JointColumns
     }
 };
 
-[[nodiscard]] inline BasicActing<Pack> load_acting(const BlockForce* force, Index count)
+template <typename P>
+[[nodiscard]] inline BasicActing<P> load_acting(const BlockForce* force, Index count)
 {
-    const Columns f(&force->x, row_stride<BlockForce>, count);
-    const JointColumns joint(force, count);
+    using Joint = JointColumns<P>;
+    const Columns<P> f(&force->x, row_stride<BlockForce>, count);
+    const Joint joint(force, count);
     return {.x = f.a,
             .y = f.b,
             .moment = f.c,
-            .reserve = max(f.d, Pack(0.0)),
-            .mobilised = JointColumns::to_pack(joint.mobilised),
-            .t_x = JointColumns::to_pack(joint.t_x),
-            .t_y = JointColumns::to_pack(joint.t_y),
+            .reserve = max(f.d, P(0.0)),
+            .mobilised = Joint::to_pack(joint.mobilised),
+            .t_x = Joint::to_pack(joint.t_x),
+            .t_y = Joint::to_pack(joint.t_y),
             .springs = joint.have(contact_force),
             .impulses = joint.have(contact_impulse)};
 }
 
-[[nodiscard]] inline BasicInertia<Pack> load_inertia(const BlockInertia* inertia, Index count)
+template <typename P>
+[[nodiscard]] inline BasicInertia<P> load_inertia(const BlockInertia* inertia, Index count)
 {
-    const Columns i(&inertia->inverse_mass_x, row_stride<BlockInertia>, count);
+    const Columns<P> i(&inertia->inverse_mass_x, row_stride<BlockInertia>, count);
     return {i.a, i.b, i.c, i.d};
 }
 
-[[nodiscard]] inline Pack load_some(const double* from, Index count, double otherwise = 0.0)
+template <typename P>
+[[nodiscard]] inline P load_some(const double* from, Index count, double otherwise = 0.0)
 {
-    if (count == lanes)
-        return Pack::load(from);
-    Pack p = otherwise;
+    if (count == P::width)
+        return P::load(from);
+    P p = otherwise;
     for (Index i = 0; i < count; ++i)
         p.v[i] = from[i];
     return p;

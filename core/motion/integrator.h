@@ -25,11 +25,16 @@ struct VelocityWorks
 /// damping to `works`, each force times the mean of the velocities before and after.
 void update_velocities(IndexRange range, const Model& model, const DampingRule& rule, Blocks& blocks, VelocityWorks& works);
 
-/// What blocks did in a cycle.
+/// What blocks do in a cycle: the greatest of each.
 struct Travel
 {
-    double way = 0.0;            ///< bound on the share of its margin that any of them has used up
-    double speed_squared = 0.0;  ///< greatest vx^2 + vy^2 + (w radius)^2, without the position correction [m2/s2]
+    double speed_share = 0.0;    ///< speed of the centroid over the block's margin, squared [1/s2]
+    double rim_share = 0.0;      ///< speed of the rim by rotation over the margin [1/s]
+    double speed_squared = 0.0;  ///< vx^2 + vy^2 + (w radius)^2, without the position correction [m2/s2]
+
+    void take(const Travel& other);
+    /// Bound on the share of its margin that any of them uses up.
+    [[nodiscard]] double way(double dt) const;
 };
 
 /// Step 6: poses from the new velocities (semi-implicit Euler). A turn by w dt is made with the Cayley form, whose result is a unit vector to

@@ -50,7 +50,7 @@ struct alignas(64) BlockForce
 
 /// Inverse mass and inertia, zero where the motion is prescribed.
 template <typename R>
-struct alignas(32) BasicInertia
+struct alignas(32) alignas(R) BasicInertia
 {
     R inverse_mass_x = 0.0;  ///< [1/kg]
     R inverse_mass_y = 0.0;

@@ -10,7 +10,7 @@ if(HDEM_NATIVE)
 endif()
 
 # g++ 12 fuses pairs like (a c - b s, a s + b c) into fmaddsub when it vectorises, in spite of -ffp-contract=off, and the bits then
-# differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into (one file of core has AVX-512 all the same and no vectorisation). This holds for the -march of
+# differ from a portable build. Without FMA (and AVX-512, which brings its own) there is nothing to fuse into (two files of core have AVX-512 all the same and no vectorisation). This holds for the -march of
 # HDEM_NATIVE and for one that the user gives alike, and is asked anew each time, for that may have changed.
 include(CheckCXXSourceCompiles)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" upper_build_type)

@@ -10,7 +10,8 @@ import tempfile
 from pathlib import Path
 
 # Its registers, and what stands in the names of functions on its packs.
-PARTS = {"contact_forces_wide": ("%zmm", "hdem::Wide|lanes_avx512"), "kernels_avx2": ("%ymm", "lanes_avx2")}
+PARTS = {"contact_forces_wide": ("%zmm", "hdem::Wide|lanes_avx512"), "integrator_wide": ("%zmm", "hdem::Wide|lanes_avx512"),
+         "kernels_avx2": ("%ymm", "lanes_avx2")}
 
 
 def problems_of(part, own):

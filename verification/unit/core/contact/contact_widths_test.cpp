@@ -82,36 +82,66 @@ void expect_same(const Pass& a, const Pass& b, const std::string& what)
     EXPECT_EQ(a.tally.slack, b.tally.slack) << what;
 }
 
+/// What blocks are given and do in one cycle.
+struct Moved
+{
+    Blocks blocks;
+    VelocityWorks works;
+    Travel travel;
+};
+
+void expect_same(const Moved& a, const Moved& b, const std::string& what)
+{
+    EXPECT_TRUE(are_same(a.blocks.force, b.blocks.force)) << what;
+    EXPECT_TRUE(are_same(a.blocks.motion, b.blocks.motion)) << what;
+    EXPECT_EQ(std::memcmp(&a.works, &b.works, sizeof a.works), 0) << what;
+    EXPECT_EQ(std::memcmp(&a.travel, &b.travel, sizeof a.travel), 0) << what;
+}
+
+/// Damping in all its forms.
+std::vector<DampingRule> damping_rules()
+{
+    return {{.local = 0.7},
+            {.local = 0.8, .global = 3.0, .form = LocalDamping::along_joint, .settling = 1e-3, .turning = 4e-2},
+            {.local = 0.8, .form = LocalDamping::along_joint, .follows_support = true, .support = {1.0, 2.0, 1e-2, -2e-3, 1e-3}},
+            {.local = 0.5, .form = LocalDamping::along_joint, .turning = 1e-6, .frees_sliding = false}};
+}
+
 /// Forces on blocks, what they move by, and energies of springs.
 void expect_same_motion(const CaseRun& run, const Pass& pass, const std::string& what)
 {
     const State& state = run.state();
+    const Model& model = run.model();
     const IndexRange all{0, state.blocks.size()};
     BlockContacts list;
     list_block_contacts(state.contacts, state.blocks.size(), list);
-    const auto moved_by = [&](const Kernels& by, VelocityWorks& works, Travel& travel)
-    {
-        Blocks blocks = state.blocks;
-        by.sum_loads(all, run.model(), list, pass.loads, {}, true, blocks);
-        by.advance_velocities(all, run.model(), DampingRule{.local = 0.7}, blocks, works);
-        travel = by.advance_positions(all, run.model(), blocks, nullptr);
-        return blocks;
-    };
-    VelocityWorks works[2];
-    Travel travel[2];
-    const Blocks plain = moved_by(plain_kernels(), works[0], travel[0]), fast = moved_by(kernels(), works[1], travel[1]);
-    EXPECT_TRUE(are_same(plain.force, fast.force)) << what;
-    EXPECT_TRUE(are_same(plain.motion, fast.motion)) << what;
-    EXPECT_EQ(std::memcmp(&works[0], &works[1], sizeof works[0]), 0) << what;
-    EXPECT_EQ(travel[0].way, travel[1].way) << what;
-    EXPECT_EQ(travel[0].speed_squared, travel[1].speed_squared) << what;
+    for (const DampingRule& rule : damping_rules())
+        for (const double share : {1.0, 0.9})  // of the last step
+        {
+            std::vector<Triple> pseudo(state.blocks.motion.size(), {1e-3, -2e-3, 1e-3});
+            const auto moved_by = [&](const Kernels& by, auto velocities, auto positions)
+            {
+                Moved moved{.blocks = state.blocks};
+                moved.blocks.step.next *= share;
+                moved.blocks.rest[0] = stopped;
+                by.sum_loads(all, model, list, pass.loads, {}, true, moved.blocks);
+                velocities(all, model, rule, moved.blocks, moved.works);
+                std::vector<Triple> also = pseudo;
+                moved.travel = positions(all, model, moved.blocks, share < 1.0 ? &also : nullptr);
+                return moved;
+            };
+            const auto by_four = [&](const Kernels& by) { return moved_by(by, by.advance_velocities, by.advance_positions); };
+            const Moved plain = by_four(plain_kernels());
+            expect_same(plain, by_four(kernels()), what + ", four at a time");
+            expect_same(plain, moved_by(kernels(), update_velocities, update_positions), what + ", eight at a time");
+        }
     const Index count = state.contacts.size(), eights = (count + lanes - 1) / (2 * lanes) * 2 * lanes;
     const auto energies_by = [&](const Kernels& by, bool wide)
     {
         SpringEnergies sums;
         if (wide && eights > 0)
-            add_spring_energies_by_eight({0, eights}, run.model(), state.blocks, state.contacts, sums);
-        by.add_spring_energies({wide ? eights : 0, count}, run.model(), state.blocks, state.contacts, sums);
+            add_spring_energies_by_eight({0, eights}, model, state.blocks, state.contacts, sums);
+        by.add_spring_energies({wide ? eights : 0, count}, model, state.blocks, state.contacts, sums);
         return sums;
     };
     const SpringEnergies by_plain = energies_by(plain_kernels(), false), by_four = energies_by(kernels(), false);
