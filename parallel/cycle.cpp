@@ -190,7 +190,7 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         for (const ContactPart& part : partition_.contacts)
             impulses += part.tally.impulses;
     find_creeping(model, state, team);
-    find_groups(model, state, team);
+    find_groups(model, state, team, now);
     if (impulses == 0)
         move(model, state, team, now);
     else

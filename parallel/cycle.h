@@ -96,7 +96,7 @@ class CycleRunner
     void mark_woken(const Contacts& contacts);
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
-    void find_groups(const Model& model, State& state, const Team& team);
+    void find_groups(const Model& model, State& state, const Team& team, std::int64_t now);
     void find_creeping(const Model& model, State& state, const Team& team);
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);

@@ -31,6 +31,12 @@ std::vector<Index> all_of(const std::vector<BlockPart>& parts, std::vector<Index
 
 /// So few fast blocks are looked at in each cycle: that takes no time.
 constexpr std::size_t few = 128;
+
+/// Does cycle `now` look for groups among all fast blocks, however many there are? (Not by state.cycle: another thread may have counted on.)
+bool looks_among_all(const State& state, std::int64_t now)
+{
+    return looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
+}
 }  // namespace
 
 void CycleRunner::sum_up_forces(const Model& model, State& state, BlockPart& part)
@@ -68,7 +74,7 @@ void CycleRunner::find_fast(const Model& model, const State& state, const Team& 
 {
     if (!std::isfinite(rules_.groups.speed))
         return;
-    const bool looks = looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
+    const bool looks = looks_among_all(state, now);
     std::size_t count = 0;
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
@@ -89,12 +95,12 @@ void CycleRunner::find_creeping(const Model& model, State& state, const Team& te
                { watch_creep(model, rules_.groups, state.blocks, all_of(partition_.blocks, &BlockPart::bolted), state.creeping); });
 }
 
-void CycleRunner::find_groups(const Model& model, State& state, const Team& team)
+void CycleRunner::find_groups(const Model& model, State& state, const Team& team, std::int64_t now)
 {
     std::size_t count = 0;
     for (const BlockPart& part : partition_.blocks)
         count += part.fast.size();
-    const bool among_all = count <= few || looks_for_groups(state.cycle - state.stage_begin_cycle, !state.moving.empty());
+    const bool among_all = count <= few || looks_among_all(state, now);
     if (!std::isfinite(rules_.groups.speed) || (state.moving.empty() && (count == 0 || !among_all)))
         return;
     team.alone(

@@ -60,7 +60,7 @@ struct BlockPart
     bool is_woken = false;           ///< their contacts with other blocks were, in the last cycle
     std::vector<Index> summed;       ///< blocks whose sums do not form contact by contact, see RunningSums
     std::vector<Index> flying;       ///< blocks with nothing near them
-    std::vector<Index> fast;         ///< blocks that may fall or slide together, in this cycle
+    std::vector<Index> fast;         ///< blocks that may fall or slide together; empty where this cycle looks at known groups alone
     std::vector<Index> pushed;       ///< blocks on which constant forces of sides act
     std::vector<Index> walls;        ///< that move
     std::vector<Index> bolted;       ///< blocks that bolts hold: these never rest
