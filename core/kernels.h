@@ -11,6 +11,7 @@
 
 #include "core/contact/block_forces.h"
 #include "core/contact/contact_forces.h"
+#include "core/contact/running_sums.h"
 #include "core/energy_ledger.h"
 #include "core/motion/integrator.h"
 #include "core/statics/front.h"
@@ -25,8 +26,9 @@ struct Kernels
     /// sum_forces.
     void (*sum_loads)(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                       const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
-    /// RunningSums::add. block_of: the block whose sum takes a load, of `loads` one by one.
-    void (*add_loads)(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
+    /// RunningSums::add.
+    void (*add_loads)(const PartEntries& part, const Model& model, const std::vector<std::uint8_t>& present,
+                      const std::vector<Triple>& external, const ContactLoads& loads, bool find_joint, BlockForce* sums,
                       ContactLoads& kept);
     /// Of stored_energy.
     void (*add_spring_energies)(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,

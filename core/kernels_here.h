@@ -12,7 +12,8 @@ ContactTally evaluate_by_four(IndexRange range, const Model& model, const Regime
                               Contacts& contacts, ContactLoads& loads, const ContactTally& sums, const PassNeeds& needs);
 void sum_loads(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
-void add_loads(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
+void add_loads(const PartEntries& part, const Model& model, const std::vector<std::uint8_t>& present,
+               const std::vector<Triple>& external, const ContactLoads& loads, bool find_joint, BlockForce* sums,
                ContactLoads& kept);
 void add_spring_energies(IndexRange range, const Model& model, const Blocks& blocks, const Contacts& contacts,
                          SpringEnergies& sums);

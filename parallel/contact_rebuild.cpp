@@ -12,7 +12,13 @@ namespace hdem
 {
 namespace
 {
-constexpr Index parts_a_chunk = 512;
+/// Small models are cut into sixteen chunks, so that threads have equal shares of them.
+Index parts_a_chunk(Index parts)
+{
+    constexpr Index least = 32, most = 512, chunks = 16;
+    return std::clamp((parts + chunks - 1) / chunks, least, most);
+}
+
 /// Number of chunks whose contacts wait at the same time to be put into the list: a contact takes more memory by itself than in the list.
 constexpr Index chunks_a_round = 64;
 
@@ -72,9 +78,10 @@ void ContactRebuild::begin(const Model& model)
 {
     const Index parts = model.shapes.parts();
     boxes_.resize(static_cast<std::size_t>(parts));
-    chunks_.resize(static_cast<std::size_t>((parts + parts_a_chunk - 1) / parts_a_chunk));
+    const Index each = parts_a_chunk(parts);
+    chunks_.resize(static_cast<std::size_t>((parts + each - 1) / each));
     for (Index i = 0; i < static_cast<Index>(chunks_.size()); ++i)
-        chunks_[i].parts = {i * parts_a_chunk, std::min(parts, (i + 1) * parts_a_chunk)};
+        chunks_[i].parts = {i * each, std::min(parts, (i + 1) * each)};
 }
 
 void ContactRebuild::find_pairs(Chunk& chunk, const Shapes& shapes) const

@@ -143,8 +143,6 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
         leave_out(state, team, now);
     if (rules_.step.varies)
         update_step(model, rules_.step, state, team, now, renewed, partition_, work_.block_contacts);
-    // close_cycle makes the next step the last one: nobody may go on before.
-    const bool step_changes = state.blocks.step.last != state.blocks.step.next;
     if (rules_.has_loads || rules_.has_support || rules_.moves_walls || rules_.tractions_change || rules_.damping.follows_support)
         team.alone(
             [&]
@@ -175,40 +173,46 @@ bool CycleRunner::cycle(const Model& model, State& state, const Team& team, std:
     team.barrier(
         [&]
         {
-            has_loads_ = !sums_run();
-            if (sums_run())
-                std::swap(state.blocks.force, sums_.sums);
+            close_evaluation(model, state, now);
+            clock.lap(CycleStage::update);
         });
     clock.lap(CycleStage::wait);
-    bool goes_on = !has_stiff_contacts_ || find_unstable_contact() == no_index;
-    for (const ContactPart& part : partition_.contacts)
-        goes_on = goes_on && part.tally.deep == 0;
-    if (!goes_on && !is_last)
+    if (!goes_on_ && !is_last)
+    {
         store_tilts(state, team);
-    Index impulses = 0;
-    if (rules_.contact.law != ContactLaw::springs)
-        for (const ContactPart& part : partition_.contacts)
-            impulses += part.tally.impulses;
-    find_creeping(model, state, team);
-    find_groups(model, state, team, now);
-    if (impulses == 0)
+        team.barrier();  // no block moves before
+    }
+    if (impulses_ == 0)
         move(model, state, team, now);
     else
-        move_with_impulses(model, state, team, now, impulses, clock);
+        move_with_impulses(model, state, team, now, clock);
     clock.lap(CycleStage::update);
-    team.barrier();
+    team.barrier(
+        [&]
+        {
+            close_cycle(model, state);
+            clock.lap(CycleStage::update);
+        });
     clock.lap(CycleStage::wait);
+    way.since_found += farthest_;
+    way.in_run += farthest_;
+    return goes_on_;
+}
 
-    double farthest = 0.0;
-    for (const BlockPart& part : partition_.blocks)
-        farthest = max(farthest, part.way);
-    way.since_found += farthest;
-    way.in_run += farthest;
-    if (team.is_first())
-        close_cycle(model, state);
-    if (rules_.step.varies || rules_.rest.leaves_out || step_changes)
-        team.barrier();  // all read the step and who rests
-    return goes_on;
+void CycleRunner::close_evaluation(const Model& model, State& state, std::int64_t now)
+{
+    has_loads_ = !sums_run();
+    if (sums_run())
+        std::swap(state.blocks.force, sums_.sums);
+    goes_on_ = !has_stiff_contacts_ || find_unstable_contact() == no_index;
+    impulses_ = 0;
+    for (const ContactPart& part : partition_.contacts)
+    {
+        goes_on_ = goes_on_ && part.tally.deep == 0;
+        impulses_ += part.tally.impulses;
+    }
+    find_creeping(model, state, now);
+    find_groups(model, state, now);
 }
 
 void CycleRunner::take_tractions(const Model& model, const State& state)
@@ -229,10 +233,12 @@ void CycleRunner::take_loads(const Model& model, State& state)
 void CycleRunner::close_cycle(const Model& model, State& state)
 {
     bool rest_changed = false;
+    farthest_ = 0.0;
     for (const BlockPart& part : partition_.blocks)
     {
         state.ledger.add(part.ledger);
         rest_changed = rest_changed || part.rest_changed;
+        farthest_ = max(farthest_, part.way);
     }
     if (rules_.has_loads)
     {

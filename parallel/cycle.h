@@ -1,7 +1,7 @@
 #pragma once
 /// The stages of a cycle in their order, and which thread does what.
 
-#include "core/contact/block_forces.h"
+#include "core/contact/running_sums.h"
 #include "core/model/model.h"
 #include "core/motion/moving_groups.h"
 #include "core/motion/rest.h"
@@ -33,7 +33,7 @@ class CycleRunner
           find_rules_(find_rules)
     {
     }
-    /// From here on the loads of contacts fit no cache: their way through memory costs more than sums that are formed contact by contact (perf/measured.md).
+    /// From here on the loads of contacts fit no cache: their way through memory costs more than sums that are formed part by part (perf/measured.md).
     static constexpr Index large_model = 100000;
 
     /// The stages in the order of core/README.md, `cycles` times, or fewer when the order of the blocks in memory has decayed: then contacts are outdated.
@@ -78,6 +78,9 @@ class CycleRunner
     bool run_piece(const Model& model, State& state, std::int64_t first, std::int64_t end, const Team& team, Way& way);
     /// @return  whether the step is small enough for the springs that have begun to act
     bool cycle(const Model& model, State& state, const Team& team, std::int64_t now, Way& way, StageClock& clock);
+    /// What one thread does when all have evaluated their contacts, before any goes on.
+    void close_evaluation(const Model& model, State& state, std::int64_t now);
+    /// The same when all have moved their blocks.
     void close_cycle(const Model& model, State& state);
     void prepare(const Model& model, const State& state);
     void prepare_forces(const Model& model, const State& state);
@@ -96,14 +99,13 @@ class CycleRunner
     void mark_woken(const Contacts& contacts);
     void prepare_sums(const State& state, int threads);
     [[nodiscard]] bool sums_run() const { return sums_run_ && !left_out_; }
-    void find_groups(const Model& model, State& state, const Team& team, std::int64_t now);
-    void find_creeping(const Model& model, State& state, const Team& team);
+    void find_groups(const Model& model, State& state, std::int64_t now);
+    void find_creeping(const Model& model, State& state, std::int64_t now);
     void sum_up_forces(const Model& model, State& state, BlockPart& part);
     void change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part);
     double change_positions(const Model& model, State& state, BlockPart& part, std::vector<Triple>* pseudo);
     void move(const Model& model, State& state, const Team& team, std::int64_t now);
-    void move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
-                            StageClock& clock);
+    void move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, StageClock& clock);
 
     Workspace work_;
     RunningSums sums_;
@@ -119,7 +121,10 @@ class CycleRunner
     ContactRebuild rebuild_;
     Partition partition_;
     std::vector<StageSamples> samples_;
-    double used_ = 0.0;  ///< share of their margins
+    double used_ = 0.0;      ///< share of their margins
+    bool goes_on_ = true;    ///< after this cycle: the step is small enough for the springs that have begun to act
+    Index impulses_ = 0;     ///< contact points of this cycle
+    double farthest_ = 0.0;  ///< share of its margin that some block has used up in this cycle
     std::int64_t contact_point_updates_ = 0;
     FindRules find_rules_;
     StageRules rules_;  ///< of the running stage

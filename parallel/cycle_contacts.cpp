@@ -38,6 +38,7 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, d
 {
     const bool all = !has_loads_ || !left_out_;
     const IndexRange mine = team.share(static_cast<Index>(partition_.contacts.size()));
+    const Index own_end = mine.begin < mine.end ? partition_.contacts[mine.end - 1].range.end : 0;
     for (Index i = mine.begin; i < mine.end; ++i)
     {
         ContactPart& part = partition_.contacts[i];
@@ -57,15 +58,15 @@ void CycleRunner::evaluate(const Model& model, State& state, const Team& team, d
             rule.closing = closing_of(part.answer, state.blocks.step.next);
         const PassNeeds needs{.views = !whole || part.searched > 0 || !(gone <= part.seen_until),
                               .rests = !whole || part.searched > 0 || part.rests,
-                              .tilts = is_last || rules_.rest.leaves_out};
+                              .tilts = is_last || rules_.rest.leaves_out,
+                              .own_end = own_end};
         // Eqs. (1)-(10), (24)-(28)
         if (sums_run())
         {
             ContactLoads& loads = part_loads_[team.member()];
             loads.first = part.range.begin;
-            sums_.begin(part.range, model, state.blocks.present, work_.external);
             part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, loads, part.tally, needs);
-            sums_.add(part.range, loads, rules_.damping.needs_joint(), work_.loads);
+            sums_.add(i, model, state.blocks.present, work_.external, loads, rules_.damping.needs_joint(), work_.loads);
         }
         else if (whole)
             part.tally = evaluate_contacts(part.range, model, rule, state.blocks, state.contacts, work_.loads, part.tally, needs);

@@ -32,7 +32,7 @@ std::vector<Index> all_of(const std::vector<BlockPart>& parts, std::vector<Index
 /// So few fast blocks are looked at in each cycle: that takes no time.
 constexpr std::size_t few = 128;
 
-/// Does cycle `now` look for groups among all fast blocks, however many there are? (Not by state.cycle: another thread may have counted on.)
+/// Does cycle `now` look for groups among all fast blocks, however many there are?
 bool looks_among_all(const State& state, std::int64_t now)
 {
     return looks_for_groups(now - state.stage_begin_cycle, !state.moving.empty());
@@ -87,15 +87,14 @@ void CycleRunner::find_fast(const Model& model, const State& state, const Team& 
     }
 }
 
-void CycleRunner::find_creeping(const Model& model, State& state, const Team& team)
+void CycleRunner::find_creeping(const Model& model, State& state, std::int64_t now)
 {
-    if (!std::isfinite(rules_.groups.loose_distance) || !looks_for_creep(state.cycle - state.stage_begin_cycle))
+    if (!std::isfinite(rules_.groups.loose_distance) || !looks_for_creep(now - state.stage_begin_cycle))
         return;
-    team.alone([&]
-               { watch_creep(model, rules_.groups, state.blocks, all_of(partition_.blocks, &BlockPart::bolted), state.creeping); });
+    watch_creep(model, rules_.groups, state.blocks, all_of(partition_.blocks, &BlockPart::bolted), state.creeping);
 }
 
-void CycleRunner::find_groups(const Model& model, State& state, const Team& team, std::int64_t now)
+void CycleRunner::find_groups(const Model& model, State& state, std::int64_t now)
 {
     std::size_t count = 0;
     for (const BlockPart& part : partition_.blocks)
@@ -103,17 +102,13 @@ void CycleRunner::find_groups(const Model& model, State& state, const Team& team
     const bool among_all = count <= few || looks_among_all(state, now);
     if (!std::isfinite(rules_.groups.speed) || (state.moving.empty() && (count == 0 || !among_all)))
         return;
-    team.alone(
-        [&]
-        {
-            std::vector<Index> fast = among_all ? all_of(partition_.blocks, &BlockPart::fast) : std::vector<Index>();
-            for (const MovingBlock& known : state.moving)
-                if (!among_all && may_have_fast(partition_.blocks[known.block / blocks_a_part]) &&
-                    may_group(known.block, model, rules_.groups, state.blocks))
-                    fast.push_back(known.block);
-            const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
-            groups_.find(model, rules_.groups, fast, all_of(partition_.blocks, &BlockPart::bolted), ties, state.moving);
-        });
+    std::vector<Index> fast = among_all ? all_of(partition_.blocks, &BlockPart::fast) : std::vector<Index>();
+    for (const MovingBlock& known : state.moving)
+        if (!among_all && may_have_fast(partition_.blocks[known.block / blocks_a_part]) &&
+            may_group(known.block, model, rules_.groups, state.blocks))
+            fast.push_back(known.block);
+    const ContactTies ties{state.blocks, state.contacts, work_.block_contacts, rules_.groups.speed};
+    groups_.find(model, rules_.groups, fast, all_of(partition_.blocks, &BlockPart::bolted), ties, state.moving);
 }
 
 void CycleRunner::change_velocities(const Model& model, State& state, std::int64_t now, BlockPart& part)
@@ -174,8 +169,7 @@ void CycleRunner::move(const Model& model, State& state, const Team& team, std::
     }
 }
 
-void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, Index impulses,
-                                     StageClock& clock)
+void CycleRunner::move_with_impulses(const Model& model, State& state, const Team& team, std::int64_t now, StageClock& clock)
 {
     const IndexRange mine = team.share(static_cast<Index>(partition_.blocks.size()));
     for (Index i = mine.begin; i < mine.end; ++i)
@@ -186,7 +180,7 @@ void CycleRunner::move_with_impulses(const Model& model, State& state, const Tea
     clock.lap(CycleStage::update);
     team.barrier();
     clock.lap(CycleStage::wait);
-    apply_impulses(model, rules_.islands, state, team, impulses, partition_, work_);
+    apply_impulses(model, rules_.islands, state, team, impulses_, partition_, work_);
     clock.lap(CycleStage::impulse);
     if (team.is_first())
         add_up_contacts(state);

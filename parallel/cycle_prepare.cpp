@@ -122,14 +122,13 @@ void CycleRunner::prepare_sums(const State& state, int threads)
     sums_run_ = state.contacts.size() >= least_for_sums_;
     if (!sums_run_)
         return;
-    std::vector<IndexRange> shares;
+    std::vector<IndexRange> parts, shares;
+    for (const ContactPart& part : partition_.contacts)
+        parts.push_back(part.range);
     for (int member = 0; member < threads; ++member)
-    {
-        const IndexRange parts = Team(member, threads).share(static_cast<Index>(partition_.contacts.size()));
-        const Index begin = shares.empty() ? 0 : shares.back().end;
-        shares.push_back({begin, parts.begin < parts.end ? partition_.contacts[parts.end - 1].range.end : begin});
-    }
-    sums_.prepare(shares, state.blocks.size(), work_.block_contacts);
+        shares.push_back(Team(member, threads).share(static_cast<Index>(parts.size())));
+    static_assert(largest_part <= RunningSums::most_contacts);
+    sums_.prepare(parts, shares, state.contacts, work_.block_contacts);
     for (BlockPart& part : partition_.blocks)
         part.summed = sums_.others(part.range);
     part_loads_.resize(static_cast<std::size_t>(threads));
@@ -204,7 +203,7 @@ void CycleRunner::leave_out(const State& state, const Team& team, std::int64_t n
         });
 }
 
-/// While sums form contact by contact, to leave out a few contacts saves less than the lists of the others cost (perf/measured.md).
+/// While sums form part by part, to leave out a few contacts saves less than the lists of the others cost (perf/measured.md).
 bool CycleRunner::saves_enough() const
 {
     constexpr Index least_share = 2;  // the half

@@ -58,7 +58,7 @@ struct BlockPart
     std::vector<IndexRange> active;  ///< blocks that are not left out
     std::vector<Index> woken;        ///< in this cycle
     bool is_woken = false;           ///< their contacts with other blocks were, in the last cycle
-    std::vector<Index> summed;       ///< blocks whose sums do not form contact by contact, see RunningSums
+    std::vector<Index> summed;       ///< blocks whose sums do not form part by part, see RunningSums
     std::vector<Index> flying;       ///< blocks with nothing near them
     std::vector<Index> fast;         ///< blocks that may fall or slide together; empty where this cycle looks at known groups alone
     std::vector<Index> pushed;       ///< blocks on which constant forces of sides act

@@ -11,16 +11,13 @@ namespace hdem::perf
 {
 namespace
 {
-/// The machine is looked at between pieces of the measurement.
-constexpr std::int64_t pieces = 10;
-
 void run_cycles(benchmark::State& bench, const std::string& scene, Index blocks, Method method, const std::string& family,
                 int threads)
 {
     static_cast<void>(settled_run(scene, blocks, method, threads));  // generated before memory is looked at
     const std::int64_t resident = resident_bytes();
     Simulation run = settled_run(scene, blocks, method, threads);
-    const auto cycles = std::max<std::int64_t>(10, 4'000'000 / blocks);
+    const std::int64_t cycles = measured_cycles(blocks);
     run.advance(cycles / 5 + 1);
     const double bytes = static_cast<double>(resident_bytes() - resident);
     const std::int64_t before = run.contact_point_updates();

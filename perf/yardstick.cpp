@@ -15,13 +15,11 @@ namespace hdem::perf
 {
 namespace
 {
-constexpr std::int64_t pieces = 10;
-
 template <typename Loop>
 void run_loop(benchmark::State& bench, Index blocks, const std::string& family, int threads)
 {
     Loop loop(static_cast<Index>(std::lround(std::sqrt(blocks))));
-    const auto cycles = std::max<std::int64_t>(10, 4'000'000 / blocks);
+    const std::int64_t cycles = measured_cycles(blocks);
     loop.advance(cycles / 5 + 1, threads);
     Limits limits(threads, blocks >= 100'000);
     Elapsed time;

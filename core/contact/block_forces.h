@@ -38,35 +38,4 @@ void list_block_contacts(const Contacts& contacts, Index blocks, BlockContacts& 
 /// Reads: loads. Writes: force of these blocks; which joint is mobilised most only if `find_joint`, see needs_joint.
 void sum_forces(IndexRange range, const Model& model, const BlockContacts& list, const ContactLoads& loads,
                 const std::vector<Triple>& external, bool find_joint, Blocks& blocks);
-
-/// The same sums, formed contact by contact, so that loads need not go through memory. A sum begins with the block's first contact
-/// and ends with its last one: the bits are the same. Where threads share the contacts, the loads of blocks with contacts in several shares are kept for sum_forces.
-class RunningSums
-{
-  public:
-    /// @param shares  contacts that one thread takes, in their order
-    void prepare(const std::vector<IndexRange>& shares, Index blocks, const BlockContacts& list);
-
-    /// Begin the sums of blocks whose first contact is one of `range`, with weight and external forces.
-    void begin(IndexRange range, const Model& model, const std::vector<std::uint8_t>& present, const std::vector<Triple>& external);
-
-    /// Add the loads of contacts of `range`, of one share.
-    /// Reads: loads, which begin with the range's first contact. Writes: sums, kept loads.
-    void add(IndexRange range, const ContactLoads& loads, bool find_joint, ContactLoads& kept);
-
-    /// The blocks of `range` that need sum_forces: those with contacts in several shares, and those without contacts.
-    [[nodiscard]] std::vector<Index> others(IndexRange range) const;
-
-    std::vector<BlockForce> sums;  ///< of all other blocks, once all shares are added
-
-  private:
-    struct Start
-    {
-        Index contact, block;
-    };
-
-    std::vector<Start> starts_;    ///< first contacts of blocks, ascending
-    std::vector<Index> block_of_;  ///< by entries of BlockContacts; no_index where the load is kept
-    std::vector<Index> others_;    ///< ascending
-};
 }  // namespace hdem

@@ -6,6 +6,8 @@
 #include "core/state/state.h"
 #include "core/state/workspace.h"
 
+#include <limits>
+
 namespace hdem
 {
 /// What a pass does besides the laws. What is not needed can be left out: the results are the same, and a third less memory is touched.
@@ -15,6 +17,8 @@ struct PassNeeds
         true;  ///< look whether incident vertices have left the places at which features were found; false: none has, and no flag is written
     bool rests = true;  ///< some contact may have a rest overlap
     bool tilts = true;  ///< store tilt forces: they are read before the next pass
+    /// Contacts from here on are another thread's: to prefetch their data would take them from its cache.
+    Index own_end = std::numeric_limits<Index>::max();
 };
 
 /// Reads:  motion and inertia of the blocks; features and history of the contacts in `range`.

@@ -262,12 +262,12 @@ template <typename F>
     const FloatLanes bits = std::bit_cast<FloatLanes>((by_springs & std::uint32_t{contact_force}) |
                                                       (others & std::uint32_t{contact_impulse}));
     const FloatLanes m = to_float(mobilised), x = to_float(t_x), y = to_float(t_y);
-    const FloatLanes mx_01 = __builtin_shufflevector(m, x, 0, 4, 1, 5), mx_23 = __builtin_shufflevector(m, x, 2, 6, 3, 7);
-    const FloatLanes yb_01 = __builtin_shufflevector(y, bits, 0, 4, 1, 5), yb_23 = __builtin_shufflevector(y, bits, 2, 6, 3, 7);
+    const FloatLanes bm_01 = __builtin_shufflevector(bits, m, 0, 4, 1, 5), bm_23 = __builtin_shufflevector(bits, m, 2, 6, 3, 7);
+    const FloatLanes xy_01 = __builtin_shufflevector(x, y, 0, 4, 1, 5), xy_23 = __builtin_shufflevector(x, y, 2, 6, 3, 7);
     const auto put = [to](FloatLanes row, int i) { std::memcpy(static_cast<void*>(&to[i]), &row, sizeof row); };
-    put(__builtin_shufflevector(mx_01, yb_01, 0, 1, 4, 5), 0);
-    put(__builtin_shufflevector(mx_01, yb_01, 2, 3, 6, 7), 1);
-    put(__builtin_shufflevector(mx_23, yb_23, 0, 1, 4, 5), 2);
-    put(__builtin_shufflevector(mx_23, yb_23, 2, 3, 6, 7), 3);
+    put(__builtin_shufflevector(bm_01, xy_01, 0, 1, 4, 5), 0);
+    put(__builtin_shufflevector(bm_01, xy_01, 2, 3, 6, 7), 1);
+    put(__builtin_shufflevector(bm_23, xy_23, 0, 1, 4, 5), 2);
+    put(__builtin_shufflevector(bm_23, xy_23, 2, 3, 6, 7), 3);
 }
 }  // namespace hdem

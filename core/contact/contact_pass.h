@@ -182,7 +182,7 @@ template <Joints joints, typename P>
     constexpr Index near = 16, far = 32, beyond_caches = 100'000;
     const auto all = static_cast<Index>(contacts.stale.size());
     const bool is_far = all > beyond_caches;
-    const Index at = std::min(i + (is_far ? far : near), all - P::width);
+    const Index at = std::max(i, std::min(i + (is_far ? far : near), std::min(all, needs.own_end) - P::width));
     if constexpr (joints == Joints::laws)
     {
         const char* const memory = reinterpret_cast<const char*>(&contacts.memory_lane[at / lanes]);

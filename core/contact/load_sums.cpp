@@ -1,5 +1,5 @@
 // Compiled for several kinds of processors: core/kernels.h.
-#include "core/contact/block_forces.h"
+#include "core/contact/running_sums.h"
 #include "core/kernels_here.h"
 #include "core/simd.h"
 
@@ -33,10 +33,18 @@ class LoadSum
   public:
     explicit LoadSum(const BlockForce& force)
         : sum_(Pack::load(&force.x).v),
-          contacts_(words_at(&force.mobilised)),
+          contacts_(words_at(&force.contacts)),
           joint_(contacts_ & of_joint),
           joint_load_{force.joint_load, force.joint_load},
           least_load_{force.least_load, force.least_load}
+    {
+    }
+
+    explicit LoadSum(const Triple& weight)
+        : sum_{weight.x, weight.y, weight.w, 0.0},
+          joint_{std::bit_cast<Words>(FloatLanes{0.0F, -1.0F, 1.0F, 0.0F})},
+          joint_load_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
+          least_load_{least_joint_load(weight), least_joint_load(weight)}
     {
     }
 
@@ -44,7 +52,7 @@ class LoadSum
     {
         const Pack::V of_load = Pack::load(&load.x).v;
         sum_ += of_load;
-        const Words of_use = words_at(&use);  // mobilised, t_x, t_y, contacts
+        const Words of_use = words_at(&use);  // contacts, mobilised, t_x, t_y
         contacts_ |= of_use;
         if constexpr (find_joint)
         {
@@ -55,7 +63,7 @@ class LoadSum
             // Two joints that slide have both all of their strength in use: the one that bears more counts, whichever stands first.
             const Words more = (Words(now > before) | (Words(now == before) & std::bit_cast<Words>(squared > joint_load_))) &
                                std::bit_cast<Words>(squared > least_load_);
-            const Words taken = __builtin_shufflevector(more, more, 0, 0, 0, 0);
+            const Words taken = __builtin_shufflevector(more, more, 1, 1, 1, 1);
             joint_ = (joint & taken) | (joint_ & ~taken);
             joint_load_ = std::bit_cast<Pair>((std::bit_cast<Words>(squared) & taken) |
                                               (std::bit_cast<Words>(joint_load_) & ~taken));
@@ -66,28 +74,39 @@ class LoadSum
     {
         Pack(sum_).store(&force.x);
         const Words found = joint_ | (contacts_ & ~of_joint);
-        std::memcpy(&force.mobilised, &found, sizeof found);
+        std::memcpy(&force.contacts, &found, sizeof found);
         force.joint_load = joint_load_[0];
+        force.least_load = least_load_[0];
     }
 
   private:
-    static constexpr Words of_joint{-1, -1, -1, 0};
+    static constexpr Words of_joint{0, -1, -1, -1};
 
     Pack::V sum_;
-    Words contacts_{};  ///< the last of them
-    Words joint_;       ///< mobilised, t_x, t_y: floats
+    Words contacts_{};  ///< the first of them
+    Words joint_;       ///< 0, then mobilised, t_x, t_y: floats
     Pair joint_load_;   ///< twice the same
     Pair least_load_;   ///< twice the same
 };
-static_assert(offsetof(JointUse, contacts) == 12 && offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
+static_assert(offsetof(JointUse, t_y) == 12 && offsetof(BlockForce, t_y) == offsetof(BlockForce, contacts) + 12);
 
 /// A joint's share in use and where it stands: the greatest of such numbers is the joint in use most, of several alike the first. Below 0: no force point. (Floats
 /// that are not below 0 have the order of their bits.)
 constexpr std::int64_t no_rank = std::numeric_limits<std::int64_t>::min();
-[[nodiscard]] inline std::int64_t rank_of(float mobilised, std::uint32_t entry)
+[[nodiscard]] inline std::int64_t rank_of(std::uint64_t word, std::uint32_t entry)
 {
-    return (std::int64_t{std::bit_cast<std::int32_t>(mobilised)} << 32) | ~entry;
+    return static_cast<std::int64_t>((word | std::numeric_limits<std::uint32_t>::max()) - entry);
 }
+/// The first two members of JointUse: what ranks need takes one load.
+[[nodiscard]] inline std::uint64_t first_word(const JointUse& use)
+{
+    std::uint64_t word;
+    std::memcpy(&word, &use, sizeof word);
+    return word;
+}
+static_assert(offsetof(JointUse, contacts) == 0 && offsetof(JointUse, mobilised) == 4);
+static_assert(std::endian::native == std::endian::little);
+
 [[nodiscard]] inline std::uint32_t entry_of(std::int64_t rank)
 {
     return ~static_cast<std::uint32_t>(rank);
@@ -113,7 +132,7 @@ constexpr std::int64_t no_rank = std::numeric_limits<std::int64_t>::min();
     for (Index e = entries.begin; e < entries.end; ++e)
     {
         const auto entry = static_cast<std::uint32_t>(list.entry[e]);
-        const std::int64_t rank = rank_of(loads.use[entry / 2].mobilised, entry);
+        const std::int64_t rank = rank_of(first_word(loads.use[entry / 2]), entry);
         const double squared = load_squared(loads, entry);
         if (rank >= 0 && squared > least && (are_alike(rank, found) ? squared > most : rank > found))
         {
@@ -135,17 +154,17 @@ void sum_of_blocks(IndexRange range, const Model& model, const BlockContacts& li
         const double least = least_joint_load(weight);
         Pack sum(Pack::V{weight.x, weight.y, weight.w, 0.0});
         BlockForce& force = blocks.force[b];
-        std::uint32_t contacts = 0;
+        std::uint64_t words = 0;
         std::int64_t most = no_rank, next = no_rank;
         for (Index e = entries.begin; e < entries.end; ++e)
         {
             const auto entry = static_cast<std::uint32_t>(list.entry[e]);
-            const JointUse& use = loads.use[entry / 2];
+            const std::uint64_t word = first_word(loads.use[entry / 2]);
             sum += Pack::load(&loads.load[entry].x);
-            contacts |= use.contacts;
+            words |= word;
             if constexpr (find_joint)  // without branches: which joint it is nobody can predict
             {
-                const std::int64_t rank = rank_of(use.mobilised, entry);
+                const std::int64_t rank = rank_of(word, entry);
                 next = std::max(next, std::min(most, rank));
                 most = std::max(most, rank);
             }
@@ -157,27 +176,29 @@ void sum_of_blocks(IndexRange range, const Model& model, const BlockContacts& li
         force.mobilised = use.mobilised;
         force.t_x = use.t_x;
         force.t_y = use.t_y;
-        force.contacts = contacts;
+        force.contacts = static_cast<std::uint32_t>(words);
     }
 }
 
 template <bool find_joint>
-void add_all(IndexRange range, const ContactLoads& loads, const Index* block_of, BlockForce* sums, ContactLoads& kept)
+void add_all(const PartEntries& part, const Model& model, const std::vector<std::uint8_t>& present,
+             const std::vector<Triple>& external, const ContactLoads& loads, BlockForce* sums, ContactLoads& kept)
 {
-    const auto last = static_cast<std::uint32_t>(2 * (range.end - loads.first));
-    for (auto e = static_cast<std::uint32_t>(2 * (range.begin - loads.first)); e < last; ++e)
+    const std::uint8_t* number = part.numbers.data();
+    const auto add = [&](LoadSum<find_joint> sum, const PartEntries::OfBlock& of)
     {
-        const Index block = block_of[e];
-        if (block == no_index) [[unlikely]]
-        {
-            kept.load[2 * loads.first + e] = loads.load[e];
-            kept.use[loads.first + e / 2] = loads.use[e / 2];
-            continue;
-        }
-        BlockForce& force = sums[block];
-        LoadSum<find_joint> sum(force);
-        sum.add(loads.load[e], loads.use[e / 2]);
-        sum.store(force);
+        for (const std::uint8_t* const end = number + of.count; number < end; ++number)
+            sum.add(loads.load[*number], loads.use[*number / 2]);
+        sum.store(sums[of.block]);
+    };
+    for (const PartEntries::OfBlock& of : part.begun)
+        add(LoadSum<find_joint>(weight_of(of.block, model, present, external)), of);
+    for (const PartEntries::OfBlock& of : part.continued)
+        add(LoadSum<find_joint>(sums[of.block]), of);
+    for (const std::uint8_t n : part.kept)
+    {
+        kept.load[2 * loads.first + n] = loads.load[n];
+        kept.use[loads.first + n / 2] = loads.use[n / 2];
     }
 }
 }  // namespace
@@ -189,11 +210,12 @@ void sum_loads(IndexRange range, const Model& model, const BlockContacts& list, 
     sum(range, model, list, loads, external, blocks);
 }
 
-void add_loads(IndexRange range, const ContactLoads& loads, bool find_joint, const Index* block_of, BlockForce* sums,
+void add_loads(const PartEntries& part, const Model& model, const std::vector<std::uint8_t>& present,
+               const std::vector<Triple>& external, const ContactLoads& loads, bool find_joint, BlockForce* sums,
                ContactLoads& kept)
 {
     const auto add = find_joint ? add_all<true> : add_all<false>;
-    add(range, loads, block_of, sums, kept);
+    add(part, model, present, external, loads, sums, kept);
 }
 }  // namespace HDEM_LANES
 }  // namespace hdem

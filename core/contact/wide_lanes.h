@@ -137,16 +137,17 @@ struct Floats<WidePack>
     const __m256i bits = _mm256_mask_mov_epi32(_mm256_maskz_set1_epi32(touching.v, contact_impulse), springs.v,
                                                _mm256_set1_epi32(contact_force));
     const __m256 m = _mm512_cvtpd_ps(mobilised.v), x = _mm512_cvtpd_ps(t_x.v), y = _mm512_cvtpd_ps(t_y.v);
-    const __m256 mx_01 = _mm256_unpacklo_ps(m, x), mx_23 = _mm256_unpackhi_ps(m, x);  // of contacts 0, 1, 4, 5 and 2, 3, 6, 7
-    const __m256 yb_01 = _mm256_unpacklo_ps(y, _mm256_castsi256_ps(bits)), yb_23 = _mm256_unpackhi_ps(y, _mm256_castsi256_ps(bits));
+    const __m256 b = _mm256_castsi256_ps(bits);
+    const __m256 bm_01 = _mm256_unpacklo_ps(b, m), bm_23 = _mm256_unpackhi_ps(b, m);  // of contacts 0, 1, 4, 5 and 2, 3, 6, 7
+    const __m256 xy_01 = _mm256_unpacklo_ps(x, y), xy_23 = _mm256_unpackhi_ps(x, y);
     const auto put = [to](__m256 rows, int i)
     {
-        _mm_store_ps(&to[i].mobilised, _mm256_castps256_ps128(rows));
-        _mm_store_ps(&to[i + 4].mobilised, _mm256_extractf128_ps(rows, 1));
+        _mm_store_ps(reinterpret_cast<float*>(&to[i]), _mm256_castps256_ps128(rows));
+        _mm_store_ps(reinterpret_cast<float*>(&to[i + 4]), _mm256_extractf128_ps(rows, 1));
     };
-    put(_mm256_shuffle_ps(mx_01, yb_01, 0x44), 0);
-    put(_mm256_shuffle_ps(mx_01, yb_01, 0xee), 1);
-    put(_mm256_shuffle_ps(mx_23, yb_23, 0x44), 2);
-    put(_mm256_shuffle_ps(mx_23, yb_23, 0xee), 3);
+    put(_mm256_shuffle_ps(bm_01, xy_01, 0x44), 0);
+    put(_mm256_shuffle_ps(bm_01, xy_01, 0xee), 1);
+    put(_mm256_shuffle_ps(bm_23, xy_23, 0x44), 2);
+    put(_mm256_shuffle_ps(bm_23, xy_23, 0xee), 3);
 }
 }  // namespace hdem

@@ -60,7 +60,7 @@ struct Columns<Pack>
     }
 };
 
-static_assert(offsetof(BlockForce, contacts) == offsetof(BlockForce, mobilised) + 12);
+static_assert(offsetof(BlockForce, t_y) == offsetof(BlockForce, contacts) + 12);
 
 template <typename Entry>
 inline constexpr std::ptrdiff_t row_stride = sizeof(Entry) / sizeof(double);
@@ -79,15 +79,15 @@ struct JointColumns<Pack>
     {
         Words row[lanes] = {};
         for (Index i = 0; i < count; ++i)
-            std::memcpy(&row[i], &force[i].mobilised, sizeof row[i]);
+            std::memcpy(&row[i], &force[i].contacts, sizeof row[i]);
         const Words low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
         const Words low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
         const Words high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
         const Words high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-        mobilised = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-        t_x = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-        t_y = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-        contacts = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+        contacts = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+        mobilised = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+        t_x = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+        t_y = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
     }
     [[nodiscard]] static Pack to_pack(Words floats)
     {

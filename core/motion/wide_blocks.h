@@ -32,16 +32,17 @@ struct JointColumns<WidePack>
 
     JointColumns(const BlockForce* force, Index)
     {
-        const auto rows = [=](int i) {
-            return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&force[i].mobilised)),
-                                        _mm_load_ps(&force[i + 4].mobilised), 1);
+        const auto rows = [=](int i)
+        {
+            return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(reinterpret_cast<const float*>(&force[i].contacts))),
+                                        _mm_load_ps(reinterpret_cast<const float*>(&force[i + 4].contacts)), 1);
         };
         const __m256 low_01 = _mm256_unpacklo_ps(rows(0), rows(1)), low_23 = _mm256_unpacklo_ps(rows(2), rows(3));
         const __m256 high_01 = _mm256_unpackhi_ps(rows(0), rows(1)), high_23 = _mm256_unpackhi_ps(rows(2), rows(3));
-        mobilised = _mm256_shuffle_ps(low_01, low_23, 0x44);
-        t_x = _mm256_shuffle_ps(low_01, low_23, 0xee);
-        t_y = _mm256_shuffle_ps(high_01, high_23, 0x44);
-        contacts = _mm256_castps_si256(_mm256_shuffle_ps(high_01, high_23, 0xee));
+        contacts = _mm256_castps_si256(_mm256_shuffle_ps(low_01, low_23, 0x44));
+        mobilised = _mm256_shuffle_ps(low_01, low_23, 0xee);
+        t_x = _mm256_shuffle_ps(high_01, high_23, 0x44);
+        t_y = _mm256_shuffle_ps(high_01, high_23, 0xee);
     }
     [[nodiscard]] static WidePack to_pack(__m256 floats) { return WidePack(WidePack::V(_mm512_cvtps_pd(floats))); }
     [[nodiscard]] WideMask have(ContactBits bits) const

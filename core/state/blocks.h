@@ -38,12 +38,12 @@ struct alignas(64) BlockForce
 {
     double x = 0.0;  ///< [N]
     double y = 0.0;
-    double moment = 0.0;      ///< about the centroid [N m]
-    double reserve = 0.0;     ///< shear strength not in use at all its force points [N]
-    float mobilised = -1.0F;  ///< greatest share of a joint's shear strength in use at its force points; -1: no force point [-]
-    float t_x = 1.0F;         ///< direction of that joint [-]
+    double moment = 0.0;         ///< about the centroid [N m]
+    double reserve = 0.0;        ///< shear strength not in use at all its force points [N]
+    std::uint32_t contacts = 0;  ///< ContactBits
+    float mobilised = -1.0F;     ///< greatest share of a joint's shear strength in use at its force points; -1: no force point [-]
+    float t_x = 1.0F;            ///< direction of that joint [-]
     float t_y = 0.0F;
-    std::uint32_t contacts = 0;                                   ///< ContactBits
     double joint_load = std::numeric_limits<double>::infinity();  ///< squared, of that joint: scratch while it is looked for [N2]
     double least_load = 0.0;                                      ///< squared: joints that bear less do not count; scratch [N2]
 };

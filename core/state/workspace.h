@@ -24,10 +24,10 @@ struct alignas(32) BlockLoad
 /// How far a contact's shear strength is used, for the damping of its blocks.
 struct alignas(16) JointUse
 {
-    float mobilised = -1.0F;  ///< share in use at its force points; -1: none [-]
-    float t_x = 1.0F;         ///< direction along the edge [-]
-    float t_y = 0.0F;
     std::uint32_t contacts = 0;  ///< ContactBits
+    float mobilised = -1.0F;     ///< share in use at its force points; -1: none [-]
+    float t_x = 1.0F;            ///< direction along the edge [-]
+    float t_y = 0.0F;
 };
 
 /// Loads of contacts that follow each other.

@@ -1,8 +1,9 @@
-/// Sums that form contact by contact have the bits of sums over lists, however contacts are shared out.
-#include "core/contact/block_forces.h"
+/// Sums that form part by part have the bits of sums over lists, however contacts are shared out.
 #include "core/contact/contact_forces.h"
+#include "core/contact/running_sums.h"
 #include "verification/unit/case_run.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace hdem
@@ -16,13 +17,21 @@ auto fields(const BlockForce& f)
     return std::tie(f.x, f.y, f.moment, f.reserve, f.mobilised, f.t_x, f.t_y, f.contacts);
 }
 
-/// Contacts cut at multiples of eight into about as many shares, some of them empty.
-std::vector<IndexRange> cut(Index contacts, Index shares)
+/// As many ranges, one after another; the first is empty.
+std::vector<IndexRange> cut(Index size, Index ranges)
 {
-    std::vector<IndexRange> ranges{{0, 0}};
-    for (Index i = 1; i <= shares; ++i)
-        ranges.push_back({ranges.back().end, i == shares ? contacts : contacts * i / shares / 8 * 8});
-    return ranges;
+    std::vector<IndexRange> cuts{{0, 0}};
+    for (Index i = 1; i <= ranges; ++i)
+        cuts.push_back({cuts.back().end, size * i / ranges});
+    return cuts;
+}
+
+std::vector<IndexRange> parts_of(Index contacts, Index each)
+{
+    std::vector<IndexRange> parts;
+    for (Index i = 0; i < contacts; i += each)
+        parts.push_back({i, std::min(i + each, contacts)});
+    return parts;
 }
 
 class RunningSumsTest : public testing::Test
@@ -49,16 +58,15 @@ class RunningSumsTest : public testing::Test
         sum_forces({0, now.blocks.size()}, model, list, all, external, find_joint, now.blocks);
 
         RunningSums running;
-        const std::vector<IndexRange> ranges = cut(other.contacts.size(), shares);
-        running.prepare(ranges, other.blocks.size(), list);
-        for (const IndexRange& range : ranges)
+        const std::vector<IndexRange> parts = parts_of(other.contacts.size(), 8);
+        running.prepare(parts, cut(static_cast<Index>(parts.size()), shares), other.contacts, list);
+        for (std::size_t i = 0; i < parts.size(); ++i)
         {
             ContactLoads loads;
-            loads.resize(static_cast<std::size_t>(range.size()) + 8);
-            loads.first = range.begin;
-            static_cast<void>(evaluate_contacts(range, model, rule, other.blocks, other.contacts, loads));
-            running.begin(range, model, other.blocks.present, external);
-            running.add(range, loads, find_joint, kept);
+            loads.resize(static_cast<std::size_t>(parts[i].size()) + 8);
+            loads.first = parts[i].begin;
+            static_cast<void>(evaluate_contacts(parts[i], model, rule, other.blocks, other.contacts, loads));
+            running.add(static_cast<Index>(i), model, other.blocks.present, external, loads, find_joint, kept);
         }
         std::swap(other.blocks.force, running.sums);
         const std::vector<Index> others = running.others({0, other.blocks.size()});
@@ -101,19 +109,22 @@ BlockForce sum_of_two(double share, double other_share, bool running)
     ContactLoads loads;
     loads.resize(8);
     loads.load[0].x = share * weight;
-    loads.use[0] = {.mobilised = 1.0F, .t_x = 0.0F, .t_y = 1.0F, .contacts = contact_force};
+    loads.use[0] = {.contacts = contact_force, .mobilised = 1.0F, .t_x = 0.0F, .t_y = 1.0F};
     loads.load[2].y = other_share * weight;
-    loads.use[1] = {.mobilised = 0.25F, .t_x = 1.0F, .t_y = 0.0F, .contacts = contact_force};
+    loads.use[1] = {.contacts = contact_force, .mobilised = 0.25F, .t_x = 1.0F, .t_y = 0.0F};
     if (!running)
     {
         sum_forces({0, 2}, model, list, loads, {}, true, blocks);
         return blocks.force[block];
     }
+    Contacts contacts;
+    contacts.ref = {block, block};
+    contacts.inc = {ground, ground};
+    contacts.swapped = {0, 0};  // the block's side is 0
     RunningSums sums;
-    sums.prepare({{0, 2}}, 2, list);
-    sums.begin({0, 2}, model, blocks.present, {});
+    sums.prepare({{0, 2}}, {{0, 1}}, contacts, list);
     ContactLoads kept;
-    sums.add({0, 2}, loads, true, kept);
+    sums.add(0, model, blocks.present, {}, loads, true, kept);
     return sums.sums[block];
 }
 
